@@ -1,0 +1,1 @@
+"""Electrical unit: the network of shape-memory coils, solved by ngspice."""

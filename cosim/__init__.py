@@ -1,0 +1,1 @@
+"""Co-simulation of active chainmail: one algorithm, any units (FMUs, ngspice, Bullet)."""

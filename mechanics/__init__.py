@@ -1,0 +1,1 @@
+"""Mechanical unit: interlocked links as rigid bodies in Bullet."""
