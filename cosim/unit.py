@@ -169,19 +169,6 @@ class Unit(Protocol):
         ...
 
 
-@runtime_checkable
-class Restorable(Protocol):
-    """A unit that can also go back within a run, as iterated algorithms need."""
-
-    def save(self) -> object:
-        """Exact state now."""
-        ...
-
-    def restore(self, state: object) -> None:
-        """Return to a saved state exactly."""
-        ...
-
-
 @dataclass
 class ArrayStore:
     """Preallocated float64 arrays of a unit, for units written in Python."""

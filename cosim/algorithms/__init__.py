@@ -1,0 +1,1 @@
+"""Co-simulation algorithms, one file each: `step(system, time, size) -> StepOutcome`."""

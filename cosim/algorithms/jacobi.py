@@ -1,0 +1,34 @@
+"""Jacobi: every unit steps with the outputs of the previous communication point."""
+
+from __future__ import annotations
+
+from cosim.system import System
+from cosim.unit import StepOutcome, StepStatus
+
+
+def step(system: System, time: int, size: int) -> StepOutcome:
+    """Advance all units by one macro-step; the order of units does not matter.
+
+    Sources (functions of time alone) are sampled first, so a switch acts in the step that begins with it. All other
+    inputs are those of `time`, so each connection delays its value by one macro-step: first order in the step size.
+
+    Args:
+        system: The initialised system.
+        time: Begin of the step [ns].
+        size: Length of the step [ns].
+
+    Returns:
+        OK at `time + size`, or the first outcome that is not OK.
+
+    Source: Kuebler and Schiehlen, Math. Comput. Model. Dyn. Syst. 6 (2000) 93-113 (parallel co-simulation).
+    """
+    for name in system.sources:
+        system.step(name, time, size)
+    movers = [name for name in system.units if name not in system.sources]
+    for name in movers:
+        system.exchange(name)
+    for name in movers:
+        outcome = system.step(name, time, size)
+        if outcome.status is not StepStatus.OK:
+            return outcome
+    return StepOutcome(StepStatus.OK, time + size)

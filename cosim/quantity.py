@@ -1,0 +1,140 @@
+"""Physical values as a person writes them (`6 V`, `22 degC`) and as the code needs them (SI floats)."""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import pint
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+_TEXT = re.compile(r"^\s*(?P<number>[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>.*?)\s*$")
+_PATTERN = r"^\s*[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?\s*.*$"
+
+
+@functools.cache
+def registry() -> pint.UnitRegistry[Any]:
+    """The unit registry, made once."""
+    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+
+
+def parse_unit(text: str) -> pint.Unit:
+    """A unit; `1` and an empty text are dimensionless.
+
+    Raises:
+        ValueError: pint does not know it.
+    """
+    try:
+        return registry().Unit("" if text.strip() in ("", "1") else text)
+    except Exception as error:  # pint raises several unrelated kinds, also for malformed text
+        raise ValueError(f"`{text}` is not a unit that is known here") from error
+
+
+def conversion(source: str, target: str) -> tuple[float, float]:
+    """(factor, offset) with target value = factor * source value + offset.
+
+    Raises:
+        ValueError: The units measure different things.
+
+    >>> conversion("mm", "m")
+    (0.001, 0.0)
+    """
+    if source == target:
+        return 1.0, 0.0
+    first, second = parse_unit(source), parse_unit(target)
+    if first.dimensionality != second.dimensionality:
+        raise ValueError(f"{source} cannot be converted to {target}")
+    offset = float(registry().Quantity(0.0, first).to(second).magnitude)
+    factor = float(registry().Quantity(1.0, first).to(second).magnitude) - offset
+    return float(f"{factor:.15g}"), float(f"{offset:.15g}")
+
+
+@dataclass(frozen=True)
+class PhysicalValue:
+    """A number with its unit, as written.
+
+    Args:
+        number: The number.
+        unit: The unit as written; empty for a pure number.
+    """
+
+    number: float
+    unit: str
+
+    @classmethod
+    def parse(cls, value: object) -> PhysicalValue:
+        """From `6 V` or a bare number.
+
+        Raises:
+            ValueError: It is neither, or is not finite.
+        """
+        if isinstance(value, PhysicalValue):
+            return value
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            if not math.isfinite(value):
+                raise ValueError(f"{value} is not a finite number")
+            return cls(float(value), "")
+        match = _TEXT.match(value) if isinstance(value, str) else None
+        if match is None:
+            raise ValueError(f"{value!r} is not a number with a unit, such as `1.5 mm`")
+        parse_unit(match["unit"])
+        return cls(float(match["number"]), match["unit"])
+
+    def to(self, unit: str) -> float:
+        """The number in another unit.
+
+        Raises:
+            ValueError: The units measure different things, or a dimensional value was written without a unit.
+        """
+        if not self.unit and parse_unit(unit).dimensionality != parse_unit("1").dimensionality:
+            raise ValueError(f"{self.number:g} has no unit; write for example `{self.number:g} {unit}`")
+        try:
+            wanted = registry().Quantity(self.number, parse_unit(self.unit)).to(parse_unit(unit))
+        except pint.DimensionalityError as error:
+            raise ValueError(f"`{self}` is no quantity in {unit}") from error
+        # Through a decimal of 15 digits, so that 22 degC is 295.15 K and 0.1 ms is 1e-4 s, without binary debris.
+        return float(f"{float(wanted.magnitude):.15g}")
+
+    def __str__(self) -> str:
+        return f"{self.number:.15g} {self.unit}".strip()
+
+
+@dataclass(frozen=True)
+class In:
+    """Pydantic annotation: a `PhysicalValue` that converts to `unit`, within bounds.
+
+    Args:
+        unit: SI unit that it must convert to; None accepts any unit.
+        minimum: Smallest value in `unit`.
+        is_exclusive: Whether the minimum itself is refused.
+    """
+
+    unit: str | None = None
+    minimum: float | None = None
+    is_exclusive: bool = False
+
+    def _validate(self, value: object) -> PhysicalValue:
+        parsed = PhysicalValue.parse(value)
+        if self.unit is not None:
+            number = parsed.to(self.unit)
+            if self.minimum is not None and (number < self.minimum or (self.is_exclusive and number == self.minimum)):
+                relation = "greater than" if self.is_exclusive else "at least"
+                raise ValueError(f"`{parsed}` must be {relation} {self.minimum:g} {self.unit}")
+        return parsed
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self._validate, serialization=core_schema.plain_serializer_function_ser_schema(str)
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        about = f"A number with a unit that converts to {self.unit}." if self.unit else "A number with its unit."
+        text: JsonSchemaValue = {"type": "string", "pattern": _PATTERN}
+        if self.unit in ("1", None):
+            return {"anyOf": [{"type": "number"}, text], "description": about}
+        return {**text, "description": about}
