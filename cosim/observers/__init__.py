@@ -1,0 +1,1 @@
+"""What watches a run without disturbing it: the trace and the energy balance."""

@@ -1,0 +1,115 @@
+"""Record the outputs of all units as an xarray dataset with named dimensions, units and coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.system import System
+from cosim.unit import Causality, Coordinate, Variable, seconds
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One recorded variable.
+
+    Args:
+        unit: Component.
+        variable: Its variable.
+        dims: Dimension names in the dataset (a component's name is put before a dimension that others use with
+            another size).
+    """
+
+    unit: str
+    variable: Variable
+    dims: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Name in the dataset, `component.variable`."""
+        return f"{self.unit}.{self.variable.name}"
+
+
+class Trace:
+    """Values of every recorded output at every output time.
+
+    Args:
+        system: The system to watch.
+        times: Integer output times [ns] of the whole run, the start included.
+    """
+
+    def __init__(self, system: System, times: list[int]) -> None:
+        self.system = system
+        self.times = times
+        self.channels = _channels(system)
+        self.count = 0
+        self._data = {c.name: np.full((len(times), *c.variable.shape), np.nan) for c in self.channels}
+
+    def record(self, time: int) -> None:
+        """Keep the present outputs under the next output time, which must be `time`."""
+        if self.times[self.count] != time:
+            raise ValueError(f"output {self.count} belongs to {self.times[self.count]} ns, not {time} ns")
+        for channel in self.channels:
+            self._data[channel.name][self.count] = self.system.units[channel.unit].get(channel.variable.name)
+        self.count += 1
+
+    def chunk(self, first: int) -> dict[str, np.ndarray[Any, Any]]:
+        """Values recorded from output `first` on, by channel name."""
+        return {name: values[first : self.count] for name, values in self._data.items()}
+
+    def load(self, chunk: Mapping[str, np.ndarray[Any, Any]]) -> None:
+        """Append values of an earlier run of the same scenario."""
+        length = 0
+        for name, values in chunk.items():
+            length = len(values)
+            self._data[name][self.count : self.count + length] = values
+        self.count += length
+
+    def dataset(self) -> xr.Dataset:
+        """All values recorded so far; dimension `time` in seconds."""
+        variables: dict[str, Any] = {}
+        for channel in self.channels:
+            attributes = {"units": channel.variable.unit, "long_name": channel.variable.description or channel.name}
+            values = self._data[channel.name][: self.count]
+            variables[channel.name] = (("time", *channel.dims), values, attributes)
+        moments = np.array([seconds(t) for t in self.times[: self.count]])
+        coordinates: dict[str, Any] = {"time": ("time", moments, {"units": "s", "long_name": "simulated time"})}
+        coordinates.update(_coordinates(self.system, self.channels))
+        return xr.Dataset(variables, coordinates)
+
+
+def _channels(system: System) -> list[Channel]:
+    sizes: dict[str, int] = {}
+    result = []
+    for name, unit in system.units.items():
+        for variable in unit.variables.values():
+            if variable.causality is not Causality.OUTPUT or not variable.recorded:
+                continue
+            dims = []
+            for dim, size in zip(variable.dims, variable.shape, strict=True):
+                shared = dim if sizes.setdefault(dim, size) == size else f"{name}_{dim}"
+                dims.append(shared)
+            result.append(Channel(name, variable, tuple(dims)))
+    return result
+
+
+def _coordinates(system: System, channels: list[Channel]) -> dict[str, Any]:
+    sizes = {d: s for c in channels for d, s in zip(c.dims, c.variable.shape, strict=True)}
+    result: dict[str, Any] = {}
+    for dim in ("coil", "string", "link", "row", "marker"):
+        if dim in sizes:
+            result[dim] = (dim, np.arange(1, sizes[dim] + 1), {"long_name": f"{dim} number, from 1"})
+    for unit in system.units.values():
+        for name, coordinate in unit.coordinates.items():
+            if len(coordinate.values) == sizes.get(coordinate.dim):
+                label = name if name not in sizes and name not in result else f"{coordinate.dim}_{name}"
+                result.setdefault(label, _entry(coordinate))
+    return result
+
+
+def _entry(coordinate: Coordinate) -> tuple[str, np.ndarray[Any, Any], dict[str, str]]:
+    return coordinate.dim, coordinate.values, {"long_name": coordinate.description}

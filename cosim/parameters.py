@@ -1,0 +1,96 @@
+"""Parameter sets: files that give every number its unit and its source."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import pydantic
+import yaml
+from pydantic import BaseModel, ConfigDict, Field
+
+from cosim.errors import InputError
+from cosim.quantity import In, PhysicalValue
+from cosim.scenario import ParameterValue, scenario_folder
+
+
+class Parameter(BaseModel):
+    """One number (or switch) of a parameter set."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    value: bool | Annotated[PhysicalValue, In()]
+    unit: str = ""
+    source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why.")
+
+    def quantity(self) -> bool | PhysicalValue:
+        """The value with its unit."""
+        return self.value if isinstance(self.value, bool) else PhysicalValue(self.value.number, self.unit)
+
+
+class ParameterSet(BaseModel):
+    """A file of parameters."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    title: str
+    parameters: dict[str, Parameter]
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """Parameters of one component after set and overrides.
+
+    Args:
+        values: Name to value.
+        sources: Name to source; overrides say that they come from the scenario.
+    """
+
+    values: Mapping[str, ParameterValue]
+    sources: Mapping[str, str]
+
+
+def find_parameter_set(name: str, scenario_file: Path) -> Path:
+    """A shipped set by name, or a file relative to the scenario's folder.
+
+    Raises:
+        InputError: Neither exists.
+    """
+    folder = scenario_folder() / "parameter_sets"
+    for candidate in (scenario_file.parent / name, folder / f"{name}.yaml"):
+        if candidate.is_file():
+            return candidate
+    shipped = ", ".join(sorted(p.stem for p in folder.glob("*.yaml")))
+    raise InputError(scenario_file, "parameter_set", f"there is no parameter set `{name}`",
+                     f"give a file beside the scenario, or one of: {shipped}")  # fmt: skip
+
+
+def load_parameter_set(path: Path) -> ParameterSet:
+    """Read a parameter set.
+
+    Raises:
+        InputError: It is no YAML or a key or value is wrong.
+    """
+    try:
+        return ParameterSet.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise InputError(path, "", f"it cannot be read: {error}", "give a YAML file") from error
+    except pydantic.ValidationError as error:
+        fault = error.errors()[0]
+        key = ".".join(map(str, fault["loc"]))
+        raise InputError(path, key, fault["msg"].removeprefix("Value error, "),
+                         "each parameter needs value, unit and source")  # fmt: skip
+
+
+def resolve(set_name: str | None, overrides: Mapping[str, ParameterValue], scenario_file: Path) -> Resolved:
+    """Parameters of a component: those of its set, replaced by those the scenario gives itself."""
+    values: dict[str, ParameterValue] = {}
+    sources: dict[str, str] = {}
+    if set_name is not None:
+        for name, parameter in load_parameter_set(find_parameter_set(set_name, scenario_file)).parameters.items():
+            values[name] = parameter.quantity()
+            sources[name] = parameter.source
+    for name, value in overrides.items():
+        values[name] = value
+        sources[name] = f"scenario {scenario_file.name}"
+    return Resolved(values, sources)

@@ -1,0 +1,99 @@
+"""Quantities given over time: supply voltage, room and bath temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Variable, seconds
+
+
+@dataclass(frozen=True)
+class Course:
+    """Course of one output over time.
+
+    Args:
+        times: Integer times [ns], rising, shape (points,).
+        values: Values in `unit`, shape (points,) or (points, n).
+        unit: Unit.
+        dim: Name of the second dimension, or None.
+        is_linear: Interpolated between the points; otherwise held from each point to the next.
+    """
+
+    times: tuple[int, ...]
+    values: Array
+    unit: str
+    dim: str | None
+    is_linear: bool
+
+    def at(self, time: float) -> Array:
+        """Value at a time [ns]; before the first and after the last point their values hold."""
+        if self.is_linear:
+            moment = np.array(self.times, dtype=np.float64)
+            columns = self.values.reshape(len(moment), -1).T
+            value = np.array([np.interp(time, moment, column) for column in columns])
+            return value.reshape(self.values.shape[1:])
+        index = int(np.searchsorted(np.array(self.times), time, side="right")) - 1
+        return np.asarray(self.values[max(index, 0)])
+
+
+class ProgrammeUnit:
+    """A source: its outputs are functions of time alone.
+
+    Over a step its output is the value held from the begin of the step (a jump lies on the macro-step grid, which the
+    scenario check makes sure of) or, where it is linear, the value at the middle of the step, so that the integral of
+    a ramp over the step is exact.
+
+    Args:
+        name: Name of the component.
+        courses: Output name to its course.
+    """
+
+    def __init__(self, name: str, courses: Mapping[str, Course]) -> None:
+        self.name = name
+        self.courses = dict(courses)
+        self.coordinates: Mapping[str, Coordinate] = {}
+        self.variables: Mapping[str, Variable] = {
+            output: Variable(output, Causality.OUTPUT, c.values.shape[1:], c.unit, (c.dim,) if c.dim else ())
+            for output, c in self.courses.items()
+        }
+        self._store = ArrayStore(name, self.variables)
+
+    def set(self, name: str, value: Array) -> None:
+        """It has no inputs."""
+        raise KeyError(name)
+
+    def get(self, name: str) -> Array:
+        """Value over the last step."""
+        return self._store.get(name)
+
+    def initialise(self, time: int) -> None:
+        """Values at the start time."""
+        for name, course in self.courses.items():
+            self._store.arrays[name][...] = course.at(time)
+
+    def do_step(self, time: int, size: int) -> StepOutcome:
+        """Values held over [time, time + size)."""
+        for name, course in self.courses.items():
+            if len(course.times) > 1:
+                self._store.arrays[name][...] = course.at(time + 0.5 * size if course.is_linear else time)
+        return StepOutcome(StepStatus.OK, time + size)
+
+    def checkpoint(self) -> dict[str, np.ndarray[Any, Any]]:
+        """The values held now."""
+        return {name: array.copy() for name, array in self._store.arrays.items()}
+
+    def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
+        """Hold the values of the checkpoint."""
+        for name in self.courses:
+            self._store.arrays[name][...] = state[name]
+
+    def terminate(self) -> None:
+        """Nothing is held."""
+
+    def __repr__(self) -> str:
+        ends = {n: (seconds(c.times[0]), seconds(c.times[-1])) for n, c in self.courses.items()}
+        return f"ProgrammeUnit({self.name}, {ends})"
