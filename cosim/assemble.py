@@ -1,0 +1,259 @@
+"""Scenario to system: the only file that names concrete units."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from fmpy.model_description import ModelDescription
+
+from circuit.netlist import Network
+from circuit.unit import CircuitUnit
+from cosim.errors import InputError
+from cosim.fmu.archive import open_fmu
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.fmu.model_exchange import ModelExchangeUnit
+from cosim.fmu.unit import FmuSettings
+from cosim.parameters import Resolved, resolve
+from cosim.programme import Course, ProgrammeUnit
+from cosim.quantity import PhysicalValue, conversion
+from cosim.scenario import (
+    CircuitComponent,
+    Component,
+    FabricComponent,
+    FmuComponent,
+    HangingMassComponent,
+    ParameterValue,
+    ProgrammeComponent,
+    ProgrammeOutput,
+    Scenario,
+    nanoseconds,
+)
+from cosim.system import Connection, ConnectionFault, System
+from cosim.unit import Unit
+from mechanics.fabric import FabricDesign
+from mechanics.hanging_mass import HangingMassUnit
+from mechanics.unit import FabricUnit, SolverSettings
+
+#: SI unit of every number of a fabric that a parameter set or a scenario may give.
+FABRIC_UNITS = {
+    "bar_diameter": "m",
+    "tolerance": "m",
+    "width": "m",
+    "length_cold": "m",
+    "length_hot": "m",
+    "length_offset": "m",
+    "link_mass": "kg",
+    "friction": "1",
+    "restitution": "1",
+    "steel_stiffness": "N/m",
+    "steel_rest_length": "m",
+}
+
+_CONNECTION = re.compile(r"^\s*(\w+)\.(\w+)\s*->\s*(\w+)\.(\w+)\s*$")
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A system ready to be initialised.
+
+    Args:
+        system: Units and connections.
+        start: First values of feedback inputs, SI.
+        parameters: Component to resolved parameters, for the run's record.
+    """
+
+    system: System
+    start: Mapping[str, Mapping[str, float]]
+    parameters: Mapping[str, Resolved]
+
+
+def fmu_folder() -> Path:
+    """Folder of the FMUs that `make fmus` builds; `COSIM_FMU_PATH` overrides it."""
+    given = os.environ.get("COSIM_FMU_PATH")
+    return Path(given) if given else Path(__file__).resolve().parent.parent / "build" / "fmus"
+
+
+def assemble(scenario: Scenario) -> Assembly:
+    """Build every unit of a scenario and connect them.
+
+    Raises:
+        InputError: A component, parameter or connection is wrong; nothing is left allocated.
+    """
+    source = scenario.path or Path("scenario")
+    units: dict[str, Unit] = {}
+    parameters: dict[str, Resolved] = {}
+    try:
+        for name in scenario.names():
+            component = scenario.components[name]
+            parameters[name] = _parameters(component, source)
+            units[name] = _build(name, component, parameters[name], scenario, source)
+        connections = [_connection(text, i, units, source) for i, text in enumerate(scenario.connections)]
+        sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
+        try:
+            system = System(units, connections, sources)
+        except ConnectionFault as error:
+            raise InputError(source, "connections", str(error), "correct the connection") from error
+        start = {n: _start(n, c, units[n], source) for n, c in scenario.components.items()}
+    except BaseException:
+        for unit in units.values():
+            unit.terminate()
+        raise
+    return Assembly(system, start, parameters)
+
+
+def _parameters(component: Component, source: Path) -> Resolved:
+    if isinstance(component, FmuComponent | FabricComponent):
+        return resolve(component.parameter_set, component.parameters, source)
+    return Resolved({}, {})
+
+
+def _build(name: str, component: Component, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
+    try:
+        if isinstance(component, ProgrammeComponent):
+            return ProgrammeUnit(name, {o: _course(given) for o, given in component.outputs.items()})
+        if isinstance(component, CircuitComponent):
+            return CircuitUnit(name, _network(component))
+        if isinstance(component, HangingMassComponent):
+            return HangingMassUnit(name, component.coils, component.mass.to("kg"))
+        if isinstance(component, FabricComponent):
+            return _fabric(name, component, parameters)
+        return _fmu(name, component, parameters, source)
+    except ValueError as error:
+        raise InputError(source, f"components.{name}", str(error), "correct this component") from error
+
+
+def _course(given: ProgrammeOutput) -> Course:
+    points = given.points if given.points is not None else [(PhysicalValue(0.0, "s"), given.constant)]
+    values = [
+        [element.to(given.unit) for element in v] if isinstance(v, list) else v.to(given.unit)  # type: ignore[union-attr]
+        for _, v in points
+    ]
+    return Course(
+        tuple(nanoseconds(t) for t, _ in points),
+        np.array(values, dtype=np.float64),
+        given.unit,
+        given.dim,
+        given.interpolation == "linear",
+    )
+
+
+def _network(component: CircuitComponent) -> Network:
+    return Network(
+        strings=tuple(component.strings),
+        supply=component.supply,
+        supply_resistance=component.supply_resistance.to("ohm"),
+        string_resistance=component.string_resistance.to("ohm"),
+        open_coils=tuple(component.open_coils),
+        shorted_coils=tuple(component.shorted_coils),
+    )
+
+
+def _fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
+    numbers: dict[str, Any] = {}
+    for key, value in parameters.values.items():
+        if key == "gravity":
+            numbers[key] = _gravity(value)
+        elif key not in FABRIC_UNITS:
+            raise ValueError(f"a fabric has no parameter `{key}`; it has: gravity, {', '.join(FABRIC_UNITS)}")
+        elif not isinstance(value, PhysicalValue):
+            raise ValueError(f"{key} must be one number with a unit")
+        else:
+            numbers[key] = value.to(FABRIC_UNITS[key])
+    design = FabricDesign(
+        rows=component.rows,
+        columns=component.columns,
+        tether_rows=component.tether.rows,
+        tether_kind=component.tether.kind,
+        **numbers,
+    )
+    solver = SolverSettings(
+        micro_step=component.solver.micro_step.to("s"),
+        iterations=component.solver.iterations,
+        penetration_limit=component.solver.penetration_limit.to("m"),
+    )
+    return FabricUnit(name, design, solver)
+
+
+def _gravity(value: ParameterValue) -> tuple[float, float, float]:
+    if not isinstance(value, list) or len(value) != 3:
+        raise ValueError("gravity is a list of three accelerations, for example [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
+    x, y, z = (element.to("m/s^2") for element in value)
+    return x, y, z
+
+
+def _fmu(name: str, component: FmuComponent, parameters: Resolved, source: Path) -> Unit:
+    archive = open_fmu(find_fmu(component, source))
+    try:
+        values = {k: _in_fmu_unit(k, v, archive.description) for k, v in parameters.values.items()}
+        settings = FmuSettings(component.structure, values)
+        kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
+        return kind(name, archive, settings)
+    except BaseException:
+        archive.remove()
+        raise
+
+
+def find_fmu(component: FmuComponent, source: Path) -> Path:
+    """File of an FMU: a path beside the scenario, or one of the shipped FMUs of the size that the scenario needs."""
+    if component.fmu.endswith(".fmu"):
+        beside = source.parent / component.fmu
+        return beside if beside.is_file() else Path(component.fmu)
+    coils = component.structure.get("coils", 36)
+    suffix = f"_n{coils}" if component.fmi == 2 and coils != 36 else ""
+    path = fmu_folder() / f"{component.fmu}_fmi{component.fmi}{suffix}.fmu"
+    if not path.is_file():
+        there = ", ".join(sorted(p.stem for p in fmu_folder().glob("*.fmu"))) or "none built"
+        how = f"make -C fmus COILS={coils}" if suffix else "make fmus"
+        raise InputError(source, "fmu", f"there is no FMU `{path.stem}` (there: {there})",
+                         f"build it with `{how}`, or give the path of a .fmu file")  # fmt: skip
+    return path
+
+
+def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription) -> Any:
+    if isinstance(value, bool):
+        return value
+    found = next((v for v in description.modelVariables if v.name in (key, f"{key}[1]")), None)
+    declared = found.declaredType.unit if found is not None and found.declaredType is not None else None
+    unit = (found.unit or declared or "1") if found is not None else "1"
+    if found is None:
+        return [e.number for e in value] if isinstance(value, list) else value.number
+    try:
+        return [e.to(unit) for e in value] if isinstance(value, list) else value.to(unit)
+    except ValueError as error:
+        raise ValueError(f"parameters.{key}: {error}") from error
+
+
+def _connection(text: str, index: int, units: Mapping[str, Unit], source: Path) -> Connection:
+    match = _CONNECTION.match(text)
+    assert match is not None  # the scenario's pattern has checked it
+    ends = (match[1], match[2]), (match[3], match[4])
+    found = [units[u].variables.get(v) if u in units else None for u, v in ends]
+    factor, offset = 1.0, 0.0
+    if found[0] is not None and found[1] is not None:
+        try:
+            factor, offset = conversion(found[0].unit, found[1].unit)
+        except ValueError as error:
+            raise InputError(
+                source, f"connections[{index}]", f"{text}: {error}", "connect variables that measure the same thing"
+            ) from error
+    return Connection(ends[0], ends[1], factor, offset)
+
+
+def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[str, float]:
+    values: dict[str, float] = {}
+    for key, value in getattr(component, "start", {}).items():
+        variable = unit.variables.get(key)
+        where = f"components.{name}.start.{key}"
+        if variable is None:
+            raise InputError(source, where, "there is no such input", f"it has: {', '.join(unit.variables)}")
+        try:
+            values[key] = value.to(variable.unit)
+        except ValueError as error:
+            raise InputError(source, where, str(error), f"give it in {variable.unit}") from error
+    return values

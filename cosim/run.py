@@ -1,0 +1,241 @@
+"""Run a scenario: `run(load_scenario(path))` returns an xarray dataset."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.algorithms import gauss_seidel, jacobi
+from cosim.assemble import Assembly, assemble
+from cosim.errors import InputError
+from cosim.observers.energy_balance import EnergyMeter
+from cosim.observers.trace import Trace
+from cosim.run_folder import RunFolder
+from cosim.scenario import Scenario, nanoseconds
+from cosim.system import ConnectionFault, System
+from cosim.unit import StepOutcome, StepStatus, UnitError, seconds
+
+Step = Callable[[System, int, int], StepOutcome]
+ALGORITHMS: Mapping[str, Step] = {"gauss_seidel": gauss_seidel.step, "jacobi": jacobi.step}
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run is.
+
+    Args:
+        done: Macro-steps made.
+        total: Macro-steps in all.
+        time: Simulated time [s].
+        elapsed: Wall time since the start or the resumption [s].
+        simulated: Simulated time since then [s].
+    """
+
+    done: int
+    total: int
+    time: float
+    elapsed: float
+    simulated: float
+
+
+class RunStopped(Exception):
+    """The run stopped before its end; what was computed is kept.
+
+    Args:
+        reason: What, where and when.
+        dataset: Values recorded so far.
+        is_interrupt: Whether the user interrupted it.
+    """
+
+    def __init__(self, reason: str, dataset: xr.Dataset, is_interrupt: bool) -> None:
+        super().__init__(reason)
+        self.reason, self.dataset, self.is_interrupt = reason, dataset, is_interrupt
+
+
+@dataclass
+class _Clockwork:
+    """State of a run in progress."""
+
+    scenario: Scenario
+    assembly: Assembly
+    trace: Trace
+    meter: EnergyMeter
+    start: int
+    macro: int
+    index: int = 0
+    written: int = 0
+    is_resumed: bool = False
+    begin: float = field(default_factory=clock.perf_counter)
+    first_index: int = 0
+
+    @property
+    def total(self) -> int:
+        return (nanoseconds(self.scenario.time.stop) - self.start) // self.macro
+
+    @property
+    def now(self) -> int:
+        return self.start + self.index * self.macro
+
+
+def run(
+    scenario: Scenario,
+    out: Path | None = None,
+    resume: bool = False,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> xr.Dataset:
+    """Run a scenario to its end.
+
+    Args:
+        scenario: What to run.
+        out: Run folder; None keeps everything in memory.
+        resume: Go on from the last checkpoint in `out`.
+        on_progress: Called after every output step.
+
+    Returns:
+        Every recorded variable `component.name` with dimension `time` [s] first; attributes hold title, wall time of
+        every unit [s] and the energy balance [J].
+
+    Raises:
+        InputError: Something in the scenario, an FMU or the folder is wrong.
+        RunStopped: A unit failed or the user interrupted; the values so far are in it and in the folder.
+    """
+    folder = RunFolder(out) if out is not None else None
+    if resume and (folder is None or not folder.checkpoints()):
+        raise InputError(out or "run", "", "there is no checkpoint to resume from", "run it without `--resume`")
+    assembly = assemble(scenario)
+    try:
+        if folder is not None and not resume:
+            folder.create(scenario, assembly.parameters)
+        state = _begin(scenario, assembly, folder if resume else None)
+        return _run_to_end(state, folder, on_progress)
+    finally:
+        assembly.system.terminate()
+
+
+def _begin(scenario: Scenario, assembly: Assembly, resumed: RunFolder | None) -> _Clockwork:
+    start, stop = nanoseconds(scenario.time.start), nanoseconds(scenario.time.stop)
+    output = nanoseconds(scenario.time.output_step)
+    times = list(range(start, stop + 1, output))
+    trace, meter = Trace(assembly.system, times), EnergyMeter(assembly.system)
+    state = _Clockwork(scenario, assembly, trace, meter, start, nanoseconds(scenario.time.macro_step))
+    if resumed is None:
+        try:
+            assembly.system.initialise(start, assembly.start)
+        except ConnectionFault as error:
+            raise InputError(scenario.path or "scenario", "connections", str(error)) from error
+        except UnitError as error:
+            raise InputError(scenario.path or "scenario", f"components.{error.unit}", str(error)) from error
+        trace.record(start)
+    else:
+        _restore(state, resumed)
+    state.begin, state.first_index = clock.perf_counter(), state.index
+    return state
+
+
+def _restore(state: _Clockwork, folder: RunFolder) -> None:
+    files = folder.checkpoints()
+    for file in files:
+        with np.load(file) as content:
+            state.trace.load({k.removeprefix("trace/"): content[k] for k in content.files if k.startswith("trace/")})
+    with np.load(files[-1]) as content:
+        state.index = int(content["index"])
+        state.meter.electrical = float(content["electrical"])
+        for name, unit in state.assembly.system.units.items():
+            prefix = f"unit/{name}/"
+            unit.resume({k.removeprefix(prefix): content[k] for k in content.files if k.startswith(prefix)}, state.now)
+            state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
+    state.written, state.is_resumed = state.trace.count, True
+
+
+def _checkpoint(state: _Clockwork, folder: RunFolder | None) -> None:
+    """Every unit passes through its checkpoint even without a folder: a run must not depend on whether it is kept."""
+    system = state.assembly.system
+    content: dict[str, np.ndarray[Any, Any]] = {"index": np.array(state.index)}
+    content["electrical"] = np.array(state.meter.electrical)
+    for name, unit in system.units.items():
+        content.update({f"unit/{name}/{k}": v for k, v in unit.checkpoint().items()})
+        content[f"wall/{name}"] = np.array(system.wall_time[name])
+    if folder is not None:
+        content.update({f"trace/{k}": v for k, v in state.trace.chunk(state.written).items()})
+        folder.write_checkpoint(state.index, content)
+        state.written = state.trace.count
+
+
+def _run_to_end(
+    state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None
+) -> xr.Dataset:
+    reason, is_interrupt = "", False
+    try:
+        _step_to_end(state, folder, on_progress)
+    except UnitError as error:
+        reason = str(error)
+    except KeyboardInterrupt:
+        reason, is_interrupt = f"interrupted at t = {seconds(state.now):.6g} s", True
+    dataset = _finish(state, reason)
+    if folder is not None:
+        folder.write_results(dataset, _summary(state, reason))
+    if reason:
+        raise RunStopped(reason, dataset, is_interrupt)
+    return dataset
+
+
+def _step_to_end(state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None) -> None:
+    time = state.scenario.time
+    step = ALGORITHMS[state.scenario.algorithm.kind]
+    per_output = nanoseconds(time.output_step) // state.macro
+    per_checkpoint = nanoseconds(time.checkpoint_step) // state.macro
+    while state.index < state.total:
+        outcome = step(state.assembly.system, state.now, state.macro)
+        if outcome.status is not StepStatus.OK:
+            raise UnitError("algorithm", f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} "
+                            "cannot repeat a step", outcome.time, "use a smaller macro_step")  # fmt: skip
+        state.index += 1
+        state.meter.add_step(seconds(state.macro))
+        if state.index % per_output == 0:
+            state.trace.record(state.now)
+            if state.index % per_checkpoint == 0 and state.index < state.total:
+                _checkpoint(state, folder)
+            if on_progress is not None:
+                elapsed = clock.perf_counter() - state.begin
+                simulated = seconds((state.index - state.first_index) * state.macro)
+                on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated))
+
+
+def _finish(state: _Clockwork, reason: str) -> xr.Dataset:
+    dataset = state.trace.dataset()
+    dataset.attrs["title"] = state.scenario.title
+    dataset.attrs["status"] = reason or "complete"
+    dataset.attrs["algorithm"] = state.scenario.algorithm.kind
+    dataset.attrs["macro_step_s"] = seconds(state.macro)
+    for name, spent in state.assembly.system.wall_time.items():
+        dataset.attrs[f"wall_time_{name}_s"] = spent
+    balance = None if reason else state.meter.balance()
+    if balance is not None:
+        dataset.attrs["energy_electrical_J"] = balance.electrical
+        dataset.attrs["energy_stored_J"] = balance.stored
+        dataset.attrs["energy_convected_J"] = balance.convected
+        dataset.attrs["energy_residual"] = balance.residual
+    return dataset
+
+
+def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
+    units = dict(state.assembly.system.wall_time)
+    balance = None if reason else state.meter.balance()
+    return {
+        "title": state.scenario.title,
+        "status": reason or "complete",
+        "simulated_until_s": seconds(state.now),
+        "macro_steps": state.index,
+        "resumed": state.is_resumed,
+        "wall_time_s": {"since_start_or_resumption": clock.perf_counter() - state.begin, "units": units},
+        "energy_J": None if balance is None else {
+            "electrical": balance.electrical, "stored": balance.stored, "convected": balance.convected,
+            "relative_residual": balance.residual,
+        },
+    }  # fmt: skip

@@ -1,0 +1,183 @@
+"""The folder of one run: what was run, with what, and what came out.
+
+    scenario.yaml    the scenario as it was run, parameter sets inlined
+    parameters.csv   every parameter with unit and source
+    versions.json    versions of everything that computes
+    checkpoints/     state of every unit, and the values recorded since the checkpoint before
+    results.nc       all recorded values (NetCDF 4)
+    series.csv       the main series against time
+    summary.json     status, wall time of every unit, energy balance
+"""
+
+from __future__ import annotations
+
+import csv
+import errno
+import importlib.metadata
+import json
+import os
+import platform
+import subprocess
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.errors import InputError
+from cosim.parameters import Resolved
+from cosim.scenario import Scenario
+
+_PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
+
+
+class RunFolder:
+    """Paths and files of a run.
+
+    Args:
+        path: The folder.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    @property
+    def scenario(self) -> Path:
+        """The scenario as it was run."""
+        return self.path / "scenario.yaml"
+
+    @property
+    def results(self) -> Path:
+        """All recorded values."""
+        return self.path / "results.nc"
+
+    @property
+    def summary(self) -> Path:
+        """Status, timings and energies."""
+        return self.path / "summary.json"
+
+    def create(self, scenario: Scenario, parameters: Mapping[str, Resolved]) -> None:
+        """Make the folder of a new run.
+
+        Raises:
+            InputError: The folder already holds a run, or cannot be written.
+        """
+        if self.scenario.exists():
+            raise InputError(self.path, "", "this folder already holds a run",
+                             "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
+        with writing(self.path):
+            (self.path / "checkpoints").mkdir(parents=True, exist_ok=True)
+            write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml().encode())
+            self._write_parameters(parameters)
+            write_atomically(self.path / "versions.json", json.dumps(versions(), indent=2).encode())
+
+    def _write_parameters(self, parameters: Mapping[str, Resolved]) -> None:
+        with (self.path / "parameters.csv").open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(["component", "parameter", "value", "source"])
+            for component, resolved in parameters.items():
+                for name, value in resolved.values.items():
+                    text = "; ".join(map(str, value)) if isinstance(value, list) else str(value)
+                    writer.writerow([component, name, text, resolved.sources[name]])
+
+    def checkpoints(self) -> list[Path]:
+        """Checkpoint files in order of time."""
+        return sorted((self.path / "checkpoints").glob("*.npz"))
+
+    def write_checkpoint(self, index: int, content: Mapping[str, np.ndarray[Any, Any]]) -> None:
+        """Write checkpoint `index` as a whole or not at all."""
+        with writing(self.path):
+            target = self.path / "checkpoints" / f"{index:06d}.npz"
+            partial = target.with_suffix(".part")
+            with partial.open("wb") as file:
+                np.savez(file, **content)  # type: ignore[arg-type]
+                file.flush()
+                os.fsync(file.fileno())
+            partial.replace(target)
+
+    def write_results(self, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
+        """Write results, main series and summary."""
+        with writing(self.path):
+            partial = self.results.with_suffix(".part")
+            encoding = {name: {"zlib": True, "complevel": 4} for name in dataset.data_vars}
+            dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+            partial.replace(self.results)
+            write_series(self.path / "series.csv", dataset)
+            write_atomically(self.summary, json.dumps(summary, indent=2).encode())
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Turn an operating-system error while writing into one that names the folder."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        remedy = "free some room, then go on with `--resume`" if full else "give a folder that can be written, `--out`"
+        raise InputError(path, "", f"the run cannot be written: {error.strerror or error}", remedy) from error
+    except RuntimeError as error:  # netCDF4 reports a full disk as a RuntimeError
+        if "HDF" not in str(error) and "space" not in str(error):
+            raise
+        raise InputError(path, "", f"the run cannot be written: {error}", "free some room, then `--resume`") from error
+
+
+def write_atomically(path: Path, data: bytes) -> None:
+    """Write a file as a whole or not at all."""
+    partial = path.with_name(path.name + ".part")
+    partial.write_bytes(data)
+    partial.replace(path)
+
+
+def write_series(path: Path, dataset: xr.Dataset) -> None:
+    """Main series: scalars and string quantities against time, and mean, lowest and highest value over the coils."""
+    columns: dict[str, np.ndarray[Any, Any]] = {"time [s]": dataset["time"].values}
+    for name, values in dataset.data_vars.items():
+        unit = values.attrs["units"]
+        if values.ndim == 1:
+            columns[f"{name} [{unit}]"] = values.values
+        elif values.dims[1:] == ("string",):
+            for i in range(values.sizes["string"]):
+                columns[f"{name}[{i + 1}] [{unit}]"] = values.values[:, i]
+        elif values.ndim == 2:
+            for kind in ("mean", "min", "max"):
+                columns[f"{kind} {name} [{unit}]"] = getattr(np, kind)(values.values, axis=1)
+    rows = zip(*columns.values(), strict=True)
+    partial = path.with_name(path.name + ".part")
+    with partial.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows([f"{value:.9g}" for value in row] for row in rows)
+    partial.replace(path)
+
+
+def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) -> Scenario:
+    """The scenario with all parameter sets inlined, so that it stands alone."""
+    components = {}
+    for name, component in scenario.components.items():
+        update: dict[str, Any] = {}
+        if parameters[name].values:
+            update = {"parameters": dict(parameters[name].values), "parameter_set": None}
+        fmu = getattr(component, "fmu", "")
+        if fmu.endswith(".fmu") and scenario.path is not None and (scenario.path.parent / fmu).is_file():
+            update["fmu"] = str((scenario.path.parent / fmu).resolve())
+        components[name] = component.model_copy(update=update)
+    return scenario.model_copy(update={"components": components})
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, the packages that compute, the machine and the commit where it is a checkout."""
+    found = {"python": platform.python_version(), "platform": platform.platform()}
+    for package in ("active-chainmail-cosim", *_PACKAGES):
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "not installed"
+    root = Path(__file__).resolve().parent.parent
+    command = ["git", "-C", str(root), "describe", "--always", "--dirty"]
+    try:
+        found["commit"] = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        found["commit"] = "unknown"
+    return found
