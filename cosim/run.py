@@ -35,6 +35,7 @@ class Progress:
         time: Simulated time [s].
         elapsed: Wall time since the start or the resumption [s].
         simulated: Simulated time since then [s].
+        step: Macro-step [s].
     """
 
     done: int
@@ -42,6 +43,13 @@ class Progress:
     time: float
     elapsed: float
     simulated: float
+    step: float
+
+    @property
+    def remaining(self) -> float:
+        """Estimated wall time left [s]."""
+        made = self.simulated / self.step
+        return (self.total - self.done) * self.elapsed / made if made else 0.0
 
 
 class RunStopped(Exception):
@@ -108,6 +116,8 @@ def run(
     folder = RunFolder(out) if out is not None else None
     if resume and (folder is None or not folder.checkpoints()):
         raise InputError(out or "run", "", "there is no checkpoint to resume from", "run it without `--resume`")
+    if resume and folder is not None and folder.is_complete():
+        raise InputError(folder.path, "", "this run is complete", "look at it with `cosim plot`")
     assembly = assemble(scenario)
     try:
         if folder is not None and not resume:
@@ -204,7 +214,8 @@ def _step_to_end(state: _Clockwork, folder: RunFolder | None, on_progress: Calla
             if on_progress is not None:
                 elapsed = clock.perf_counter() - state.begin
                 simulated = seconds((state.index - state.first_index) * state.macro)
-                on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated))
+                on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
+                                     seconds(state.macro)))  # fmt: skip
 
 
 def _finish(state: _Clockwork, reason: str) -> xr.Dataset:

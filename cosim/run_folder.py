@@ -82,6 +82,13 @@ class RunFolder:
                     text = "; ".join(map(str, value)) if isinstance(value, list) else str(value)
                     writer.writerow([component, name, text, resolved.sources[name]])
 
+    def is_complete(self) -> bool:
+        """Whether the run in this folder has reached its end."""
+        try:
+            return bool(json.loads(self.summary.read_text(encoding="utf-8"))["status"] == "complete")
+        except (OSError, ValueError, KeyError):
+            return False
+
     def checkpoints(self) -> list[Path]:
         """Checkpoint files in order of time."""
         return sorted((self.path / "checkpoints").glob("*.npz"))
