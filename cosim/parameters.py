@@ -9,7 +9,7 @@ from typing import Annotated
 
 import pydantic
 import yaml
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, StrictBool
 
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
@@ -20,7 +20,7 @@ class Parameter(BaseModel):
     """One number (or switch) of a parameter set."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    value: bool | Annotated[PhysicalValue, In()]
+    value: StrictBool | Annotated[PhysicalValue, In()]
     unit: str = ""
     source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why.")
 

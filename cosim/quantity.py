@@ -11,7 +11,7 @@ from typing import Any
 import pint
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticSerializationUnexpectedValue, core_schema
 
 _TEXT = re.compile(r"^\s*(?P<number>[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>.*?)\s*$")
 _PATTERN = r"^\s*[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?\s*.*$"
@@ -104,6 +104,12 @@ class PhysicalValue:
         return f"{self.number:.15g} {self.unit}".strip()
 
 
+def _serialise(value: object) -> str:
+    if not isinstance(value, PhysicalValue):  # lets pydantic try the next member of a union
+        raise PydanticSerializationUnexpectedValue(f"{value!r} is no PhysicalValue")
+    return str(value)
+
+
 @dataclass(frozen=True)
 class In:
     """Pydantic annotation: a `PhysicalValue` that converts to `unit`, within bounds.
@@ -129,7 +135,7 @@ class In:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
-            self._validate, serialization=core_schema.plain_serializer_function_ser_schema(str)
+            self._validate, serialization=core_schema.plain_serializer_function_ser_schema(_serialise)
         )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

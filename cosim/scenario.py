@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
@@ -20,7 +20,7 @@ from cosim.unit import NANOSECONDS
 Time = Annotated[PhysicalValue, In("s")]
 Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
 AnyQuantity = Annotated[PhysicalValue, In()]
-ParameterValue = bool | AnyQuantity | list[AnyQuantity]
+ParameterValue = StrictBool | AnyQuantity | list[AnyQuantity]
 
 
 def nanoseconds(value: PhysicalValue) -> int:
