@@ -1,0 +1,1 @@
+"""Equations and measures of the paper, as plain functions of arrays."""

@@ -1,0 +1,1 @@
+"""The scorecard: every number the paper publishes, beside ours."""
