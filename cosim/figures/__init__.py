@@ -1,0 +1,1 @@
+"""Figures of runs; they draw what a dataset holds and compute nothing."""

@@ -1,0 +1,25 @@
+"""Length of the fabric and of its links over time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from cosim.figures.style import figure, mark_switches
+
+
+def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
+    """Draw fabric length [cm] and mean and range of the link length l [cm]."""
+    with figure(path, height=5.0, rows=2) as (fabric, link):
+        fabric.plot(run["time"], 100 * run["fabric.fabric_length"], color="C0")
+        fabric.set_ylabel("fabric length [cm]")
+        mark_switches(fabric, marks)
+        lengths = 100 * run["fabric.link_length"]
+        link.plot(run["time"], lengths.mean("link"), color="C0", label="mean of the links")
+        link.fill_between(run["time"], lengths.min("link"), lengths.max("link"), color="C0", alpha=0.2, label="range")
+        mark_switches(link, marks)
+        link.set_xlabel("time [s]")
+        link.set_ylabel("link length l [cm]")
+        link.legend(frameon=False, fontsize=8)
+    return path

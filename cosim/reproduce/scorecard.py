@@ -1,0 +1,58 @@
+"""The scorecard as text, Markdown and JSON."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.table import Table
+
+from cosim.reproduce.row import Row
+
+
+def number(value: float) -> str:
+    """Five significant digits, without an exponent where it is readable."""
+    return f"{value:.5g}"
+
+
+def as_markdown(rows: Sequence[Row]) -> str:
+    """One table a section."""
+    lines = ["# Scorecard", "", "Published value, ours, the accepted difference with its reason, and the verdict.", ""]
+    for section, group in itertools.groupby(rows, key=lambda r: r.section):
+        lines += [f"## {section}", "", "| quantity | published | ours | unit | tolerance | verdict | why |",
+                  "|---|---|---|---|---|---|---|"]  # fmt: skip
+        for r in group:
+            tolerance = "relation" if r.tolerance is None else f"+-{r.tolerance:g}"
+            verdict = "pass" if r.is_met else "**FAIL**"
+            why = r.reason + (f"; {r.explanation}" if r.explanation else "")
+            lines.append(f"| {r.quantity} | {r.published} | {number(r.ours)} | {r.unit} | {tolerance} | {verdict} | {why} |")
+        lines.append("")
+    met = sum(r.is_met for r in rows)
+    lines.append(f"{met} of {len(rows)} lines pass.")
+    return "\n".join(lines) + "\n"
+
+
+def as_json(rows: Sequence[Row]) -> str:
+    """All rows; NaN becomes null."""
+    return json.dumps({"rows": [r.as_dict() for r in rows]}, indent=2, allow_nan=False)
+
+
+def show(rows: Sequence[Row], console: Console) -> None:
+    """Print the table; explanations below it."""
+    for section, group in itertools.groupby(rows, key=lambda r: r.section):
+        table = Table(title=section, title_justify="left", box=None, pad_edge=False)
+        for heading in ("quantity", "published", "ours", "tolerance", ""):
+            table.add_column(heading, overflow="fold")
+        members = list(group)
+        for r in members:
+            tolerance = "relation" if r.tolerance is None else f"+-{r.tolerance:g}"
+            verdict = "[green]pass[/]" if r.is_met else "[bold red]FAIL[/]"
+            table.add_row(r.quantity, r.published, f"{number(r.ours)} {r.unit}", tolerance, verdict)
+        console.print(table)
+        for r in members:
+            if r.explanation and not r.is_met:
+                console.print(f"  {r.quantity}: {r.explanation}", style="dim", highlight=False)
+        console.print()
+    console.print(f"{sum(r.is_met for r in rows)} of {len(rows)} lines pass.")
