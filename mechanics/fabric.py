@@ -13,7 +13,7 @@ from cosim.unit import Array
 from mechanics.lattice import Weave, jammed_weave, taut_weave
 
 #: Clearance of every hook in the woven start [m]: well above rounding, small against the tolerance.
-CLEARANCE = 5e-5
+CLEARANCE = 2e-5
 
 
 @dataclass(frozen=True)
@@ -145,14 +145,16 @@ class FabricDesign:
         return taut_weave(self.bar_distance_cold, self.bar_diameter)
 
     @property
-    def hot_weave(self) -> Weave:
-        """Weave of the heated fabric: taut at the inner stop, or jammed where the bars touch before that."""
+    def held_weave(self) -> Weave:
+        """Weave of held rows: as short as the inner stop or the jam allows, with the clearance at every bar.
+
+        A clearance c at each hook takes 4 c from the slack 2 L cos(theta) - 3 d / sin(theta) - d of the bars.
+        """
         jam = jammed_weave(self.bar_diameter)
-        shortest = max(self.bar_distance_hot, jam.bar_distance)
-        try:
-            return taut_weave(shortest, self.bar_diameter)
-        except ValueError:
-            return jam
+        looser = jam.bar_distance + 2 * CLEARANCE / math.cos(jam.tilt)
+        distance = max(self.bar_distance_hot, looser)
+        pitch = 2 * (distance * math.cos(jam.tilt) - self.bar_diameter / math.sin(jam.tilt))
+        return Weave(distance, jam.tilt, pitch)
 
 
 def _require(name: str, value: float, holds: bool, remedy: str) -> None:
@@ -221,8 +223,8 @@ def layout(design: FabricDesign) -> Layout:
 def _side_view(design: FabricDesign) -> tuple[Array, Array, Array, Array]:
     """Chain A1, B1, A2, B2, ... seen along x: y, z of the back bars, tilt, bar distance; each of shape (2 rows,)."""
     held = 2 * design.tether_rows if design.tether_kind == "cantilever" else 0
-    hot, cold = design.hot_weave, design.cold_weave
-    weaves = [hot if s < held else cold for s in range(2 * design.rows)]
+    tight, cold = design.held_weave, design.cold_weave
+    weaves = [tight if s < held else cold for s in range(2 * design.rows)]
     y, z = np.zeros(len(weaves)), np.zeros(len(weaves))
     for s in range(1, len(weaves)):
         before, weave = weaves[s - 1], weaves[s]

@@ -1,0 +1,299 @@
+"""The only place where Bullet is called: a world of links, stepped with explicit spring forces.
+
+Bullet works here in centimetres and kilograms, because its collision margin (0.001 length units) must be small against
+a bar; everything that enters or leaves this module is SI. Traps that the settings avoid are listed in
+docs/decisions/0004-bullet-settings.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import pybullet
+
+from cosim.unit import Array
+from mechanics.fabric import FabricDesign, Layout
+from mechanics.half import Half, half
+from mechanics.springs import SteelSpring
+
+#: Length units of Bullet per metre.
+SCALE = 100.0
+#: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
+_NO_LIMIT = 1e6
+
+
+@dataclass(frozen=True)
+class SolverSettings:
+    """Numerical settings of Bullet.
+
+    Args:
+        micro_step: Time step [s].
+        iterations: Iterations of the projected Gauss-Seidel solver per step.
+        penetration_limit: Largest overlap of two links that is tolerated [m].
+
+    Raises:
+        ValueError: A number is not positive.
+    """
+
+    micro_step: float
+    iterations: int
+    penetration_limit: float
+
+    def __post_init__(self) -> None:
+        for name in ("micro_step", "iterations", "penetration_limit"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise ValueError(f"{name} is {value}: give a positive number")
+
+
+@dataclass
+class Motion:
+    """State of all links; the arrays are what a checkpoint keeps, in Bullet's own units so that nothing is rounded.
+
+    Args:
+        position: Shape (link, 3), centre of mass of the back half [cm].
+        orientation: Shape (link, 4), quaternion x, y, z, w of the link.
+        velocity: Shape (link, 3) [cm/s].
+        angular_velocity: Shape (link, 3) [rad/s].
+        slide: Shape (link,), bar distance less its greatest value [cm].
+        slide_rate: Shape (link,) [cm/s].
+    """
+
+    position: Array
+    orientation: Array
+    velocity: Array
+    angular_velocity: Array
+    slide: Array
+    slide_rate: Array
+
+    def copy(self) -> Motion:
+        """Deep copy."""
+        return Motion(**{name: value.copy() for name, value in vars(self).items()})
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Contacts between links.
+
+    Args:
+        count: Number of contact points.
+        penetration: Deepest overlap [m], 0 if none.
+        links: The two links of the deepest overlap.
+    """
+
+    count: int
+    penetration: float
+    links: tuple[int, int]
+
+
+def woven(design: FabricDesign, layout: Layout) -> Motion:
+    """The flat start at rest."""
+    n = design.links
+    sine, cosine = np.sin(layout.tilt / 2), np.cos(layout.tilt / 2)
+    orientation = np.zeros((n, 4))
+    orientation[:, 0], orientation[:, 3] = sine, cosine
+    along = np.stack([np.zeros(n), np.cos(layout.tilt), np.sin(layout.tilt)], axis=1)
+    position = layout.back_bar + half(design).centre * along
+    slide = layout.bar_distance - design.bar_distance_cold
+    return Motion(SCALE * position, orientation, np.zeros((n, 3)), np.zeros((n, 3)), SCALE * slide, np.zeros(n))
+
+
+class World:
+    """A Bullet world with one multibody per link: back half as base, front half on a slide.
+
+    Args:
+        design: Fabric.
+        layout: Which links are held.
+        solver: Numerical settings.
+        motion: Where the links start.
+    """
+
+    def __init__(self, design: FabricDesign, layout: Layout, solver: SolverSettings, motion: Motion) -> None:
+        self.design, self.layout, self.solver = design, layout, solver
+        self.steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
+        self._motion = motion.copy()
+        self._client = pybullet.connect(pybullet.DIRECT)
+        if self._client < 0:
+            raise RuntimeError("Bullet has no free client")
+        self._configure()
+        shapes = self._shapes(half(design))
+        self._bodies = [self._link(i, shapes, half(design)) for i in range(design.links)]
+        self._link_of = {body: link for link, body in enumerate(self._bodies)}
+        sliding = np.flatnonzero(~layout.is_locked)
+        #: (body, its two coils) of every link whose slide is free.
+        self._sliding = [(self._bodies[i], 2 * int(i), 2 * int(i) + 1) for i in sliding]
+        self._slides = sliding
+        self._free = np.flatnonzero(~layout.is_fixed)
+
+    def close(self) -> None:
+        """Free Bullet's world; safe to call twice."""
+        if self._client >= 0:
+            pybullet.disconnect(physicsClientId=self._client)
+            self._client = -1
+
+    def _configure(self) -> None:
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=self.solver.micro_step,
+            numSolverIterations=self.solver.iterations,
+            numSubSteps=0,
+            useSplitImpulse=0,
+            solverResidualThreshold=0,
+            deterministicOverlappingPairs=1,
+            physicsClientId=self._client,
+        )
+        pybullet.setGravity(*(SCALE * g for g in self.design.gravity), physicsClientId=self._client)
+
+    def _shapes(self, part: Half) -> tuple[int, int]:
+        """Collision shapes of the back and of the front half, about their centres of mass."""
+        return self._shape(part, 1.0), self._shape(part, -1.0)
+
+    def _shape(self, part: Half, sign: float) -> int:
+        along_x = pybullet.getQuaternionFromEuler((0.0, math.pi / 2, 0.0))
+        box = [SCALE * size / 2 for size in part.arm_size]
+        arm_y = SCALE * sign * (part.arm_size[1] / 2 - part.centre)
+        centres = [
+            [0.0, -SCALE * sign * part.centre, 0.0],
+            [-SCALE * part.arm_x, arm_y, 0.0],
+            [SCALE * part.arm_x, arm_y, 0.0],
+        ]
+        index = pybullet.createCollisionShapeArray(
+            shapeTypes=[pybullet.GEOM_CYLINDER, pybullet.GEOM_BOX, pybullet.GEOM_BOX],
+            radii=[SCALE * part.bar_radius, 0.0, 0.0],
+            lengths=[SCALE * part.bar_length, 0.0, 0.0],
+            halfExtents=[[0.0, 0.0, 0.0], box, box],
+            collisionFramePositions=centres,
+            collisionFrameOrientations=[along_x, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]],
+            physicsClientId=self._client,
+        )
+        return int(index)
+
+    def _link(self, link: int, shapes: tuple[int, int], part: Half) -> int:
+        is_fixed, is_locked = bool(self.layout.is_fixed[link]), bool(self.layout.is_locked[link])
+        # The front half sits where the slide puts it at full length; a locked one is welded where it is held.
+        apart = SCALE * (self.design.bar_distance_cold - 2 * part.centre)
+        if is_locked:
+            apart += float(self._motion.slide[link])
+        body = pybullet.createMultiBody(
+            baseMass=0.0 if is_fixed else part.mass,
+            baseCollisionShapeIndex=shapes[0],
+            basePosition=self._motion.position[link].tolist(),
+            baseOrientation=self._motion.orientation[link].tolist(),
+            linkMasses=[0.0 if is_locked else part.mass],
+            linkCollisionShapeIndices=[shapes[1]],
+            linkVisualShapeIndices=[-1],
+            linkPositions=[[0.0, apart, 0.0]],
+            linkOrientations=[[0.0, 0.0, 0.0, 1.0]],
+            linkInertialFramePositions=[[0.0, 0.0, 0.0]],
+            linkInertialFrameOrientations=[[0.0, 0.0, 0.0, 1.0]],
+            linkParentIndices=[0],
+            linkJointTypes=[pybullet.JOINT_FIXED if is_locked else pybullet.JOINT_PRISMATIC],
+            linkJointAxis=[[0.0, 1.0, 0.0]],
+            physicsClientId=self._client,
+        )
+        self._material(body, part, is_fixed, is_locked)
+        if not is_locked:
+            self._slide(body, link)
+        if not is_fixed:
+            pybullet.resetBaseVelocity(
+                body,
+                self._motion.velocity[link].tolist(),
+                self._motion.angular_velocity[link].tolist(),
+                physicsClientId=self._client,
+            )
+        return int(body)
+
+    def _material(self, body: int, part: Half, is_fixed: bool, is_locked: bool) -> None:
+        inertia = [SCALE**2 * moment for moment in part.inertia]
+        for piece, is_massless in ((-1, is_fixed), (0, is_locked)):
+            settings = {} if is_massless else {"localInertiaDiagonal": inertia}
+            pybullet.changeDynamics(
+                body,
+                piece,
+                # Bullet multiplies the coefficients of the two bodies in contact.
+                lateralFriction=math.sqrt(self.design.friction),
+                spinningFriction=0.0,
+                rollingFriction=0.0,
+                restitution=math.sqrt(self.design.restitution),
+                linearDamping=0.0,
+                angularDamping=0.0,
+                jointDamping=0.0,
+                maxJointVelocity=_NO_LIMIT,
+                activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+                physicsClientId=self._client,
+                **settings,
+            )
+
+    def _slide(self, body: int, link: int) -> None:
+        shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
+        pybullet.changeDynamics(
+            body, 0, jointLowerLimit=shortest, jointUpperLimit=0.0, jointLimitForce=_NO_LIMIT,
+            physicsClientId=self._client,
+        )  # fmt: skip
+        pybullet.resetJointState(
+            body, 0, float(self._motion.slide[link]), float(self._motion.slide_rate[link]), physicsClientId=self._client
+        )
+        pybullet.setJointMotorControl2(
+            body, 0, pybullet.VELOCITY_CONTROL, force=0.0, physicsClientId=self._client
+        )
+
+    def advance(self, steps: int, stiffness: Array, rest_length: Array) -> None:
+        """Take micro-steps with the spring forces of this instant.
+
+        Args:
+            steps: Number of micro-steps.
+            stiffness: Shape (coil,) [N/m].
+            rest_length: Shape (coil,) [m].
+        """
+        client, get, put = self._client, pybullet.getJointState, pybullet.setJointMotorControl2
+        step, torque = pybullet.stepSimulation, pybullet.TORQUE_CONTROL
+        k, r = stiffness.tolist(), rest_length.tolist()
+        steel, b = 2 * self.steel.stiffness, self.steel.rest_length
+        longest, per_unit = self.design.length_cold, 1.0 / SCALE
+        # With all springs loaded (the usual case) the force is a straight line in the slide.
+        links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
+        for _ in range(steps):
+            for body, k0, r0, k1, r1 in links:
+                length = longest + per_unit * get(body, 0, client)[0]
+                force = steel * (b - length) if length < b else 0.0
+                if length > r0:
+                    force -= k0 * (length - r0)
+                if length > r1:
+                    force -= k1 * (length - r1)
+                put(body, 0, torque, force=SCALE * force, physicsClientId=client)
+            step(client)
+
+    def motion(self) -> Motion:
+        """Current state; the arrays are overwritten by the next call."""
+        client, m = self._client, self._motion
+        for i in self._free:
+            body = self._bodies[i]
+            m.position[i], m.orientation[i] = pybullet.getBasePositionAndOrientation(body, client)
+            m.velocity[i], m.angular_velocity[i] = pybullet.getBaseVelocity(body, client)
+        for i in self._slides:
+            m.slide[i], m.slide_rate[i] = pybullet.getJointState(self._bodies[i], 0, client)[:2]
+        return m
+
+    def contacts(self) -> Contacts:
+        """Contact points between links, as Bullet found them in its last step."""
+        points = pybullet.getContactPoints(physicsClientId=self._client) or ()
+        if not points:
+            return Contacts(0, 0.0, (0, 0))
+        deepest = min(points, key=lambda point: point[8])
+        links = self._link_of[deepest[1]], self._link_of[deepest[2]]
+        return Contacts(len(points), max(0.0, -deepest[8] / SCALE), links)
+
+
+def rotation(orientation: Array) -> npt.NDArray[np.float64]:
+    """Rotation matrices (link, 3, 3) of quaternions x, y, z, w (link, 4); columns are the links' x, y, z axes."""
+    x, y, z, w = orientation.T
+    return np.stack(
+        [
+            np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], -1),
+            np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], -1),
+            np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], -1),
+        ],
+        -2,
+    )
