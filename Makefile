@@ -1,0 +1,78 @@
+# `make run` reproduces the paper's experiment, `make test` runs the tests; both install what they need.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+PYTHON311 ?= $(firstword $(shell command -v python3.11 2>/dev/null) $(shell command -v uv >/dev/null 2>&1 && uv python find 3.11 2>/dev/null))
+VENV ?= .venv
+BIN := $(VENV)/bin
+FMUS := build/fmus
+JOBS ?= 2
+# Small matrices only: threads of BLAS cost more than they bring, and would compete with the other run.
+export OPENBLAS_NUM_THREADS := 1
+export OMP_NUM_THREADS := 1
+
+.PHONY: help run test test-slow check lint types imports fmus setup dev bench lock clean distclean
+
+help:  ## show this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+run: setup fmus  ## the paper's experiment: all runs, figures and the scorecard, in runs/reproduce
+	$(BIN)/cosim reproduce --out runs/reproduce
+
+test: dev fmus  ## the test suite (about ten minutes on two cores)
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m "not slow"
+
+test-slow: dev fmus  ## tests that take minutes each
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
+
+check: lint types imports  ## style, types and import rules
+
+lint: dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: dev
+	$(BIN)/mypy
+
+imports: dev
+	$(BIN)/lint-imports
+
+fmus: setup  ## build the FMUs from their C sources
+	@$(MAKE) --no-print-directory -C fmus PYTHON=$(abspath $(BIN))/python BUILD=$(abspath $(FMUS)) COILS=36
+
+bench: dev fmus  ## all measurements of speed and convergence, written to benchmarks/results
+	$(BIN)/python -m benchmarks
+
+setup: $(VENV)/.installed  ## virtual environment and libngspice
+
+dev: $(VENV)/.installed-dev  ## the same with the tools for tests and checks
+
+$(VENV)/bin/python:
+	@test -n "$(PYTHON311)" || { echo "Python 3.11 is needed (pybullet and scikit-sundae both have wheels for it alone)." \
+	  "Install python3.11 and python3.11-venv, or run 'uv python install 3.11'; or name one: make PYTHON311=/path/to/python3.11"; exit 1; }
+	@"$(PYTHON311)" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { echo "$(PYTHON311) is not Python 3.11"; exit 1; }
+	@"$(PYTHON311)" -c 'import venv, ensurepip' 2>/dev/null || { echo "$(PYTHON311) cannot make virtual environments: install python3.11-venv"; exit 1; }
+	@command -v gcc >/dev/null || { echo "gcc is needed to build the FMUs: install gcc (Debian, Ubuntu: build-essential)"; exit 1; }
+	"$(PYTHON311)" -m venv $(VENV)
+
+$(VENV)/.installed: requirements.lock pyproject.toml tools/install_ngspice.sh | $(VENV)/bin/python
+	tools/install_ngspice.sh $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+$(VENV)/.installed-dev: requirements-dev.lock $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.lock
+	@touch $@
+
+lock:  ## pin the newest versions that pyproject.toml allows (needs uv)
+	uv pip compile pyproject.toml --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements.lock
+	uv pip compile pyproject.toml --extra dev -c requirements.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-dev.lock
+
+clean:  ## remove what is built; runs and the virtual environment stay
+	rm -rf build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find . -name __pycache__ -not -path "./$(VENV)/*" -prune -exec rm -rf {} +
+
+distclean: clean  ## remove the virtual environment too
+	rm -rf $(VENV) *.egg-info
