@@ -67,7 +67,9 @@ class ModelExchangeUnit(FmuUnit):
         call(fmu.getNominalsOfContinuousStates, _pointer(nominals), self._count)
         call(fmu.getContinuousStates, _pointer(self._states), self._count)
         rtol, atol = self._tolerances
-        self._options = {"rtol": rtol, "atol": atol * np.abs(nominals), "linsolver": "band", "lband": 0, "uband": 0}
+        # GMRES needs no Jacobian, so nothing is assumed of how the states of an FMU depend on each other. (A band of
+        # width zero perturbs all states at once: a state that depends on another one gets a wrong diagonal.)
+        self._options = {"rtol": rtol, "atol": atol * np.abs(nominals), "linsolver": "gmres"}
         self._read_outputs(time)
 
     def _update_discrete_states(self) -> None:
