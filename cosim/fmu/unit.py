@@ -55,7 +55,7 @@ class FmuUnit:
         self.binding = bind(archive, interface, name)
         self._configure(settings.structure)
         self.set_parameters(settings.parameters)
-        self._buffers = {n: np.zeros(v.shape) for n, v in self.variables.items()}
+        self._buffers = {n: np.full(v.shape, 0.0 if v.start is None else v.start) for n, v in self.variables.items()}
         self._writers = {
             n: self.binding.writer(self._fmu[n], b)
             for n, b in self._buffers.items()
