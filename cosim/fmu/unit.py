@@ -67,6 +67,8 @@ class FmuUnit:
 
     def _configure(self, structure: Mapping[str, int]) -> None:
         for key, value in structure.items():
+            if key not in self._fmu:  # FMI 2.0: the size was compared with the FMU's own when its variables were read
+                continue
             start = int(self._structural_start(key))
             if value != start:
                 self.binding.configure(self._fmu[key], value)

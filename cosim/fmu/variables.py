@@ -52,16 +52,19 @@ def fmu_variables(description: ModelDescription, structure: Mapping[str, int]) -
 
     Args:
         description: The model description.
-        structure: Values of structural parameters that differ from their start value.
+        structure: Values of structural parameters that differ from their start value. FMI 2.0 has none: there its
+            value of `coils` is compared with the size that the FMU was built for.
 
     Returns:
         Name to variable, with the shapes that `structure` gives.
 
     Raises:
-        ValueError: `structure` names no structural parameter, or gathered scalars leave a gap in their indices.
+        ValueError: `structure` names no structural parameter or another size than an FMI 2.0 FMU has, or gathered
+            scalars leave a gap in their indices.
     """
     structural = {v.name: v for v in description.modelVariables if v.causality == "structuralParameter"}
-    unknown = set(structure) - set(structural)
+    is_fmi2 = description.fmiVersion.startswith("2")
+    unknown = set(structure) - ({"coils"} if is_fmi2 else set(structural))
     if unknown:
         raise ValueError(f"no structural parameter {', '.join(sorted(unknown))}; there are: {', '.join(structural)}")
     sizes = {v.valueReference: int(structure.get(name, v.start or 0)) for name, v in structural.items()}
@@ -78,6 +81,9 @@ def fmu_variables(description: ModelDescription, structure: Mapping[str, int]) -
         result[model_variable.name] = _declared(model_variable, sizes, names)
     for name, members in elements.items():
         result[name] = _gathered(name, members)
+        wanted = structure.get("coils", len(members)) if is_fmi2 else len(members)
+        if wanted != len(members):
+            raise ValueError(f"this FMI 2.0 FMU is built for {len(members)} coils ({name}), not for {wanted}")
     return result
 
 
