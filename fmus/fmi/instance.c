@@ -73,8 +73,10 @@ static Status check_values(Instance *instance, const Variable *variable, size_t 
             const char *reason = !is_finite                          ? "a finite number"
                                  : variable->limit == NON_NEGATIVE   ? "zero or positive"
                                                                      : "positive";
-            return instance_refuse(instance, "%s = %g %s: it must be %s", element_name(variable, first + i, text, sizeof text),
-                                   values[i], variable->unit, reason);
+            const bool has_unit = strcmp(variable->unit, "1") != 0;
+            return instance_refuse(instance, "%s = %g%s%s: it must be %s",
+                                   element_name(variable, first + i, text, sizeof text), values[i],
+                                   has_unit ? " " : "", has_unit ? variable->unit : "", reason);
         }
     }
     return STATUS_OK;

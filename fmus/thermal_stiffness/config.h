@@ -13,7 +13,7 @@
 /* V(identifier, name, role, extent, unit, start, limit, nominal, depends, description) */
 #define VARIABLES(V) \
     V(time, "time", TIME, SCALAR, "s", 0, ANY, 1, "", "Simulated time") \
-    V(coils, "coils", STRUCTURE, SCALAR, "1", COILS, POSITIVE, 1, "", "Number of coils") \
+    V(coils, "coils", STRUCTURE, SCALAR, "1", COILS, ANY, 1, "", "Number of coils") \
     V(power, "power", INPUT, PER_COIL, "W", 0, ANY, 0.5, "", "Electrical power turned into heat in each coil") \
     V(ambient_temperature, "ambient_temperature", INPUT, SCALAR, "K", 295.15, POSITIVE, 300, "", \
       "Temperature of the surrounding air or bath") \
