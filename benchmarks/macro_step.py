@@ -13,9 +13,9 @@ from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
 
-#: Macro-steps of the electro-thermal loop and of the prototype [ms].
+#: Macro-steps of the electro-thermal loop and of the prototype [ms]; its switching times allow divisors of 10 ms only.
 LOOP_STEPS = (400, 200, 100, 50)
-PROTOTYPE_STEPS = (40, 20, 10, 5)
+PROTOTYPE_STEPS = (10, 5, 2.5, 1)
 
 
 def with_steps(scenario: Scenario, macro_ms: float, **more: Any) -> Scenario:
@@ -59,7 +59,7 @@ def loop_table() -> list[str]:
 def prototype_row(macro_ms: float) -> str:
     """Measures of Figure 3 with one macro-step."""
     scenario = load_scenario("prototype_cantilever")
-    result = run(with_steps(scenario, macro_ms, output_step=PhysicalValue(40.0, "ms")))
+    result = run(with_steps(scenario, macro_ms, output_step=PhysicalValue(20.0, "ms")))
     kappa = result["fabric.max_curvature"] / 100
     cold, hot, again = plateau(kappa, -0.5, 0.36), plateau(kappa, 11.6, 12.6), plateau(kappa, 30.0, 32.0)
     on = half_way_delay(kappa.sel(time=slice(None, 12.6)), 0.37, cold, hot)
