@@ -57,7 +57,7 @@ static void write_header(int version)
     instantiation_token(version, token);
     const bool is_3 = version == 3;
     printf("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription\n  fmiVersion=\"%d.0\"\n"
-           "  modelName=\"%s\"\n  %s=\"%s\"\n  description=\"%s\"\n  license=\"GPL-3.0\"\n"
+           "  modelName=\"%s\"\n  %s=\"%s\"\n  description=\"%s\"\n  license=\"GPL-3.0-or-later\"\n"
            "  generationTool=\"describe.c\"\n  variableNamingConvention=\"structured\"%s>\n",
            version, MODEL_IDENTIFIER, is_3 ? "instantiationToken" : "guid", token, MODEL_DESCRIPTION,
            is_3 ? "" : "\n  numberOfEventIndicators=\"0\"");
