@@ -165,6 +165,9 @@ class Fmi3Binding(Binding):
             guid=self.archive.description.instantiationToken, modelIdentifier=identifier,
             unzipDirectory=str(self.archive.directory), instanceName=self.name,
         )  # fmt: skip
+        self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
+        self._reached = ctypes.c_double()
+        self._results = tuple(map(ctypes.byref, (self._event, self._terminate, self._early, self._reached)))
         fmu.instantiate(loggingOn=True, logMessage=lambda _env, _status, _category, message: self._log(message))
         return fmu
 
@@ -201,9 +204,6 @@ class Fmi3Binding(Binding):
 
     def exit_initialisation(self) -> None:
         self.call(self.fmu.exitInitializationMode)
-        self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
-        self._reached = ctypes.c_double()
-        self._results = tuple(map(ctypes.byref, (self._event, self._terminate, self._early, self._reached)))
 
     def do_step(self, time: float, size: float) -> float:
         status = self.fmu.dll.fmi3DoStep(self.fmu.component, time, size, True, *self._results)
