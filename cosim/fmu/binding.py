@@ -167,7 +167,7 @@ class Fmi3Binding(Binding):
         )  # fmt: skip
         self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
         self._reached = ctypes.c_double()
-        self._results = tuple(map(ctypes.byref, (self._event, self._terminate, self._early, self._reached)))
+        self._results = tuple(ctypes.byref(x) for x in (self._event, self._terminate, self._early, self._reached))
         fmu.instantiate(loggingOn=True, logMessage=lambda _env, _status, _category, message: self._log(message))
         return fmu
 
