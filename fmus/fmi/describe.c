@@ -81,7 +81,7 @@ static void write_header(int version)
 }
 
 static const char *const shared_sources[] = {"model.c", "variables.c", "instance.c", "states.c", "snapshot.c"};
-static const char *const version_sources[] = {"", "_model_exchange", "_absent"};
+static const char *const version_sources[] = {"", "_state", "_model_exchange", "_absent"};
 
 void write_source_files(const char *indent, int version)
 {

@@ -10,7 +10,9 @@ from cosim.fmu.unit import FmuUnit
 STEP = 10_000_000
 
 
-def advance(unit: FmuUnit, powers: np.ndarray, outputs: tuple[str, ...], size: int = STEP, begin: int = 0) -> np.ndarray:
+def advance(
+    unit: FmuUnit, powers: np.ndarray, outputs: tuple[str, ...], size: int = STEP, begin: int = 0
+) -> np.ndarray:
     """Step with `powers` of shape (steps, coils); returns outputs of shape (steps, len(outputs), coils)."""
     record = []
     for index, power in enumerate(powers):

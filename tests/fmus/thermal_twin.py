@@ -1,4 +1,4 @@
-"""An independent twin of thermal_stiffness: scipy integrates the equations, the hysteresis is followed in small steps."""
+"""An independent twin of thermal_stiffness: scipy integrates the equations, the hysteresis goes in small steps."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from cosim.paper.laws import COOLING, HEATING, Coil
 
 CELSIUS = 273.15
+PAPER = Coil()
 #: Equation (2) in N/m, its published constants being in N/mm.
 NEWTON_PER_METRE = 1000.0
 #: Where the branches cross below full austenite [degC].
@@ -41,7 +42,7 @@ def follow(path, memory):
     return memory
 
 
-def simulate(powers, step, coil=Coil(), regressed=True, substeps=20):
+def simulate(powers, step, coil=PAPER, regressed=True, substeps=20):
     """Temperature [K], stiffness [N/m] and convected energy [J] at the end of every step.
 
     Args:

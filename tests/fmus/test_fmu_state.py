@@ -1,0 +1,128 @@
+"""Saved states: after a return to one, the future is the same to the last bit."""
+
+import numpy as np
+import pytest
+from fmu_runs import STEP, advance
+
+from cosim.unit import UnitError
+
+OUTPUTS = ("temperature", "stiffness", "rest_length", "resistance", "stored_energy", "convected_energy")
+COUNT = 60
+
+kinds = pytest.mark.parametrize(
+    ("model", "version", "interface"),
+    [
+        (model, version, interface)
+        for model in ("thermal_stiffness", "instant_stiffness")
+        for version in (3, 2)
+        for interface in ("co_simulation", "model_exchange")
+    ],
+)
+
+
+def programme(seed):
+    chance = np.random.default_rng(seed)
+    return np.repeat(chance.uniform(0.0, 1.5, (6, 36)) * (chance.random((6, 36)) < 0.6), COUNT // 6, axis=0)
+
+
+def run(unit, seed, begin=0):
+    return advance(unit, programme(seed), OUTPUTS, size=10 * STEP, begin=begin * 10 * STEP)
+
+
+def started(make_unit, *kind, **given):
+    unit = make_unit(*kind, **given)
+    unit.initialise(0)
+    return unit
+
+
+@kinds
+def test_a_restored_state_has_the_same_future(make_unit, model, version, interface):
+    unit = started(make_unit, model, version, interface)
+    run(unit, 1)
+    state = unit.binding.save()
+    first = run(unit, 2, begin=COUNT)
+    for seed in (2, 2):
+        unit.binding.restore(state)
+        if interface == "model_exchange":  # CVODE starts from the states that the unit holds
+            unit.binding.call(unit.binding.fmu.getContinuousStates, _pointer(unit), unit._count)
+        np.testing.assert_array_equal(run(unit, seed, begin=COUNT), first)
+    unit.binding.free_state(state)
+
+
+def _pointer(unit):
+    import ctypes
+
+    return unit._states.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+
+
+@kinds
+def test_a_fresh_unit_continues_from_a_checkpoint(make_unit, model, version, interface):
+    unit = started(make_unit, model, version, interface)
+    run(unit, 1)
+    checkpoint = {name: array.copy() for name, array in unit.checkpoint().items()}
+    expected = run(unit, 2, begin=COUNT)
+    fresh = make_unit(model, version, interface)
+    fresh.resume(checkpoint, COUNT * 10 * STEP)
+    np.testing.assert_array_equal(run(fresh, 2, begin=COUNT), expected)
+
+
+@kinds
+def test_saving_a_state_does_not_change_the_run(make_unit, model, version, interface):
+    quiet, watched = (started(make_unit, model, version, interface) for _ in range(2))
+    expected = run(quiet, 3)
+    record = []
+    for index, power in enumerate(programme(3)):
+        watched.binding.serialise()
+        record.append(advance(watched, power[None], OUTPUTS, size=10 * STEP, begin=index * 10 * STEP)[0])
+    np.testing.assert_array_equal(np.array(record), expected)
+
+
+@kinds
+def test_a_state_includes_the_parameters(make_unit, model, version, interface):
+    given = {"coil_rest_length": 0.012, "reference_resistance": np.linspace(1.0, 3.0, 36)}
+    unit = started(make_unit, model, version, interface, parameters=given)
+    other = make_unit(model, version, interface)
+    other.resume(unit.checkpoint(), 0)
+    np.testing.assert_array_equal(other.get("resistance"), given["reference_resistance"])
+    np.testing.assert_array_equal(other.get("rest_length"), 0.012)
+
+
+def test_a_state_brings_its_number_of_coils_along(make_unit):
+    small, large = started(make_unit, coils=6), started(make_unit, coils=36)
+    data = small.binding.serialise()
+    large.binding.deserialise(data)
+    np.testing.assert_array_equal(large.binding.serialise(), data)
+
+
+@pytest.mark.parametrize("version", [3, 2])
+def test_a_refused_step_leaves_no_mark(make_unit, version):
+    unit = started(make_unit, "thermal_stiffness", version)
+    run(unit, 1)
+    before = unit.binding.serialise()
+    time = 10 * COUNT * STEP / 1e9
+    for begin, size in [(time + 1.0, 0.1), (time, 0.0), (time, -0.1), (time, np.nan), (np.nan, 0.1), (time, np.inf)]:
+        with pytest.raises(UnitError, match="DoStep returned error"):
+            unit.binding.do_step(begin, size)
+        np.testing.assert_array_equal(unit.binding.serialise(), before)
+
+
+@pytest.mark.parametrize("version", [3, 2])
+def test_bytes_that_are_no_state_are_refused(make_unit, version):
+    unit = started(make_unit, "thermal_stiffness", version)
+    data = unit.binding.serialise()
+    damaged_size, damaged_coils = data.copy(), data.copy()
+    damaged_size[8] ^= 1
+    damaged_coils[16] ^= 64
+    foreign = started(make_unit, "instant_stiffness", version).binding.serialise()
+    exchange = started(make_unit, "thermal_stiffness", version, "model_exchange").binding.serialise()
+    for bad, reason in [
+        (data[:10], "no saved state"),
+        (data[:-8], "damaged"),
+        (damaged_size, "damaged"),
+        (damaged_coils, "damaged"),
+        (foreign, "another model"),
+        (exchange, "other interface"),
+    ]:
+        with pytest.raises(UnitError, match=reason):
+            unit.binding.deserialise(bad)
+    np.testing.assert_array_equal(unit.binding.serialise(), data)
