@@ -12,15 +12,23 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import pybullet
 
 from cosim.unit import Array
+from mechanics.quiet import without_output
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.springs import SteelSpring
 
+with without_output():  # it prints its build time
+    import pybullet
+
 #: Length units of Bullet per metre.
 SCALE = 100.0
+#: Time in which an overlap of two links is pushed apart, and in which a slide returns to its stop [s]. Bullet wants
+#: them as a share per step (ERP). Stops must be soft in position: a slide that is pushed off its stop is free there for
+#: a step, and a spring of some newtons throws it back by half a millimetre.
+CONTACT_CORRECTION_TIME = 2.5e-3
+STOP_CORRECTION_TIME = 25e-3
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
 
@@ -89,6 +97,11 @@ class Contacts:
     links: tuple[int, int]
 
 
+def _share(steps: float) -> float:
+    """Share of an error that is corrected in one step; at most half, beyond which corrections overshoot."""
+    return min(0.5, steps)
+
+
 def woven(design: FabricDesign, layout: Layout) -> Motion:
     """The flat start at rest."""
     n = design.links
@@ -142,6 +155,8 @@ class World:
             useSplitImpulse=0,
             solverResidualThreshold=0,
             deterministicOverlappingPairs=1,
+            erp=_share(self.solver.micro_step / STOP_CORRECTION_TIME),
+            contactERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
             physicsClientId=self._client,
         )
         pybullet.setGravity(*(SCALE * g for g in self.design.gravity), physicsClientId=self._client)
