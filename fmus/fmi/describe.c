@@ -1,5 +1,5 @@
-/* Writes modelDescription.xml (`describe 2`, `describe 3`) or buildDescription.xml (`describe build`) of the model it is
- * compiled with to standard output. Run by make; not part of the FMU. */
+/* Writes modelDescription.xml (`describe 2`, `describe 3`) or buildDescription.xml (`describe build`) of the model that
+ * it is compiled with to standard output. Run by make; not part of the FMU. */
 #include "describe.h"
 
 #include <stdio.h>
@@ -66,7 +66,8 @@ static void write_header(int version)
         printf("  <%s\n    modelIdentifier=\"%s\"\n    canGetAndSetFMU%s=\"true\"\n    canSerializeFMU%s=\"true\"\n",
                interface == 0 ? "ModelExchange" : "CoSimulation", MODEL_IDENTIFIER, state, state);
         if (interface == 0) {
-            printf("    %s", is_3 ? "needsCompletedIntegratorStep=\"true\"" : "completedIntegratorStepNotNeeded=\"false\"");
+            printf("    %s",
+                   is_3 ? "needsCompletedIntegratorStep=\"true\"" : "completedIntegratorStepNotNeeded=\"false\"");
         } else {
             printf("    canHandleVariableCommunicationStepSize=\"true\"");
         }

@@ -1,7 +1,8 @@
 /* One instance of a model and its life cycle, in terms common to FMI 2.0 and FMI 3.0.
  *
  * Every function that can be refused returns a Status; its numbers are those of fmi2Status and fmi3Status. A call that
- * is refused changes nothing, so that the importer may go on; only a step that fails leaves the instance in MODE_FAILED.
+ * is refused changes nothing, so that the importer may go on; only a step that fails leaves the instance in
+ * MODE_FAILED.
  */
 #ifndef INSTANCE_H
 #define INSTANCE_H

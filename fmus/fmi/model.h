@@ -44,7 +44,8 @@ typedef struct {
     const char *description;
 } Variable;
 
-/* VARIABLES(V) in config.h lists V(identifier, name, role, extent, unit, start, limit, nominal, depends, description). */
+/* VARIABLES(V) in config.h lists
+ * V(identifier, name, role, extent, unit, start, limit, nominal, depends, description). */
 #define V(identifier, ...) VAR_##identifier,
 enum { VARIABLES(V) VARIABLE_COUNT };
 #undef V

@@ -6,7 +6,8 @@
 #define CONFIG_H
 
 #define MODEL_IDENTIFIER "thermal_stiffness"
-#define MODEL_DESCRIPTION "Joule-heated NiTi coils: temperature (equations 3 to 5) and hysteretic stiffness (equation 2)"
+#define MODEL_DESCRIPTION \
+    "Joule-heated NiTi coils: temperature (equations 3 to 5) and hysteretic stiffness (equation 2)"
 #define MODEL_STOP_TIME 30.0
 #define MODEL_STEP_SIZE 0.01
 

@@ -1,11 +1,17 @@
 /* A plain C importer of an FMI 2.0 FMU, run under valgrind: both life cycles, with refusals and saved states.
- * Usage: host GUID; the FMU is linked to it. Exit code: the line of the first check that failed, modulo 200, plus 1. */
+ * Usage: host GUID; the FMU is linked to it. Exit code: the line of the first check that failed (modulo 200, plus 1).
 #include <fmi2Functions.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CHECK(condition) do { if (!(condition)) { fprintf(stderr, "line %d\n", __LINE__); exit(__LINE__ % 200 + 1); } } while (0)
+#define CHECK(condition) \
+    do { \
+        if (!(condition)) { \
+            fprintf(stderr, "line %d\n", __LINE__); \
+            exit(__LINE__ % 200 + 1); \
+        } \
+    } while (0)
 
 enum { COILS = 36, FIRST_POWER = 2 };  /* value reference of power[1]: asserted by the test */
 

@@ -1,11 +1,18 @@
-/* A plain C importer of an FMI 3.0 FMU, run under valgrind: every life cycle, with refusals and saved states.
- * Usage: host TOKEN; the FMU is linked to it. Exit code: the line of the first check that failed, modulo 200, plus 1. */
+/* A plain C importer of an FMI 3.0 FMU, run under valgrind: both life cycles, with refusals and saved states.
+ * Usage: host TOKEN; the FMU is linked to it. Exit code: the line of the first check that failed (modulo 200, plus 1).
+ */
 #include <fmi3Functions.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#define CHECK(condition) do { if (!(condition)) { fprintf(stderr, "line %d\n", __LINE__); exit(__LINE__ % 200 + 1); } } while (0)
+#define CHECK(condition) \
+    do { \
+        if (!(condition)) { \
+            fprintf(stderr, "line %d\n", __LINE__); \
+            exit(__LINE__ % 200 + 1); \
+        } \
+    } while (0)
 
 enum { COILS = 288, REFERENCE_COILS = 1, REFERENCE_POWER = 2 };  /* places in the table: asserted by the test */
 
