@@ -119,8 +119,8 @@ class CircuitUnit:
         except UnitError as error:
             raise UnitError(self.name, error.what, time, error.remedy) from error
         self.solves += 1
-        self._solved = voltage.copy(), resistance.copy()
         self._distribute(values, time)
+        self._solved = voltage.copy(), resistance.copy()
 
     def _check_resistance(self, resistance: Array, time: int) -> None:
         bad = np.flatnonzero(~(resistance > 0))

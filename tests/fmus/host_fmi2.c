@@ -1,5 +1,6 @@
 /* A plain C importer of an FMI 2.0 FMU, run under valgrind: both life cycles, with refusals and saved states.
  * Usage: host GUID; the FMU is linked to it. Exit code: the line of the first check that failed (modulo 200, plus 1).
+ */
 #include <fmi2Functions.h>
 #include <math.h>
 #include <stdio.h>
