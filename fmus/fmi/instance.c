@@ -143,11 +143,10 @@ void instance_free(Instance *instance)
     }
 }
 
-Status instance_resize(Instance *instance, uint64_t coils)
+Status instance_resize(Instance *instance, double coils)
 {
-    if (coils < MINIMUM_COILS || coils > MAXIMUM_COILS) {
-        return instance_refuse(instance, "coils = %llu: it must be from %d to %d", (unsigned long long)coils,
-                               MINIMUM_COILS, MAXIMUM_COILS);
+    if (!(coils >= MINIMUM_COILS && coils <= MAXIMUM_COILS)) {
+        return instance_refuse(instance, "coils = %.0f: it must be from %d to %d", coils, MINIMUM_COILS, MAXIMUM_COILS);
     }
     return lay_out(&instance->model, (size_t)coils) ? STATUS_OK : instance_refuse(instance, "out of memory");
 }
@@ -229,7 +228,7 @@ Status instance_set(Instance *instance, size_t index, size_t first, size_t count
         return STATUS_ERROR;
     }
     if (variable->role == ROLE_STRUCTURE) {
-        return instance_resize(instance, (uint64_t)values[0]);
+        return instance_resize(instance, values[0]);
     }
     memcpy(instance->model.values + instance->model.offset[index] + first, values, count * sizeof *values);
     instance->is_stale = true;

@@ -65,7 +65,7 @@ Status instance_require(Instance *instance, const char *function, int modes);
 Status instance_reset(Instance *instance);
 
 /* Change the number of coils; every value returns to its start value. */
-Status instance_resize(Instance *instance, uint64_t coils);
+Status instance_resize(Instance *instance, double coils);
 
 /* Copy all values of variable `index` from or to element `first`, `count` values. */
 Status instance_get(Instance *instance, size_t index, size_t first, size_t count, double *values);

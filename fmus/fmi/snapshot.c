@@ -55,7 +55,7 @@ Status snapshot_restore(Instance *instance, const Snapshot *snapshot)
         return instance_refuse(instance, "the saved state belongs to the other interface (Co-Simulation or Model "
                                          "Exchange)");
     }
-    if (snapshot->coils != instance->model.coils && instance_resize(instance, snapshot->coils) != STATUS_OK) {
+    if (snapshot->coils != instance->model.coils && instance_resize(instance, (double)snapshot->coils) != STATUS_OK) {
         return STATUS_ERROR;
     }
     memcpy(instance->model.values, snapshot->values, instance->model.length * sizeof(double));

@@ -134,6 +134,9 @@ def test_stiffness_is_continuous_across_the_crossing(bath, distance):
     again = bath.to(CROSSING - distance)
     assert abs(above - below) <= 2.0 * STEEPEST * distance + ROUNDING
     assert abs(again - above) <= 2.0 * STEEPEST * distance + ROUNDING
+    bath.to(90.0)
+    assert bath.to(CROSSING + distance) == pytest.approx(float(heating(CROSSING + distance)), abs=ROUNDING)
+    assert bath.to(CROSSING - distance) == pytest.approx(float(cooling(CROSSING - distance)), abs=ROUNDING)
 
 
 def test_other_branches_that_never_cross_keep_their_loop_open(make_unit):

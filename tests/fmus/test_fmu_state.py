@@ -87,6 +87,21 @@ def test_a_state_includes_the_parameters(make_unit, model, version, interface):
     np.testing.assert_array_equal(other.get("rest_length"), 0.012)
 
 
+@pytest.mark.parametrize("version", [3, 2])
+def test_outputs_are_computed_anew_after_a_return(make_unit, version):
+    """The state was saved after the input had changed, but before any output was read."""
+    unit = started(make_unit, "instant_stiffness", version)
+    unit.set("power", np.full(36, 0.4))
+    state = unit.binding.save()
+    unit.set("power", np.zeros(36))
+    unit.do_step(0, STEP)
+    assert unit.get("stiffness")[0] == 157.1
+    unit.binding.restore(state)
+    unit._read_outputs(0)
+    np.testing.assert_array_equal(unit.get("stiffness"), 356.05951795685417)
+    unit.binding.free_state(state)
+
+
 def test_a_state_brings_its_number_of_coils_along(make_unit):
     small, large = started(make_unit, coils=6), started(make_unit, coils=36)
     data = small.binding.serialise()
