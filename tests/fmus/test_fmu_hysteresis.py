@@ -137,6 +137,7 @@ def test_stiffness_is_continuous_across_the_crossing(bath, distance):
     bath.to(90.0)
     assert bath.to(CROSSING + distance) == pytest.approx(float(heating(CROSSING + distance)), abs=ROUNDING)
     assert bath.to(CROSSING - distance) == pytest.approx(float(cooling(CROSSING - distance)), abs=ROUNDING)
+    assert bath.to(CROSSING + distance) == pytest.approx(float(heating(CROSSING + distance)), abs=ROUNDING)
 
 
 def test_other_branches_that_never_cross_keep_their_loop_open(make_unit):
