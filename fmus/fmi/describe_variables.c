@@ -47,9 +47,8 @@ static void write_quantity(const Variable *v)
     }
 }
 
-void write_variables_fmi3(void)
+static void write_arrays(void)
 {
-    printf("  <ModelVariables>\n");
     size_t rank = 0;
     for (size_t i = 0; i < VARIABLE_COUNT; i++) {
         const Variable *v = &model_variables[i];
@@ -78,7 +77,10 @@ void write_variables_fmi3(void)
             printf("/>\n");
         }
     }
-    printf("  </ModelVariables>\n  <ModelStructure>\n");
+}
+
+static void write_structure(void)
+{
     const char *const elements[] = {"Output", "ContinuousStateDerivative", "InitialUnknown"};
     for (int pass = 0; pass < 3; pass++) {
         for (size_t i = 0; i < VARIABLE_COUNT; i++) {
@@ -102,6 +104,14 @@ void write_variables_fmi3(void)
             printf("/>\n");
         }
     }
+}
+
+void write_variables_fmi3(void)
+{
+    printf("  <ModelVariables>\n");
+    write_arrays();
+    printf("  </ModelVariables>\n  <ModelStructure>\n");
+    write_structure();
     printf("  </ModelStructure>\n");
 }
 
