@@ -76,7 +76,8 @@ def load_parameter_set(path: Path) -> ParameterSet:
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise InputError(path, "", f"it cannot be read: {error}", "give a YAML file") from error
     except pydantic.ValidationError as error:
-        fault = error.errors()[0]
+        # A value may be a switch or a number; of the two refusals the one of the number says more.
+        fault = next((f for f in error.errors() if f["loc"][-1] != "bool"), error.errors()[0])
         key = ".".join(map(str, fault["loc"]))
         raise InputError(path, key, fault["msg"].removeprefix("Value error, "),
                          "each parameter needs value, unit and source")  # fmt: skip
