@@ -23,6 +23,7 @@ from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import (
+    CONNECTION,
     CircuitComponent,
     Component,
     FabricComponent,
@@ -55,7 +56,7 @@ FABRIC_UNITS = {
     "steel_rest_length": "m",
 }
 
-_CONNECTION = re.compile(r"^\s*(\w+)\.(\w+)\s*->\s*(\w+)\.(\w+)\s*$")
+_CONNECTION = re.compile(CONNECTION)
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Annotated
 
 import pydantic
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, StrictBool
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from cosim.errors import InputError
-from cosim.quantity import In, PhysicalValue
+from cosim.quantity import In, PhysicalValue, parse_unit
 from cosim.scenario import ParameterValue, scenario_folder
+from cosim.yaml_file import input_error, parse_yaml, read_text
 
 
 class Parameter(BaseModel):
@@ -23,6 +23,13 @@ class Parameter(BaseModel):
     value: StrictBool | Annotated[PhysicalValue, In()]
     unit: str = ""
     source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why.")
+
+    @model_validator(mode="after")
+    def _check(self) -> Parameter:
+        if isinstance(self.value, PhysicalValue) and self.value.unit:
+            raise ValueError(f"give the unit of `{self.value}` under `unit`, and the number alone under `value`")
+        parse_unit(self.unit)
+        return self
 
     def quantity(self) -> bool | PhysicalValue:
         """The value with its unit."""
@@ -72,15 +79,9 @@ def load_parameter_set(path: Path) -> ParameterSet:
         InputError: It is no YAML or a key or value is wrong.
     """
     try:
-        return ParameterSet.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InputError(path, "", f"it cannot be read: {error}", "give a YAML file") from error
+        return ParameterSet.model_validate(parse_yaml(read_text(path), path))
     except pydantic.ValidationError as error:
-        # A value may be a switch or a number; of the two refusals the one of the number says more.
-        fault = next((f for f in error.errors() if f["loc"][-1] != "bool"), error.errors()[0])
-        key = ".".join(map(str, fault["loc"]))
-        raise InputError(path, key, fault["msg"].removeprefix("Value error, "),
-                         "each parameter needs value, unit and source")  # fmt: skip
+        raise input_error(path, error, "each parameter needs value, unit and source") from error
 
 
 def resolve(set_name: str | None, overrides: Mapping[str, ParameterValue], scenario_file: Path) -> Resolved:

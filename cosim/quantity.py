@@ -83,6 +83,8 @@ class PhysicalValue:
         if match is None:
             raise ValueError(f"{value!r} is not a number with a unit, such as `1.5 mm`")
         parse_unit(match["unit"])
+        if not math.isfinite(float(match["number"])):
+            raise ValueError(f"`{value}` is not a finite number")
         return cls(float(match["number"]), match["unit"])
 
     def to(self, unit: str) -> float:
@@ -95,8 +97,10 @@ class PhysicalValue:
             raise ValueError(f"{self.number:g} has no unit; write for example `{self.number:g} {unit}`")
         try:
             wanted = registry().Quantity(self.number, parse_unit(self.unit)).to(parse_unit(unit))
-        except pint.DimensionalityError as error:
+        except (pint.PintError, ArithmeticError) as error:
             raise ValueError(f"`{self}` is no quantity in {unit}") from error
+        if not math.isfinite(wanted.magnitude):
+            raise ValueError(f"`{self}` is too large for a number in {unit}")
         # Through a decimal of 15 digits, so that 22 degC is 295.15 K and 0.1 ms is 1e-4 s, without binary debris.
         return float(f"{float(wanted.magnitude):.15g}")
 

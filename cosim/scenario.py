@@ -6,6 +6,7 @@ their units. `json_schema()` is what editors use to complete and check a file.
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,10 +17,14 @@ from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
 from cosim.unit import NANOSECONDS
+from cosim.yaml_file import input_error, parse_yaml, read_text
 
+_REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
 Time = Annotated[PhysicalValue, In("s")]
 Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
 AnyQuantity = Annotated[PhysicalValue, In()]
+#: `component.output -> component.input`; variables of an FMU may hold dots and brackets themselves.
+CONNECTION = r"^\s*(\w+)\.(\S+)\s*->\s*(\w+)\.(\S+)\s*$"
 ParameterValue = StrictBool | AnyQuantity | list[AnyQuantity]
 
 
@@ -103,7 +108,7 @@ class ProgrammeOutput(Strict):
                 assert element is not None
                 element.to(self.unit)
         times = [nanoseconds(t) for t, _ in self.points or []]
-        if any(a >= b for a, b in zip(times, times[1:], strict=False)):
+        if any(a >= b for a, b in itertools.pairwise(times)):
             raise ValueError("the times of `points` must rise")
         return self
 
@@ -155,9 +160,7 @@ class Solver(Strict):
 
     micro_step: Duration = PhysicalValue(0.5, "ms")
     iterations: Annotated[int, Field(ge=1)] = 50
-    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(
-        1.0, "mm"
-    )
+    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(1.0, "mm")
 
 
 class FabricComponent(Strict):
@@ -196,7 +199,7 @@ class Scenario(Strict):
     time: TimeSettings
     algorithm: Algorithm = Algorithm()
     components: dict[Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")], Component]
-    connections: list[Annotated[str, Field(pattern=r"^\s*\w+\.\w+\s*->\s*\w+\.\w+\s*$")]]
+    connections: list[Annotated[str, Field(pattern=CONNECTION)]]
     path: Path | None = Field(default=None, exclude=True, description="File that it was read from.")
 
     @model_validator(mode="after")
@@ -212,19 +215,16 @@ class Scenario(Strict):
         start, macro = nanoseconds(self.time.start), nanoseconds(self.time.macro_step)
         for name, component in self.components.items():
             if isinstance(component, FabricComponent):
-                micro = nanoseconds(component.solver.micro_step)
-                if macro % micro:
-                    raise ValueError(
-                        f"components.{name}.solver.micro_step ({component.solver.micro_step}) must divide "
-                        f"time.macro_step ({self.time.macro_step}) into a whole number of steps"
-                    )
-            if not isinstance(component, ProgrammeComponent):
-                continue
-            for output, given in component.outputs.items():
-                for moment, _ in given.points or []:
-                    if (nanoseconds(moment) - start) % macro:
+                micro = component.solver.micro_step
+                if macro % nanoseconds(micro):
+                    raise ValueError(f"components.{name}.solver.micro_step ({micro}) must divide time.macro_step "
+                                     f"({self.time.macro_step}) into a whole number of steps")  # fmt: skip
+            if isinstance(component, ProgrammeComponent):
+                for output, given in component.outputs.items():
+                    late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]
+                    if late:
                         raise ValueError(
-                            f"components.{name}.outputs.{output}: {moment} is not a whole number of macro-steps "
+                            f"components.{name}.outputs.{output}: {late[0]} is not a whole number of macro-steps "
                             f"({self.time.macro_step}) after the start; move it, or choose another macro_step"
                         )
 
@@ -232,9 +232,13 @@ class Scenario(Strict):
         """Components in stepping order."""
         return self.algorithm.order or list(self.components)
 
-    def to_yaml(self) -> str:
-        """The scenario as YAML that `load_scenario` reads back to an equal scenario."""
-        data = self.model_dump(mode="json", exclude_defaults=True)
+    def to_yaml(self, is_complete: bool = False) -> str:
+        """The scenario as YAML that `load_scenario` reads back to an equal scenario.
+
+        Args:
+            is_complete: Write defaults too, so that the text keeps its meaning where a default changes later.
+        """
+        data = self.model_dump(mode="json", exclude_defaults=not is_complete, exclude_none=True)
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110)
 
 
@@ -248,19 +252,16 @@ def parse_scenario(text: str, source: Path) -> Scenario:
     Raises:
         InputError: It is no YAML, or a key or value is wrong; all faults are listed, each with its key.
     """
-    try:
-        data = yaml.load(text, Loader=_UniqueKeyLoader)  # noqa: S506  (a SafeLoader that refuses doubled keys)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise InputError(source, where, f"not valid YAML: {getattr(error, 'problem', error)}", "correct it") from error
+    data = parse_yaml(text, source)
     if not isinstance(data, dict):
         raise InputError(source, "", "a scenario is a mapping with the keys title, time, components, connections",
                          "copy one from `cosim list`")  # fmt: skip
+    if "path" in data:
+        raise InputError(source, "path", "there is no such key here", "remove it: the path is that of the file itself")
     try:
         return Scenario.model_validate({**data, "path": source})
     except pydantic.ValidationError as error:
-        raise _input_error(source, error) from error
+        raise input_error(source, error, _REMEDY) from error
 
 
 def load_scenario(path: str | Path) -> Scenario:
@@ -270,11 +271,7 @@ def load_scenario(path: str | Path) -> Scenario:
         InputError: There is no such file, or it is wrong.
     """
     found = find_scenario(path)
-    try:
-        text = found.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(found, "", f"it cannot be read: {error}", "give a YAML file") from error
-    return parse_scenario(text, found)
+    return parse_scenario(read_text(found), found)
 
 
 def scenario_folder() -> Path:
@@ -303,31 +300,3 @@ def json_schema() -> dict[str, Any]:
     schema = Scenario.model_json_schema(mode="validation")
     schema["properties"].pop("path", None)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
-
-
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """YAML keeps the last of two equal keys silently; here it is an error."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen: set[Any] = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if key in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"the key `{key}` stands twice", key_node.start_mark
-                )
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
-def _input_error(source: Path, error: pydantic.ValidationError) -> InputError:
-    faults = []
-    for fault in error.errors():
-        key = ".".join(str(part) for part in fault["loc"] if part not in ("function-plain", "constrained-str"))
-        message = fault["msg"].removeprefix("Value error, ")
-        if fault["type"] == "extra_forbidden":
-            message = "there is no such key here"
-        faults.append((key, message))
-    first, rest = faults[0], faults[1:]
-    more = "".join(f"\n  also {key}: {message}" for key, message in rest)
-    return InputError(source, first[0], first[1] + more, "`cosim schema` prints every key; `cosim list` shows examples")

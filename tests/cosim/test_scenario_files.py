@@ -54,8 +54,12 @@ def test_every_shipped_scenario_points_editors_to_the_schema(name):
 
 
 FABRIC = ("components", "fabric")
+STIFFNESS = ("components", "coil", "outputs", "stiffness")
 WRONG = [
     (("colour",), "blue", "colour", "there is no such key"),
+    (("path",), "elsewhere.yaml", "path", "there is no such key"),
+    (("time", "stop"), "1e999 s", "time.stop", "`1e999 s` is not a finite number"),
+    (("time", "stop"), "1e308 year", "time.stop", "is too large"),
     (("time", "stop"), "5 V", "time.stop", "is no quantity in s"),
     (("time", "stop"), 5, "time.stop", "has no unit; write for example `5 s`"),
     (("time", "stop"), "-1 s", "time", "must come after start"),
@@ -63,22 +67,27 @@ WRONG = [
     (("time", "macro_step"), "0 s", "time.macro_step", "must be greater than 0 s"),
     (("time", "macro_step"), "0.3 ns", "time", "whole number of nanoseconds"),
     (("time", "stop"), ".nan s", "time.stop", "not a number with a unit"),
-    (("time", "stop"), None, "time.stop", "Field required"),
+    (("time", "stop"), None, "time.stop", "this key is missing"),
     ((*FABRIC, "rows"), 1, "components.fabric", "greater than or equal to"),
     ((*FABRIC, "tether", "kind"), "nailed", "components.fabric", "'cantilever' or 'hanging'"),
-    ((*FABRIC, "kind"), "cloth", "components.fabric", "bullet_fabric"),
+    ((*FABRIC, "kind"), "cloth", "components.fabric", "`kind` must be one of: programme, ngspice, fmu, bullet_fabric"),
     ((*FABRIC, "solver"), {"micro_step": "0.3 ms"}, "components.fabric.solver.micro_step", "whole number of steps"),
     ((*FABRIC, "solver"), {"iterations": 0}, "iterations", "greater than or equal to 1"),
-    (("connections",), ["coil.stiffness = fabric.stiffness"], "connections.0", "pattern"),
-    (("algorithm",), {"kind": "jacobi", "order": ["coil"]}, "algorithm.order", "every component once"),
-    (("components", "coil", "outputs", "stiffness"), {"unit": "N/m"}, "components.coil", "either `constant` or `points`"),
     (
-        ("components", "coil", "outputs", "stiffness"),
+        ("connections",),
+        ["coil.stiffness = fabric.stiffness"],
+        "connections.0",
+        "write `component.output -> component.in",
+    ),
+    (("algorithm",), {"kind": "jacobi", "order": ["coil"]}, "algorithm.order", "every component once"),
+    (STIFFNESS, {"unit": "N/m"}, "components.coil", "either `constant` or `points`"),
+    (
+        STIFFNESS,
         {"unit": "N/m", "points": [["0 s", "1 N/m"], ["5 ms", "2 N/m"]]},
         "components.coil.outputs.stiffness",
         "not a whole number of macro-steps",
     ),
-    (("components", "coil", "outputs", "stiffness"), {"unit": "N/m", "constant": "3 K"}, "components.coil", "no quantity"),
+    (STIFFNESS, {"unit": "N/m", "constant": "3 K"}, "components.coil", "no quantity"),
 ]
 
 
@@ -106,6 +115,10 @@ def test_all_faults_are_listed_at_once():
         ("- a\n- b\n", "a scenario is a mapping"),
         ("title: a\ntitle: b\n", "the key `title` stands twice"),
         ("", "a scenario is a mapping"),
+        ("? [a, b]\n: c\n", "line 1, column 3: not valid YAML: a list or mapping is no key"),
+        ("title: 2026-02-31\n", "not valid YAML"),
+        ("[" * 5000, "not valid YAML"),
+        ("title: !!python/object/apply:os.getcwd []\n", "could not determine a constructor"),
     ],
 )
 def test_text_that_is_no_scenario_is_refused(text, what):
@@ -150,6 +163,7 @@ def test_what_only_the_units_can_tell_is_refused_before_the_run(path, value, wha
         ({"value": 1.0, "unit": "blobs", "source": "a guess"}, "blobs"),
         ({"value": 1.0, "unit": "mm", "source": "a guess", "colour": 1}, "colour"),
         ({"value": ".inf", "unit": "mm", "source": "a guess"}, "not a number with a unit"),
+        ({"value": "1 cm", "unit": "mm", "source": "a guess"}, "give the unit of `1 cm` under `unit`"),
     ],
 )
 def test_a_parameter_needs_value_unit_and_source(tmp_path, change, what):
@@ -157,6 +171,25 @@ def test_a_parameter_needs_value_unit_and_source(tmp_path, change, what):
     text = changed((*FABRIC, "parameter_set"), "mine.yaml")
     with pytest.raises(InputError, match=what):
         assemble(parse_scenario(text, tmp_path / "scenario.yaml"))
+
+
+def test_a_parameter_that_stands_twice_is_refused(tmp_path):
+    one = "  tolerance: {value: 1, unit: mm, source: a guess}\n"
+    (tmp_path / "mine.yaml").write_text(f"title: mine\nparameters:\n{one}{one}")
+    with pytest.raises(InputError, match="line 4, column 3: not valid YAML: the key `tolerance` stands twice"):
+        assemble(parse_scenario(changed((*FABRIC, "parameter_set"), "mine.yaml"), tmp_path / "scenario.yaml"))
+
+
+def test_a_fault_in_a_component_is_named_by_the_keys_of_the_file():
+    wrong = [
+        ((*FABRIC, "parameters"), {"link_mass": "seven"}, "components.fabric.parameters.link_mass"),
+        ((*FABRIC, "solver"), {"micro_step": "1 mm"}, "components.fabric.solver.micro_step"),
+        (("components", "coil", "outputs", "stiffness", "constant"), "x", "components.coil.outputs.stiffness.constant"),
+    ]
+    for path, value, key in wrong:
+        with pytest.raises(InputError) as caught:
+            parse_scenario(changed(path, value), Path("mine.yaml"))
+        assert caught.value.key == key
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,95 @@
+"""YAML files that a user writes: read strictly, with every fault named by its key."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Hashable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pydantic
+import yaml
+
+from cosim.errors import InputError
+
+#: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
+_MEMBER = re.compile(r"^(bool|function-plain\[.*|list\[.*|float|int|str)$")
+_KINDS = ("programme", "ngspice", "fmu", "bullet_fabric", "hanging_mass")
+
+
+class _UniqueKeyLoader(yaml.SafeLoader):
+    """YAML keeps the last of two equal keys silently; here it is an error."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen: set[Any] = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if not isinstance(key, Hashable):
+                raise yaml.constructor.ConstructorError(None, None, "a list or mapping is no key", key_node.start_mark)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key `{key}` stands twice", key_node.start_mark
+                )
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def read_text(path: Path) -> str:
+    """Text of a file.
+
+    Raises:
+        InputError: It cannot be read.
+    """
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(path, "", f"it cannot be read: {error}", "give a YAML file") from error
+
+
+def parse_yaml(text: str, source: Path) -> Any:
+    """Content of YAML text.
+
+    Raises:
+        InputError: It is no YAML, or a key stands twice; the text names line and column.
+    """
+    try:
+        return yaml.load(text, Loader=_UniqueKeyLoader)  # a SafeLoader
+    except (yaml.YAMLError, ValueError) as error:  # ValueError: an impossible date, which YAML takes for a value
+        mark = getattr(error, "problem_mark", None)
+        where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise InputError(source, where, f"not valid YAML: {getattr(error, 'problem', error)}", "correct it") from error
+    except RecursionError as error:
+        raise InputError(source, "", "not valid YAML: nested too deeply", "correct it") from error
+
+
+def input_error(source: Path, error: pydantic.ValidationError, remedy: str) -> InputError:
+    """All faults that pydantic found, one per key of the file."""
+    faults: dict[str, str] = {}
+    for fault in error.errors():
+        key = _key(fault["loc"])
+        # Of the members of a union the one that reads numbers says most; the others only say what they are not.
+        is_other_member = fault["type"] in ("bool_type", "list_type") and len(fault["loc"]) > 1
+        if key not in faults or (faults[key].startswith("Input should be a valid") and not is_other_member):
+            faults[key] = _message(fault)
+    (key, message), *rest = faults.items()
+    more = "".join(f"\n  also {other}: {text}" for other, text in rest)
+    return InputError(source, key, message + more, remedy)
+
+
+def _key(place: Sequence[int | str]) -> str:
+    """Keys of the file that lead to a fault, for example `components.fabric.rows`."""
+    # The third part below a component is its kind, which pydantic inserts; no key of the file stands there.
+    parts = [p for i, p in enumerate(place) if not (i == 2 and place[0] == "components" and p in _KINDS)]
+    return ".".join(str(p) for p in parts if not (isinstance(p, str) and _MEMBER.match(p)))
+
+
+def _message(fault: Any) -> str:
+    if fault["type"] == "extra_forbidden":
+        return "there is no such key here"
+    if fault["type"] == "string_pattern_mismatch" and fault["loc"][0] == "connections":
+        return f"`{fault['input']}` is no connection; write `component.output -> component.input`"
+    if fault["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        return f"`kind` must be one of: {', '.join(_KINDS)}"
+    if fault["type"] == "missing":
+        return "this key is missing"
+    return str(fault["msg"]).removeprefix("Value error, ")
