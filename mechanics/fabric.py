@@ -225,6 +225,9 @@ def _side_view(design: FabricDesign) -> tuple[Array, Array, Array, Array]:
     held = 2 * design.tether_rows if design.tether_kind == "cantilever" else 0
     tight, cold = design.held_weave, design.cold_weave
     weaves = [tight if s < held else cold for s in range(2 * design.rows)]
+    if held:
+        # A flatter link would need a longer hook than the jammed rows behind it leave room for.
+        weaves[held] = Weave(cold.bar_distance, tight.tilt, cold.pitch)
     y, z = np.zeros(len(weaves)), np.zeros(len(weaves))
     for s in range(1, len(weaves)):
         before, weave = weaves[s - 1], weaves[s]

@@ -106,6 +106,9 @@ def _coordinates(system: System, channels: list[Channel]) -> dict[str, Any]:
     for unit in system.units.values():
         for name, coordinate in unit.coordinates.items():
             if len(coordinate.values) == sizes.get(coordinate.dim):
+                if name == coordinate.dim:  # labels of the dimension itself, in place of plain numbers
+                    result[name] = _entry(coordinate)
+                    continue
                 label = name if name not in sizes and name not in result else f"{coordinate.dim}_{name}"
                 result.setdefault(label, _entry(coordinate))
     return result
