@@ -221,6 +221,20 @@ class World:
         return int(body)
 
     def _material(self, body: int, part: Half, is_fixed: bool, is_locked: bool) -> None:
+        """Friction, inertia and damping.
+
+        What concerns the whole multibody must not stand in one call with what concerns a piece: Bullet then gives the
+        base what was meant for the piece, without a word.
+        """
+        pybullet.changeDynamics(
+            body,
+            -1,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            maxJointVelocity=_NO_LIMIT,
+            activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+            physicsClientId=self._client,
+        )
         inertia = [SCALE**2 * moment for moment in part.inertia]
         for piece, is_massless in ((-1, is_fixed), (0, is_locked)):
             settings = {} if is_massless else {"localInertiaDiagonal": inertia}
@@ -232,11 +246,7 @@ class World:
                 spinningFriction=0.0,
                 rollingFriction=0.0,
                 restitution=math.sqrt(self.design.restitution),
-                linearDamping=0.0,
-                angularDamping=0.0,
                 jointDamping=0.0,
-                maxJointVelocity=_NO_LIMIT,
-                activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
                 physicsClientId=self._client,
                 **settings,
             )
