@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Callable, Mapping
@@ -13,12 +14,13 @@ import numpy as np
 from fmpy.model_description import ModelDescription
 
 from circuit.netlist import Network
+from circuit.ngspice import simulator
 from circuit.unit import CircuitUnit
 from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
-from cosim.fmu.unit import FmuSettings
+from cosim.fmu.unit import FmuSettings, FmuUnit
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
@@ -36,7 +38,7 @@ from cosim.scenario import (
     nanoseconds,
 )
 from cosim.system import Connection, ConnectionFault, System
-from cosim.unit import Unit
+from cosim.unit import Causality, Unit, UnitError
 from mechanics.fabric import FabricDesign
 from mechanics.hanging_mass import HangingMassUnit
 from mechanics.unit import FabricUnit, SolverSettings
@@ -67,11 +69,13 @@ class Assembly:
         system: Units and connections.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
+        versions: What the components compute with beside Python packages: ngspice, and every FMU with its SHA-256.
     """
 
     system: System
     start: Mapping[str, Mapping[str, float]]
     parameters: Mapping[str, Resolved]
+    versions: Mapping[str, str]
 
 
 def fmu_folder() -> Path:
@@ -92,7 +96,7 @@ def assemble(scenario: Scenario) -> Assembly:
     try:
         for name in scenario.names():
             component = scenario.components[name]
-            parameters[name] = _parameters(component, source)
+            parameters[name] = _parameters(name, component, source)
             units[name] = _build(name, component, parameters[name], scenario, source)
         connections = [_connection(text, i, units, source) for i, text in enumerate(scenario.connections)]
         sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
@@ -105,13 +109,37 @@ def assemble(scenario: Scenario) -> Assembly:
         for unit in units.values():
             unit.terminate()
         raise
-    return Assembly(system, start, parameters)
+    return Assembly(system, start, parameters, _versions(units))
 
 
-def _parameters(component: Component, source: Path) -> Resolved:
-    if isinstance(component, FmuComponent | FabricComponent):
+def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
+    found = {}
+    for name, unit in units.items():
+        if isinstance(unit, CircuitUnit):
+            found["ngspice"] = simulator().version
+        elif isinstance(unit, FmuUnit):
+            digest = hashlib.sha256(unit.archive.path.read_bytes()).hexdigest()
+            found[f"FMU of {name}"] = f"{unit.archive.path.name}, sha256 {digest}"
+    return found
+
+
+def _parameters(name: str, component: Component, source: Path) -> Resolved:
+    if not isinstance(component, FmuComponent | FabricComponent):
+        return Resolved({}, {})
+    try:
         return resolve(component.parameter_set, component.parameters, source)
-    return Resolved({}, {})
+    except InputError as error:
+        raise _within(name, source, error) from error
+
+
+def _within(name: str, source: Path, error: InputError) -> InputError:
+    """The error with the scenario as its file and the key inside it; one in another file keeps that file's name."""
+    key = error.key.removeprefix(f"{name}.")
+    if error.source == str(source) or key != error.key:
+        key = f"components.{name}.{key}" if key else f"components.{name}"
+        return InputError(source, key, error.problem, error.remedy)
+    problem = f"{error.problem} (needed by components.{name} of {source})"
+    return InputError(error.source, error.key, problem, error.remedy)
 
 
 def _build(name: str, component: Component, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
@@ -125,6 +153,10 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
         if isinstance(component, FabricComponent):
             return _fabric(name, component, parameters)
         return _fmu(name, component, parameters, source)
+    except InputError as error:
+        raise _within(name, source, error) from error
+    except UnitError as error:  # libngspice is missing
+        raise InputError(source, f"components.{name}", error.what, error.remedy) from error
     except ValueError as error:
         raise InputError(source, f"components.{name}", str(error), "correct this component") from error
 
@@ -251,8 +283,9 @@ def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[st
     for key, value in getattr(component, "start", {}).items():
         variable = unit.variables.get(key)
         where = f"components.{name}.start.{key}"
-        if variable is None:
-            raise InputError(source, where, "there is no such input", f"it has: {', '.join(unit.variables)}")
+        if variable is None or variable.causality is not Causality.INPUT:
+            inputs = ", ".join(n for n, v in unit.variables.items() if v.causality is Causality.INPUT) or "none"
+            raise InputError(source, where, "there is no such input", f"it has: {inputs}")
         try:
             values[key] = value.to(variable.unit)
         except ValueError as error:

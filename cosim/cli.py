@@ -69,7 +69,7 @@ def run(
     Ctrl-C keeps what is computed; `--resume` goes on from there to the same result.
     """
     folder = _folder(scenario, out, resume)
-    loaded = load_scenario(folder.scenario) if resume else load_scenario(scenario)
+    loaded = load_scenario(folder.scenario if resume and Path(scenario).is_dir() else scenario)
     run_into(loaded, folder, resume)
     if plots:
         _draw(folder)
@@ -95,7 +95,9 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False) -> Non
         with progress_bar(scenario.title) as on_progress:
             run_scenario(scenario, folder.path, resume, on_progress)
     except RunStopped as stopped:
-        print(f"stopped: {stopped.reason}\n  kept: {folder.results}", file=sys.stderr)
+        print(f"stopped: {stopped.reason}", file=sys.stderr)
+        if folder.summary.is_file():
+            print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:
             print(f"  go on with: cosim run {folder.path} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped

@@ -14,9 +14,10 @@ import xarray as xr
 from cosim.algorithms import gauss_seidel, jacobi
 from cosim.assemble import Assembly, assemble
 from cosim.errors import InputError
+from cosim.interrupt import Interrupt, deferred_interrupt
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
-from cosim.run_folder import RunFolder
+from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import Scenario, nanoseconds
 from cosim.system import ConnectionFault, System
 from cosim.unit import StepOutcome, StepStatus, UnitError, seconds
@@ -111,63 +112,92 @@ def run(
 
     Raises:
         InputError: Something in the scenario, an FMU or the folder is wrong.
-        RunStopped: A unit failed or the user interrupted; the values so far are in it and in the folder.
+        RunStopped: A unit failed, the disk is full or the user interrupted; the values so far are in it and, where
+            they could be written, in the folder.
     """
     folder = RunFolder(out) if out is not None else None
-    if resume and (folder is None or not folder.checkpoints()):
-        raise InputError(out or "run", "", "there is no checkpoint to resume from", "run it without `--resume`")
-    if resume and folder is not None and folder.is_complete():
-        raise InputError(folder.path, "", "this run is complete", "look at it with `cosim plot`")
+    if resume:
+        _check_resumable(folder)
+    elif folder is not None:
+        folder.refuse_existing()
     assembly = assemble(scenario)
     try:
-        if folder is not None and not resume:
-            folder.create(scenario, assembly.parameters)
+        if folder is not None and resume:
+            folder.refuse_other(scenario, assembly.parameters)
         state = _begin(scenario, assembly, folder if resume else None)
+        # The folder is made once all units are initialised: a run that cannot begin leaves none behind.
+        if folder is not None and not resume:
+            folder.create(scenario, assembly.parameters, assembly.versions)
         return _run_to_end(state, folder, on_progress)
     finally:
         assembly.system.terminate()
 
 
+def _check_resumable(folder: RunFolder | None) -> None:
+    if folder is None or not folder.scenario.is_file():
+        raise InputError(folder.path if folder else "run", "", "there is no run and no checkpoint to resume from",
+                         "run it without `--resume`")  # fmt: skip
+    if folder.is_complete():
+        raise InputError(folder.path, "", "this run is complete", "look at it with `cosim plot`")
+
+
 def _begin(scenario: Scenario, assembly: Assembly, resumed: RunFolder | None) -> _Clockwork:
     start, stop = nanoseconds(scenario.time.start), nanoseconds(scenario.time.stop)
     output = nanoseconds(scenario.time.output_step)
-    times = list(range(start, stop + 1, output))
-    trace, meter = Trace(assembly.system, times), EnergyMeter(assembly.system)
+    trace, meter = _trace(scenario, assembly.system, range(start, stop + 1, output)), EnergyMeter(assembly.system)
     state = _Clockwork(scenario, assembly, trace, meter, start, nanoseconds(scenario.time.macro_step))
-    if resumed is None:
-        try:
-            assembly.system.initialise(start, assembly.start)
-        except ConnectionFault as error:
-            raise InputError(scenario.path or "scenario", "connections", str(error)) from error
-        except UnitError as error:
-            raise InputError(scenario.path or "scenario", f"components.{error.unit}", str(error)) from error
-        trace.record(start)
-    else:
+    # A run that was interrupted before its first checkpoint starts once more.
+    if resumed is not None and resumed.checkpoints():
         _restore(state, resumed)
+    else:
+        _initialise(assembly, start, scenario.path or "scenario")
+        trace.record(start)
     state.begin, state.first_index = clock.perf_counter(), state.index
     return state
+
+
+def _initialise(assembly: Assembly, start: int, source: object) -> None:
+    try:
+        assembly.system.initialise(start, assembly.start)
+    except ConnectionFault as error:
+        raise InputError(source, "connections", str(error), "correct the connection") from error
+    except UnitError as error:
+        remedy = error.remedy or "correct this component"
+        raise InputError(source, f"components.{error.unit}", f"it cannot begin: {error.what}", remedy) from error
+
+
+def _trace(scenario: Scenario, system: System, times: range) -> Trace:
+    try:
+        return Trace(system, times)
+    except MemoryError as error:
+        raise InputError(
+            scenario.path or "scenario", "time.output_step", f"{len(times)} outputs do not fit into memory",
+            "take a longer output_step or a nearer stop",
+        ) from error  # fmt: skip
 
 
 def _restore(state: _Clockwork, folder: RunFolder) -> None:
     files = folder.checkpoints()
     for file in files:
-        with np.load(file) as content:
-            state.trace.load({k.removeprefix("trace/"): content[k] for k in content.files if k.startswith("trace/")})
-    with np.load(files[-1]) as content:
-        state.index = int(content["index"])
-        state.meter.electrical = float(content["electrical"])
-        for name, unit in state.assembly.system.units.items():
-            prefix = f"unit/{name}/"
-            unit.resume({k.removeprefix(prefix): content[k] for k in content.files if k.startswith(prefix)}, state.now)
-            state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
+        state.trace.load(_part(read_checkpoint(file), "trace/"))
+    content = read_checkpoint(files[-1])
+    state.index = int(content["index"])
+    state.meter.electrical, state.meter.largest = content["energy"].tolist()
+    for name, unit in state.assembly.system.units.items():
+        unit.resume(_part(content, f"unit/{name}/"), state.now)
+        state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
     state.written, state.is_resumed = state.trace.count, True
+
+
+def _part(content: Mapping[str, np.ndarray[Any, Any]], prefix: str) -> dict[str, np.ndarray[Any, Any]]:
+    return {key.removeprefix(prefix): value for key, value in content.items() if key.startswith(prefix)}
 
 
 def _checkpoint(state: _Clockwork, folder: RunFolder | None) -> None:
     """Every unit passes through its checkpoint even without a folder: a run must not depend on whether it is kept."""
     system = state.assembly.system
     content: dict[str, np.ndarray[Any, Any]] = {"index": np.array(state.index)}
-    content["electrical"] = np.array(state.meter.electrical)
+    content["energy"] = np.array([state.meter.electrical, state.meter.largest])
     for name, unit in system.units.items():
         content.update({f"unit/{name}/{k}": v for k, v in unit.checkpoint().items()})
         content[f"wall/{name}"] = np.array(system.wall_time[name])
@@ -182,20 +212,29 @@ def _run_to_end(
 ) -> xr.Dataset:
     reason, is_interrupt = "", False
     try:
-        _step_to_end(state, folder, on_progress)
-    except UnitError as error:
-        reason = str(error)
+        with deferred_interrupt() as interrupt:
+            _step_to_end(state, folder, on_progress, interrupt)
+    except UnitError as error:  # one raised while values are exchanged does not know the time
+        moment = state.now if error.time is None else error.time
+        reason = str(UnitError(error.unit, error.what, moment, error.remedy))
+    except InputError as error:  # a checkpoint that cannot be written
+        reason = f"at t = {seconds(state.now):.6g} s: {error}"
     except KeyboardInterrupt:
         reason, is_interrupt = f"interrupted at t = {seconds(state.now):.6g} s", True
     dataset = _finish(state, reason)
     if folder is not None:
-        folder.write_results(dataset, _summary(state, reason))
+        try:
+            folder.write_results(dataset, _summary(state, reason))
+        except InputError as error:
+            reason, is_interrupt = reason or f"at t = {seconds(state.now):.6g} s: {error}", False
     if reason:
         raise RunStopped(reason, dataset, is_interrupt)
     return dataset
 
 
-def _step_to_end(state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None) -> None:
+def _step_to_end(
+    state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
+) -> None:
     time = state.scenario.time
     step = ALGORITHMS[state.scenario.algorithm.kind]
     per_output = nanoseconds(time.output_step) // state.macro
@@ -209,6 +248,7 @@ def _step_to_end(state: _Clockwork, folder: RunFolder | None, on_progress: Calla
         state.meter.add_step(seconds(state.macro))
         if state.index % per_output == 0:
             state.trace.record(state.now)
+            state.meter.note_largest()
             if state.index % per_checkpoint == 0 and state.index < state.total:
                 _checkpoint(state, folder)
             if on_progress is not None:
@@ -216,6 +256,7 @@ def _step_to_end(state: _Clockwork, folder: RunFolder | None, on_progress: Calla
                 simulated = seconds((state.index - state.first_index) * state.macro)
                 on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
                                      seconds(state.macro)))  # fmt: skip
+        interrupt.check()
 
 
 def _finish(state: _Clockwork, reason: str) -> xr.Dataset:

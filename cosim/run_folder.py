@@ -14,12 +14,14 @@ from __future__ import annotations
 import csv
 import errno
 import importlib.metadata
+import itertools
 import json
 import os
 import platform
 import subprocess
+import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +31,7 @@ import xarray as xr
 from cosim.errors import InputError
 from cosim.parameters import Resolved
 from cosim.scenario import Scenario
+from cosim.yaml_file import read_text
 
 _PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
 
@@ -58,20 +61,29 @@ class RunFolder:
         """Status, timings and energies."""
         return self.path / "summary.json"
 
-    def create(self, scenario: Scenario, parameters: Mapping[str, Resolved]) -> None:
+    def refuse_existing(self) -> None:
+        """Raise InputError where the folder already holds a run: nothing is ever overwritten."""
+        if any(path.exists() for path in (self.scenario, self.results, self.summary, self.path / "checkpoints")):
+            raise InputError(self.path, "", "this folder already holds a run",
+                             "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
+
+    def create(self, scenario: Scenario, parameters: Mapping[str, Resolved], engines: Mapping[str, str]) -> None:
         """Make the folder of a new run.
+
+        Args:
+            scenario: What is run.
+            parameters: Component to its parameters.
+            engines: Versions of what the components compute with, beside those of `versions`.
 
         Raises:
             InputError: The folder already holds a run, or cannot be written.
         """
-        if self.scenario.exists():
-            raise InputError(self.path, "", "this folder already holds a run",
-                             "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
+        self.refuse_existing()
         with writing(self.path):
             (self.path / "checkpoints").mkdir(parents=True, exist_ok=True)
-            write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml().encode())
+            write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml(True).encode())
             self._write_parameters(parameters)
-            write_atomically(self.path / "versions.json", json.dumps(versions(), indent=2).encode())
+            write_atomically(self.path / "versions.json", json.dumps(versions() | dict(engines), indent=2).encode())
 
     def _write_parameters(self, parameters: Mapping[str, Resolved]) -> None:
         with (self.path / "parameters.csv").open("w", newline="", encoding="utf-8") as file:
@@ -82,6 +94,18 @@ class RunFolder:
                     text = "; ".join(map(str, value)) if isinstance(value, list) else str(value)
                     writer.writerow([component, name, text, resolved.sources[name]])
 
+    def refuse_other(self, scenario: Scenario, parameters: Mapping[str, Resolved]) -> None:
+        """Raise InputError where the folder holds the run of another scenario, with the first line that differs."""
+        stored = read_text(self.scenario).splitlines()
+        asked = resolved_scenario(scenario, parameters).to_yaml(True).splitlines()
+        for here, there in itertools.zip_longest(asked, stored, fillvalue="nothing"):
+            if here != there:
+                raise InputError(
+                    self.path, "", f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
+                    f"in {scenario.path}",
+                    f"resume what it holds with `cosim run {self.path} --resume`, or give another folder with `--out`",
+                )  # fmt: skip
+
     def is_complete(self) -> bool:
         """Whether the run in this folder has reached its end."""
         try:
@@ -91,28 +115,35 @@ class RunFolder:
 
     def checkpoints(self) -> list[Path]:
         """Checkpoint files in order of time."""
-        return sorted((self.path / "checkpoints").glob("*.npz"))
+        return sorted((self.path / "checkpoints").glob("*.npz"), key=lambda path: int(path.stem))
 
     def write_checkpoint(self, index: int, content: Mapping[str, np.ndarray[Any, Any]]) -> None:
         """Write checkpoint `index` as a whole or not at all."""
         with writing(self.path):
             target = self.path / "checkpoints" / f"{index:06d}.npz"
-            partial = target.with_suffix(".part")
-            with partial.open("wb") as file:
+            with replacing(target) as partial, partial.open("wb") as file:
                 np.savez(file, **content)  # type: ignore[arg-type]
                 file.flush()
                 os.fsync(file.fileno())
-            partial.replace(target)
 
     def write_results(self, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
         """Write results, main series and summary."""
         with writing(self.path):
-            partial = self.results.with_suffix(".part")
             encoding = {name: {"zlib": True, "complevel": 4} for name in dataset.data_vars}
-            dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
-            partial.replace(self.results)
+            with replacing(self.results) as partial:
+                dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
             write_series(self.path / "series.csv", dataset)
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
+
+
+def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:
+    """Content of a checkpoint; raises InputError if it cannot be read."""
+    try:
+        with np.load(file) as content:
+            return dict(content)
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise InputError(file, "", f"this checkpoint cannot be read: {error}",
+                         "delete it and those after it, then resume from the one before") from error  # fmt: skip
 
 
 @contextmanager
@@ -121,7 +152,7 @@ def writing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
         remedy = "free some room, then go on with `--resume`" if full else "give a folder that can be written, `--out`"
         raise InputError(path, "", f"the run cannot be written: {error.strerror or error}", remedy) from error
     except RuntimeError as error:  # netCDF4 reports a full disk as a RuntimeError
@@ -130,11 +161,23 @@ def writing(path: Path) -> Iterator[None]:
         raise InputError(path, "", f"the run cannot be written: {error}", "free some room, then `--resume`") from error
 
 
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """A file to write in place of `path`, which it becomes as a whole; where writing fails it is removed."""
+    partial = path.with_name(path.name + ".part")
+    try:
+        yield partial
+        partial.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            partial.unlink()
+        raise
+
+
 def write_atomically(path: Path, data: bytes) -> None:
     """Write a file as a whole or not at all."""
-    partial = path.with_name(path.name + ".part")
-    partial.write_bytes(data)
-    partial.replace(path)
+    with replacing(path) as partial:
+        partial.write_bytes(data)
 
 
 def write_series(path: Path, dataset: xr.Dataset) -> None:
@@ -151,12 +194,10 @@ def write_series(path: Path, dataset: xr.Dataset) -> None:
             for kind in ("mean", "min", "max"):
                 columns[f"{kind} {name} [{unit}]"] = getattr(np, kind)(values.values, axis=1)
     rows = zip(*columns.values(), strict=True)
-    partial = path.with_name(path.name + ".part")
-    with partial.open("w", newline="", encoding="utf-8") as file:
+    with replacing(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows([f"{value:.9g}" for value in row] for row in rows)
-    partial.replace(path)
 
 
 def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) -> Scenario:
@@ -167,8 +208,9 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
         if parameters[name].values:
             update = {"parameters": dict(parameters[name].values), "parameter_set": None}
         fmu = getattr(component, "fmu", "")
-        if fmu.endswith(".fmu") and scenario.path is not None and (scenario.path.parent / fmu).is_file():
-            update["fmu"] = str((scenario.path.parent / fmu).resolve())
+        if fmu.endswith(".fmu") and scenario.path is not None:
+            beside = scenario.path.parent / fmu
+            update["fmu"] = str((beside if beside.is_file() else Path(fmu)).resolve())
         components[name] = component.model_copy(update=update)
     return scenario.model_copy(update={"components": components})
 
@@ -176,7 +218,7 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
 def versions() -> dict[str, str]:
     """Versions of Python, the packages that compute, the machine and the commit where it is a checkout."""
     found = {"python": platform.python_version(), "platform": platform.platform()}
-    for package in ("active-chainmail-cosim", *_PACKAGES):
+    for package in ("active-chainmail", *_PACKAGES):
         try:
             found[package] = importlib.metadata.version(package)
         except importlib.metadata.PackageNotFoundError:

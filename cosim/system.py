@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cosim.unit import Array, Causality, StepOutcome, Unit, Variable
+from cosim.unit import Array, Causality, StepOutcome, Unit, UnitError, Variable
 
 
 class ConnectionFault(ValueError):
@@ -44,11 +44,14 @@ class Transfer:
     target: Unit
 
     def carry_out(self) -> None:
-        """Copy the output to the input, converted."""
+        """Copy the output to the input, converted; raises UnitError, naming the connection, if it is not finite."""
         value = self.source.get(self.connection.source[1])
         if self.connection.factor != 1.0 or self.connection.offset != 0.0:
             value = self.connection.factor * value + self.connection.offset
-        self.target.set(self.connection.target[1], value)
+        try:
+            self.target.set(self.connection.target[1], value)
+        except UnitError as error:
+            raise UnitError(error.unit, f"{error.what}, through {self.connection}", error.time, error.remedy) from error
 
 
 @dataclass

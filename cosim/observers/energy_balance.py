@@ -17,17 +17,21 @@ class EnergyBalance:
         electrical: Integral of the power of all coils, exact because power is constant over a macro-step.
         stored: Heat stored above the initial temperature, as the actuators report it.
         convected: Heat given to the surroundings, as the actuators report it.
+        largest: Largest of the three at any output time.
     """
 
     electrical: float
     stored: float
     convected: float
+    largest: float
 
     @property
     def residual(self) -> float:
-        """(stored + convected - electrical) / largest of them; 0 where nothing flowed."""
-        scale = max(abs(self.electrical), abs(self.stored), abs(self.convected))
-        return (self.stored + self.convected - self.electrical) / scale if scale else 0.0
+        """(stored + convected - electrical) / largest; 0 where nothing flowed.
+
+        After a closed cycle all three may end near zero; what flowed in between is the measure.
+        """
+        return (self.stored + self.convected - self.electrical) / self.largest if self.largest else 0.0
 
 
 class EnergyMeter:
@@ -41,15 +45,26 @@ class EnergyMeter:
         wanted = {"power", "stored_energy", "convected_energy"}
         self.units = [u for u in system.units.values() if wanted <= set(u.variables)]
         self.electrical = 0.0
+        self.largest = 0.0
 
     def add_step(self, size: float) -> None:
         """Account for a step of `size` [s] that has just been made."""
         for unit in self.units:
             self.electrical += float(np.sum(unit.get("power"))) * size
 
+    def note_largest(self) -> None:
+        """Keep the largest energy so far."""
+        self.largest = max(self.largest, abs(self.electrical), *map(abs, self._reported()))
+
     def balance(self) -> EnergyBalance | None:
         """Balance now, or None where no unit reports its energies."""
         if not self.units:
             return None
-        total = {n: sum(float(np.sum(u.get(n))) for u in self.units) for n in ("stored_energy", "convected_energy")}
-        return EnergyBalance(self.electrical, total["stored_energy"], total["convected_energy"])
+        self.note_largest()
+        return EnergyBalance(self.electrical, *self._reported(), self.largest)
+
+    def _reported(self) -> tuple[float, float]:
+        stored, convected = (
+            sum(float(np.sum(unit.get(name))) for unit in self.units) for name in ("stored_energy", "convected_energy")
+        )
+        return stored, convected

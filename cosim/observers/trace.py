@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,14 +40,17 @@ class Trace:
     Args:
         system: The system to watch.
         times: Integer output times [ns] of the whole run, the start included.
+
+    Raises:
+        MemoryError: The values of the whole run do not fit into memory.
     """
 
-    def __init__(self, system: System, times: list[int]) -> None:
+    def __init__(self, system: System, times: Sequence[int]) -> None:
         self.system = system
         self.times = times
         self.channels = _channels(system)
         self.count = 0
-        self._data = {c.name: np.full((len(times), *c.variable.shape), np.nan) for c in self.channels}
+        self._data = {c.name: np.empty((len(times), *c.variable.shape)) for c in self.channels}
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
