@@ -137,7 +137,7 @@ def _within(name: str, source: Path, error: InputError) -> InputError:
     key = error.key.removeprefix(f"{name}.")
     if error.source == str(source) or key != error.key:
         key = f"components.{name}.{key}" if key else f"components.{name}"
-        return InputError(source, key, error.problem, error.remedy)
+        return InputError(source, key, error.problem, error.remedy or "correct this component")
     problem = f"{error.problem} (needed by components.{name} of {source})"
     return InputError(error.source, error.key, problem, error.remedy)
 
@@ -156,7 +156,7 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
     except InputError as error:
         raise _within(name, source, error) from error
     except UnitError as error:  # libngspice is missing
-        raise InputError(source, f"components.{name}", error.what, error.remedy) from error
+        raise InputError(source, f"components.{name}", error.what, error.remedy or "correct this component") from error
     except ValueError as error:
         raise InputError(source, f"components.{name}", str(error), "correct this component") from error
 
@@ -223,7 +223,7 @@ def _gravity(value: ParameterValue) -> tuple[float, float, float]:
 def _fmu(name: str, component: FmuComponent, parameters: Resolved, source: Path) -> Unit:
     archive = open_fmu(find_fmu(component, source))
     try:
-        values = {k: _in_fmu_unit(k, v, archive.description) for k, v in parameters.values.items()}
+        values = {k: _in_fmu_unit(k, v, archive.description, source) for k, v in parameters.values.items()}
         settings = FmuSettings(component.structure, values)
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         return kind(name, archive, settings)
@@ -248,7 +248,7 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
     return path
 
 
-def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription) -> Any:
+def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription, source: Path) -> Any:
     if isinstance(value, bool):
         return value
     found = next((v for v in description.modelVariables if v.name in (key, f"{key}[1]")), None)
@@ -259,7 +259,7 @@ def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription)
     try:
         return [e.to(unit) for e in value] if isinstance(value, list) else value.to(unit)
     except ValueError as error:
-        raise ValueError(f"parameters.{key}: {error}") from error
+        raise InputError(source, f"parameters.{key}", str(error), f"give it in {unit}") from error
 
 
 def _connection(text: str, index: int, units: Mapping[str, Unit], source: Path) -> Connection:

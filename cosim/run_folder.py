@@ -139,7 +139,7 @@ class RunFolder:
 def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:
     """Content of a checkpoint; raises InputError if it cannot be read."""
     try:
-        with np.load(file) as content:
+        with file.open("rb") as stream, np.load(stream) as content:
             return dict(content)
     except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(file, "", f"this checkpoint cannot be read: {error}",

@@ -1,0 +1,184 @@
+"""Runs that stop early: what, where and when is said, what was computed is kept, and nothing else breaks."""
+
+import json
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cosim.errors import InputError
+from cosim.interrupt import deferred_interrupt
+from cosim.run import RunStopped, run
+from cosim.scenario import load_scenario
+
+from .short_runs import changed, drape, heating, quantity, with_parameters
+
+
+def supplied(*voltages):
+    """Single coils with 1 V on all, and `voltages` (moment, value) on the last from then on."""
+    scenario = heating()
+    old = scenario.components["supply"].outputs["voltage"]
+    one = [quantity("1 V")] * 6
+    points = [(quantity("0 s"), one), *((quantity(t), [*one[:5], quantity(v)]) for t, v in voltages)]
+    return changed(scenario, "supply", outputs={"voltage": old.model_copy(update={"points": points})})
+
+
+def tight(limit):
+    solver = drape().components["fabric"].solver.model_copy(update={"penetration_limit": quantity(limit)})
+    return changed(drape(), "fabric", solver=solver)
+
+
+def heavy():
+    """Gravity so strong that hooks open before Bullet resolves the contacts."""
+    return with_parameters(tight("10 m"), "fabric", gravity=[quantity(f"{g} m/s^2") for g in (0, 1e4, 0)])
+
+
+FAILURES = {
+    # name: scenario, what stops it
+    "overlap": (
+        lambda: tight("1 um"),
+        r"fabric at t = [\d.]+ s: link \d+ \(row \d, place \d\) and link \d+ .* overlap by",
+    ),
+    "torn": (heavy, r"fabric at t = 0.0\d s: link \d+ \(row \d, place \d\) is torn free of link"),
+    "fmu": (
+        lambda: with_parameters(heating(), "actuator", resistance_temperature_coefficient="-0.05 1/K"),
+        r"actuator at t = 0.7 s: fmi3DoStep returned error: resistance\[6\] = -[\d.]+ ohm: it must be positive",
+    ),
+    "not finite": (
+        lambda: supplied(("1 s", "1e160 V")),
+        r"at t = 1 s: .*power\[5\] is not a finite number, through circuit.power -> actuator.power",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")
+@pytest.mark.parametrize("name", FAILURES)
+def test_a_failure_says_what_where_and_when_and_keeps_the_results_so_far(tmp_path, name):
+    make, what = FAILURES[name]
+    with pytest.raises(RunStopped, match=what) as stopped:
+        run(make(), tmp_path / "run")
+    assert not stopped.value.is_interrupt
+    kept = xr.load_dataset(tmp_path / "run" / "results.nc")
+    assert kept.sizes["time"] >= 1
+    assert kept.attrs["status"] == stopped.value.reason
+    assert all(np.isfinite(v.values).all() for v in kept.data_vars.values())
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["status"] == stopped.value.reason
+    assert summary["simulated_until_s"] >= float(kept["time"][-1])
+
+
+def test_results_before_a_failure_are_those_of_a_run_that_goes_well():
+    with pytest.raises(RunStopped) as stopped, np.errstate(over="ignore"):
+        run(supplied(("1 s", "1e160 V")))
+    kept, well = stopped.value.dataset, run(supplied())
+    assert float(kept["time"][-1]) == 1.0
+    for name in kept.data_vars:
+        assert np.array_equal(kept[name].values, well[name].values[: kept.sizes["time"]]), name
+
+
+def test_a_failed_run_that_is_resumed_fails_again_at_the_same_time(tmp_path):
+    with pytest.raises(RunStopped) as first, np.errstate(over="ignore"):
+        run(supplied(("2.3 s", "1e160 V")), tmp_path / "run")
+    with pytest.raises(RunStopped) as second, np.errstate(over="ignore"):
+        run(load_scenario(tmp_path / "run" / "scenario.yaml"), tmp_path / "run", resume=True)
+    assert second.value.reason == first.value.reason
+    assert json.loads((tmp_path / "run" / "summary.json").read_text())["resumed"] is True
+
+
+def test_a_run_that_cannot_begin_is_bad_input_and_leaves_no_folder(tmp_path):
+    scenario = changed(heating(), "circuit", start={"resistance": quantity("-1 ohm")})
+    with pytest.raises(InputError, match=r"resistance of coil 1 is -1\.0 Ohm") as caught:
+        run(scenario, tmp_path / "run")
+    assert caught.value.key == "components.circuit"
+    assert caught.value.remedy
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_an_interrupt_takes_effect_between_two_steps(tmp_path):
+    def interrupt(progress):
+        if progress.done == 17:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(RunStopped, match=r"interrupted at t = 1.7 s") as stopped:
+        run(heating(), tmp_path / "run", on_progress=interrupt)
+    assert stopped.value.is_interrupt
+    assert stopped.value.dataset.sizes["time"] == 18
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_interrupt_acts_at_once():
+    with deferred_interrupt() as interrupt:
+        os.kill(os.getpid(), signal.SIGINT)
+        assert interrupt.is_requested
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+
+
+def test_a_run_in_another_thread_leaves_the_signals_alone():
+    handlers, sizes = [], []
+
+    def work():
+        result = run(heating(), on_progress=lambda _: handlers.append(signal.getsignal(signal.SIGINT)))
+        sizes.append(result.sizes["time"])
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert sizes == [31]
+    assert set(handlers) == {signal.default_int_handler}
+
+
+def test_a_run_interrupted_before_its_first_checkpoint_starts_again_when_resumed(tmp_path):
+    def interrupt(progress):
+        if progress.done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(RunStopped):
+        run(heating(), tmp_path / "run", on_progress=interrupt)
+    assert list((tmp_path / "run" / "checkpoints").iterdir()) == []
+    resumed, whole = run(heating(), tmp_path / "run", resume=True), run(heating())
+    assert all(np.array_equal(resumed[n].values, whole[n].values) for n in whole.data_vars)
+
+
+def interrupted(folder, done=25):
+    def interrupt(progress):
+        if progress.done == done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(RunStopped):
+        run(heating(), folder, on_progress=interrupt)
+
+
+def test_another_scenario_is_not_resumed_into_a_folder(tmp_path):
+    interrupted(tmp_path / "run")
+    other = with_parameters(heating(), "actuator", volume="8 mm^3")
+    what = r"another scenario: `volume: 7.328 mm\^3` there, `volume: 8 mm\^3` in"
+    with pytest.raises(InputError, match=what) as caught:
+        run(other, tmp_path / "run", resume=True)
+    assert "--resume" in caught.value.remedy
+    assert run(heating(), tmp_path / "run", resume=True).sizes["time"] == 31
+
+
+def test_a_checkpoint_that_is_damaged_is_named_with_the_way_out(tmp_path):
+    interrupted(tmp_path / "run")
+    first, last = sorted((tmp_path / "run" / "checkpoints").iterdir())
+    last.write_bytes(last.read_bytes()[:100])
+    with pytest.raises(InputError, match="this checkpoint cannot be read") as caught:
+        run(heating(), tmp_path / "run", resume=True)
+    assert caught.value.source == str(last)
+    last.unlink()
+    resumed, whole = run(heating(), tmp_path / "run", resume=True), run(heating())
+    assert first.exists()
+    assert all(np.array_equal(resumed[n].values, whole[n].values) for n in whole.data_vars)
+
+
+def test_a_run_too_long_for_memory_is_refused():
+    clock = heating().time.model_copy(update={"stop": quantity("1e12 s"), "checkpoint_step": quantity("1e12 s")})
+    with pytest.raises(InputError, match="outputs do not fit into memory") as caught:
+        run(heating().model_copy(update={"time": clock}))
+    assert caught.value.key == "time.output_step"
