@@ -35,6 +35,8 @@ from cosim.yaml_file import read_text
 
 _PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
 
+_MAKE_ROOM = "free some room, then go on with `--resume`"
+
 
 class RunFolder:
     """Paths and files of a run.
@@ -153,12 +155,12 @@ def writing(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-        remedy = "free some room, then go on with `--resume`" if full else "give a folder that can be written, `--out`"
+        remedy = _MAKE_ROOM if full else "give a folder that can be written, `--out`"
         raise InputError(path, "", f"the run cannot be written: {error.strerror or error}", remedy) from error
-    except RuntimeError as error:  # netCDF4 reports a full disk as a RuntimeError
+    except RuntimeError as error:  # netCDF4 reports a full disk as "NetCDF: HDF error"
         if "HDF" not in str(error) and "space" not in str(error):
             raise
-        raise InputError(path, "", f"the run cannot be written: {error}", "free some room, then `--resume`") from error
+        raise InputError(path, "", f"the run cannot be written: {error} (is the disk full?)", _MAKE_ROOM) from error
 
 
 @contextmanager

@@ -11,6 +11,8 @@ import pytest
 from cosim import cli
 
 ROOT = Path(__file__).resolve().parents[2]
+#: As the user gave it: loading ngspice in this process writes its place into the environment.
+ENVIRONMENT = dict(os.environ)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -54,7 +56,7 @@ def start():
         process = subprocess.Popen(
             [sys.executable, "-c", program, *map(str, arguments)],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            env={**os.environ, "PYTHONPATH": str(ROOT), **environment},
+            env={**ENVIRONMENT, "COSIM_FMU_PATH": os.environ["COSIM_FMU_PATH"], "PYTHONPATH": str(ROOT), **environment},
         )  # fmt: skip
         processes.append(process)
         return process

@@ -1,6 +1,7 @@
 """Whole runs: folder, resumption, repetition, balances."""
 
 import csv
+import itertools
 import json
 import math
 
@@ -154,7 +155,7 @@ def test_the_electro_thermal_loop_converges_with_first_order(algorithm):
 
     exact = temperature("1 ms")
     errors = [np.abs(temperature(f"{h} ms") - exact).max() for h in (200, 100, 50)]
-    orders = [math.log2(a / b) for a, b in zip(errors, errors[1:], strict=False)]
+    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
     assert orders == pytest.approx([1.0, 1.0], abs=0.1)
 
 
