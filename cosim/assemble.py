@@ -14,7 +14,6 @@ import numpy as np
 from fmpy.model_description import ModelDescription
 
 from circuit.netlist import Network
-from circuit.ngspice import simulator
 from circuit.unit import CircuitUnit
 from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
@@ -69,7 +68,7 @@ class Assembly:
         system: Units and connections.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
-        versions: What the components compute with beside Python packages: ngspice, and every FMU with its SHA-256.
+        versions: What the components compute with beside Python packages: every FMU with its SHA-256.
     """
 
     system: System
@@ -115,9 +114,7 @@ def assemble(scenario: Scenario) -> Assembly:
 def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
     found = {}
     for name, unit in units.items():
-        if isinstance(unit, CircuitUnit):
-            found["ngspice"] = simulator().version
-        elif isinstance(unit, FmuUnit):
+        if isinstance(unit, FmuUnit):
             digest = hashlib.sha256(unit.archive.path.read_bytes()).hexdigest()
             found[f"FMU of {name}"] = f"{unit.archive.path.name}, sha256 {digest}"
     return found
