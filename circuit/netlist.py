@@ -1,31 +1,45 @@
-"""The coil network as a netlist: coils in series make a string, strings are in parallel. No simulator here."""
+"""Netlist of a coil network: coils in series make a string, strings in parallel hang on one supply or one each.
+
+Pure text and numbers; nothing here calls ngspice. One string, from its supply to ground:
+
+    supply source - [supply resistance] - ammeter - [string resistance] - coil 1 - coil 2 - ... - ground
+
+Every node has a path to ground through finite resistances, also where coils are open, so no node floats and no
+`.options rshunt` (which would draw current of its own) is needed.
+"""
 
 from __future__ import annotations
 
-import itertools
-import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-#: Resistance of an open coil [Ohm]: 6 V leave 6 pA.
+#: Resistance of an open coil [ohm]. Against a true interruption it lets V / 1e12 ohm pass: 6 pA at 6 V.
 OPEN_RESISTANCE = 1e12
+
+#: Least resistance that ngspice solves to the tolerance of the unit [ohm]. libngspice 39 returned the current of
+#: 6 V / 2.2 ohm with a relative error of 2.5e-7 beside 1 nanoohm, 1e-10 beside 1 microohm; 0 silently becomes 1 mohm.
+MIN_RESISTANCE = 1e-6
+
+#: Greatest resistance that is not an open coil [ohm].
+MAX_RESISTANCE = OPEN_RESISTANCE
 
 
 @dataclass(frozen=True)
 class Network:
-    """Strings of coils.
+    """Strings in parallel, coils in series; coils are counted from 1, string by string, from supply to ground.
 
     Args:
-        strings: Number of coils of every string.
-        supply: "common": one voltage source for all strings; "per_string": one for each.
-        supply_resistance: Internal resistance of every source [Ohm].
-        string_resistance: Resistance of the leads of every string [Ohm].
-        open_coils: Coils that are open, counted from 1, string by string.
-        shorted_coils: Coils that are shorted.
+        strings: Number of coils of every string; (6, 6, 6, 6, 6, 6) is the paper's prototype (section 2.2).
+        supply: One supply for all strings, or one for each.
+        supply_resistance: In series with every source [ohm]; 0 is an ideal source.
+        string_resistance: In series with every string, for example its wires [ohm].
+        open_coils: Interrupted coils, `OPEN_RESISTANCE` each. Several in one string share its voltage equally.
+        shorted_coils: Bridged coils, an exact 0 V; ngspice cannot take 0 ohm.
 
     Raises:
-        ValueError: No strings, an empty string, a resistance that is negative or not finite, or a coil that does not
-            exist or is both open and shorted.
+        ValueError: A string without coils, a resistance out of range, a coil that does not exist or is both open and
+            shorted, or strings of shorted coils alone that nothing limits the current of.
     """
 
     strings: tuple[int, ...]
@@ -36,28 +50,44 @@ class Network:
     shorted_coils: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.strings or any(not isinstance(n, int) or isinstance(n, bool) or n < 1 for n in self.strings):
-            raise ValueError(f"strings is {list(self.strings)}: give at least one string of at least one coil")
+        if not self.strings:
+            raise ValueError("a network without strings; give the number of coils of each, for example [6, 6]")
+        for number, coils in enumerate(self.strings, 1):
+            if coils < 1:
+                raise ValueError(f"string {number} has {coils} coils; every string needs at least one")
         if self.supply not in ("common", "per_string"):
-            raise ValueError(f"supply is {self.supply!r}: give 'common' or 'per_string'")
-        for name in ("supply_resistance", "string_resistance"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise ValueError(f"{name} is {value} Ohm: give zero or a positive number")
-        for name in ("open_coils", "shorted_coils"):
-            wrong = [c for c in getattr(self, name) if not 1 <= c <= self.coils]
-            if wrong:
-                raise ValueError(f"{name} names coil {wrong[0]}: there are coils 1 to {self.coils}")
+            raise ValueError(f"supply {self.supply!r} is unknown; use `common` or `per_string`")
+        for name, value in (("supply", self.supply_resistance), ("string", self.string_resistance)):
+            if value != 0.0 and not MIN_RESISTANCE <= value <= MAX_RESISTANCE:
+                raise ValueError(
+                    f"{name}_resistance is {value:g} ohm; give 0 or {MIN_RESISTANCE:g} to {MAX_RESISTANCE:g} ohm"
+                )
+        self._check_faults()
+        self._check_short_circuits()
+
+    def _check_faults(self) -> None:
+        for name, coils in (("open_coils", self.open_coils), ("shorted_coils", self.shorted_coils)):
+            for coil in coils:
+                if not 1 <= coil <= self.coils:
+                    raise ValueError(f"{name}: there is no coil {coil}; coils are numbered 1 to {self.coils}")
+            if len(set(coils)) != len(coils):
+                raise ValueError(f"{name} {list(coils)} names a coil twice; name each once")
         both = sorted(set(self.open_coils) & set(self.shorted_coils))
         if both:
-            raise ValueError(f"coil {both[0]} is both in open_coils and in shorted_coils: it can be only one")
-        if self.supply_resistance == 0 and self.string_resistance == 0:
-            for string, coils in enumerate(self.members()):
-                if all(c + 1 in self.shorted_coils for c in coils):
-                    raise ValueError(
-                        f"all coils of string {string + 1} are in shorted_coils, which shorts the supply: give a "
-                        "supply_resistance or a string_resistance"
-                    )
+            raise ValueError(f"coil {both[0]} is both in open_coils and in shorted_coils; leave it in one")
+
+    def _check_short_circuits(self) -> None:
+        """Zero-ohm loops have no solution, and parallel zero-ohm strings share their current arbitrarily."""
+        if self.string_resistance > 0.0:
+            return
+        shorted = set(self.shorted_coils)
+        bridged = [s for s, coils in enumerate(self.coils_of_strings(), 1) if shorted.issuperset(coils)]
+        allowed = 0 if self.supply_resistance == 0.0 else 1 if self.supply == "common" else len(self.strings)
+        if len(bridged) > allowed:
+            raise ValueError(
+                f"all coils of string {bridged[allowed]} are shorted, which leaves its current without a limit; "
+                "give a string_resistance, or leave one coil whole"
+            )
 
     @property
     def coils(self) -> int:
@@ -65,84 +95,72 @@ class Network:
         return sum(self.strings)
 
     @property
-    def supplies(self) -> int:
+    def sources(self) -> int:
         """Number of voltage sources."""
         return 1 if self.supply == "common" else len(self.strings)
 
-    def members(self) -> list[range]:
-        """Indices of the coils of every string, from 0."""
-        ends = list(itertools.accumulate(self.strings))
-        return [range(end - n, end) for n, end in zip(self.strings, ends, strict=True)]
+    def coils_of_strings(self) -> list[range]:
+        """Coil numbers (from 1) of every string."""
+        ends = [sum(self.strings[: s + 1]) for s in range(len(self.strings))]
+        return [range(end - count + 1, end + 1) for count, end in zip(self.strings, ends)]
+
+    def place(self, coil: int) -> str:
+        """A coil (from 1) in words, for error texts."""
+        string = next(s for s, coils in enumerate(self.coils_of_strings(), 1) if coil in coils)
+        return f"coil {coil} (string {string}, position {coil - self.coils_of_strings()[string - 1].start + 1})"
 
 
-@dataclass(frozen=True)
-class Netlist:
-    """Text for ngspice and the names in it.
-
-    Args:
-        text: Netlist, one element per line.
-        sources: Voltage source of every supply.
-        ammeters: Zero-volt source that measures the current of every string.
-        resistors: Element of every coil; empty where the coil is open or shorted and has no settable resistance.
-        coil_nodes: (positive, negative) node of every coil; "0" is ground.
-        supply_nodes: Node at which every string takes its current, behind the source's internal resistance.
-    """
-
-    text: str
-    sources: tuple[str, ...]
-    ammeters: tuple[str, ...]
-    resistors: tuple[str, ...]
-    coil_nodes: tuple[tuple[str, str], ...]
-    supply_nodes: tuple[str, ...]
+def source_name(source: int) -> str:
+    """Element of a voltage source (from 1)."""
+    return f"vsupply{source}"
 
 
-def netlist(network: Network) -> Netlist:
-    """Netlist of a network; voltages and resistances are set later.
+def ammeter_name(string: int) -> str:
+    """Element of the 0 V source that measures the current of a string (from 1)."""
+    return f"vstring{string}"
 
-    Every string begins with a zero-volt source as ammeter and ends at ground. An open coil is a resistor of
-    `OPEN_RESISTANCE`; a shorted one is a zero-volt source, because ngspice turns a resistance of 0 into 1 mOhm.
-    """
-    lines: list[str] = []
-    sources, feeds = _sources(network, lines)
-    ammeters: list[str] = []
-    resistors: list[str] = []
-    nodes: list[tuple[str, str]] = []
-    for s, coils in enumerate(network.members()):
-        node = f"b{s + 1}"
-        ammeters.append(f"vm{s + 1}")
-        lines.append(f"vm{s + 1} {feeds[s]} {node} dc 0")
-        if network.string_resistance > 0:
-            lines.append(f"rw{s + 1} {node} c{s + 1} {network.string_resistance!r}")
-            node = f"c{s + 1}"
+
+def coil_name(coil: int) -> str:
+    """Element of a coil (from 1) that is neither open nor shorted."""
+    return f"rcoil{coil}"
+
+
+def node_name(coil: int) -> str:
+    """Node at the end of a coil (from 1) that looks to the supply."""
+    return f"n{coil}"
+
+
+def render(network: Network) -> str:
+    """Netlist text without title line: 0 V at every source, 1 ohm in every coil, to be altered before each solution."""
+    return "\n".join([*_sources(network), *_strings(network), ".end"])
+
+
+def _sources(network: Network) -> Iterator[str]:
+    for source in range(1, network.sources + 1):
+        if network.supply_resistance > 0.0:
+            yield f"{source_name(source)} e{source} 0 dc 0"
+            yield f"rsupply{source} e{source} s{source} {network.supply_resistance!r}"
+        else:
+            yield f"{source_name(source)} s{source} 0 dc 0"
+
+
+def _strings(network: Network) -> Iterator[str]:
+    for string, coils in enumerate(network.coils_of_strings(), 1):
+        source = 1 if network.supply == "common" else string
+        top = node_name(coils[0])
+        if network.string_resistance > 0.0:
+            yield f"{ammeter_name(string)} s{source} w{string} dc 0"
+            yield f"rstring{string} w{string} {top} {network.string_resistance!r}"
+        else:
+            yield f"{ammeter_name(string)} s{source} {top} dc 0"
         for coil in coils:
-            following = "0" if coil == coils[-1] else f"n{coil + 1}"
-            nodes.append((node, following))
-            resistors.append(_coil(network, coil + 1, node, following, lines))
-            node = following
-    text = "\n".join(["* coil network", *lines, ".end"])
-    return Netlist(text, tuple(sources), tuple(ammeters), tuple(resistors), tuple(nodes), tuple(feeds))
+            end = "0" if coil == coils[-1] else node_name(coil + 1)
+            yield _coil(network, coil, end)
 
 
-def _sources(network: Network, lines: list[str]) -> tuple[list[str], list[str]]:
-    """Voltage sources, and the node that feeds each string."""
-    sources, outlets = [], []
-    for i in range(network.supplies):
-        outlet = f"s{i + 1}"
-        lines.append(f"vs{i + 1} {outlet} 0 dc 0")
-        sources.append(f"vs{i + 1}")
-        if network.supply_resistance > 0:
-            lines.append(f"rs{i + 1} {outlet} t{i + 1} {network.supply_resistance!r}")
-            outlet = f"t{i + 1}"
-        outlets.append(outlet)
-    return sources, outlets * len(network.strings) if network.supply == "common" else outlets
-
-
-def _coil(network: Network, number: int, node: str, following: str, lines: list[str]) -> str:
-    if number in network.shorted_coils:
-        lines.append(f"vc{number} {node} {following} dc 0")
-        return ""
-    if number in network.open_coils:
-        lines.append(f"rc{number} {node} {following} {OPEN_RESISTANCE!r}")
-        return ""
-    lines.append(f"rc{number} {node} {following} 1")
-    return f"rc{number}"
+def _coil(network: Network, coil: int, end: str) -> str:
+    if coil in network.shorted_coils:
+        return f"vshort{coil} {node_name(coil)} {end} dc 0"
+    if coil in network.open_coils:
+        return f"ropen{coil} {node_name(coil)} {end} {OPEN_RESISTANCE!r}"
+    return f"{coil_name(coil)} {node_name(coil)} {end} 1"

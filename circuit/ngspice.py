@@ -1,198 +1,217 @@
-"""The only place where ngspice is called, through PySpice.
+"""ngspice in this process, through PySpice: the only module that imports it.
 
-ngspice keeps one set of circuits per process, so there is one simulator object, with one circuit in it: whichever
-circuit is solved next takes its place. Not for use from several threads.
+PySpice 1.5 loads libngspice and receives its messages. Commands go straight to the library that PySpice has loaded,
+because `exec_command` raises on every line on stderr that is no warning (`Note:`, gmin stepping, `Using SPARSE`)
+although the solution is there. Reasons and measurements: docs/decisions/0005-ngspice-calls.md.
 """
 
 from __future__ import annotations
 
-import ctypes.util
+import functools
+import itertools
 import logging
-import math
-import os
 import re
-import sys
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
-from glob import glob
-from pathlib import Path
+import threading
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from cosim.unit import Array, UnitError
+from circuit.library import NgspiceMissingError, find_ngspice
+from cosim.unit import Array
 
-_VARIABLE = "NGSPICE_LIBRARY_PATH"
-_PLACES = ("/usr/lib/*-linux-gnu", "/usr/lib64", "/usr/lib", "/usr/local/lib", "/opt/homebrew/lib", "/opt/local/lib")
-_MISSING = (
-    "install it (Debian, Ubuntu: libngspice0; Fedora: libngspice; conda-forge: ngspice-lib; Homebrew: libngspice), or set "
-    f"{_VARIABLE} to the library's file"
+#: Commands after which ngspice's command history is freed; PySpice's own number.
+COMMANDS_TO_RELEASE = 10_000
+
+#: Beginnings of harmless lines that may speak of failures (`Note: ... gmin stepping failed`).
+_NOTE = re.compile(r"\s*(note|warning|using|trying|doing)\b|.*\b(gmin|source) stepping\b", re.IGNORECASE)
+
+#: Words of genuine errors of libngspice 39. A line with neither is a note; what it might hide is caught by the check of
+#: the vectors (`Circuit.solve`) and by Kirchhoff's laws (`circuit.unit`).
+_ERROR = re.compile(
+    r"\b(error|fatal|no such|not found|unknown|can't|cannot|aren't any|failed|aborted|out of memory)\b", re.IGNORECASE
 )
-#: What ngspice says when something has failed; notes, warnings and progress match nothing here.
-_ERROR = re.compile(r"error|fatal|abort|no such|not found|unknown|can't|cannot|failed|not enough", re.IGNORECASE)
-_HARMLESS = re.compile(r"^\s*(note|warning)\b|init file|initialization file", re.IGNORECASE)
-#: Longest command that PySpice passes on.
-_COMMAND_LENGTH = 1000
+
+_titles = itertools.count(1)
 
 
-def find_library() -> str:
-    """File or loader name of libngspice.
-
-    Looked for in `NGSPICE_LIBRARY_PATH`, in the virtual environment (lib/ngspice), by the loader, then in the places
-    where packages put it.
-
-    Raises:
-        UnitError: It is nowhere; the text names the packages.
-    """
-    given = os.environ.get(_VARIABLE)
-    if given:
-        if Path(given).is_file():
-            return given
-        raise UnitError("ngspice", f"{_VARIABLE} is {given}, but there is no such file", remedy=_MISSING)
-    candidates = sorted(glob(f"{sys.prefix}/lib/ngspice/libngspice.so*")) + sorted(glob(f"{sys.prefix}/lib/libngspice*"))
-    by_loader = ctypes.util.find_library("ngspice")
-    if by_loader:
-        candidates.append(by_loader)
-    for place in _PLACES:
-        candidates += sorted(glob(f"{place}/libngspice.so*")) + sorted(glob(f"{place}/libngspice*.dylib"))
-    if not candidates:
-        raise UnitError("ngspice", "libngspice is not installed", remedy=_MISSING)
-    return candidates[0]
+class NgspiceError(Exception):
+    """ngspice refused a command or has no solution; the text quotes it."""
 
 
 def is_error(line: str) -> bool:
-    """Whether a line that ngspice prints reports a failure, not a note on how it solved."""
-    return not _HARMLESS.search(line) and bool(_ERROR.search(line))
+    """Whether a line that ngspice prints tells of an error rather than of its progress."""
+    return _NOTE.match(line) is None and _ERROR.search(line) is not None
 
 
-@lru_cache(maxsize=1)
-def simulator() -> Simulator:
-    """The simulator of this process, started at the first call."""
-    return Simulator()
-
-
-class Simulator:
-    """libngspice through PySpice.
-
-    Raises:
-        UnitError: The library is missing or cannot be loaded.
-    """
+class Ngspice:
+    """The one libngspice of this process; circuits take turns in it, one thread at a time (it is not thread-safe)."""
 
     def __init__(self) -> None:
-        library = find_library()
-        os.environ[_VARIABLE] = library  # PySpice reads it when it is imported
-        logging.getLogger("PySpice").setLevel(logging.ERROR)  # it warns of every ngspice newer than itself
+        path = find_ngspice()
+        # PySpice logs `can't find init file` as an error; where the program configures no logging it stays quiet.
+        logging.getLogger("PySpice").addHandler(logging.NullHandler())
+        from PySpice.Spice.NgSpice.Shared import NgSpiceShared, ffi
+
+        NgSpiceShared.LIBRARY_PATH = path
         try:
-            from PySpice.Spice.NgSpice import Shared
-        except ImportError as error:
-            raise UnitError("ngspice", f"PySpice cannot be imported: {error}", remedy="run `make setup`") from error
-
-        class Listening(Shared.NgSpiceShared):  # type: ignore[misc]
-            """PySpice takes every line on stderr for a failure; here `is_error` decides."""
-
-            @staticmethod
-            def _send_char(message: Any, _number: int, user_data: Any) -> int:
-                this = Shared.ffi.from_handle(user_data)
-                stream, _, content = Shared.ffi_string_utf8(message).partition(" ")
-                (this._stderr if stream == "stderr" else this._stdout).append(content)
-                if is_error(content):
-                    this._error_in_stderr = True
-                return 0
-
-        Shared.NgSpiceShared.LIBRARY_PATH = library
-        try:
-            self._shared = Listening.new_instance()
-        except (OSError, NameError, Shared.NgSpiceCommandError) as error:
-            raise UnitError("ngspice", f"{library} cannot be loaded: {error}", remedy=_MISSING) from error
-        self._failures = (Shared.NgSpiceCommandError, Shared.NgSpiceCircuitError, NameError)
-        self._null = Shared.ffi.NULL
-        self._loaded: object | None = None
+            self._shared: Any = NgSpiceShared.new_instance()
+        except OSError as error:
+            raise NgspiceMissingError(f"libngspice at {path} does not load: {error}") from error
+        self._library: Any = self._shared._ngspice_shared
+        self._null = ffi.NULL
+        self._commands = 0
+        self._current = ""
+        self.lock = threading.RLock()
 
     @property
-    def version(self) -> str:
-        """Version of ngspice."""
-        return str(self._shared.ngspice_version)
+    def version(self) -> int:
+        """Major version of libngspice."""
+        return int(self._shared.ngspice_version)
 
-    def command(self, text: str) -> str:
-        """Run one ngspice command.
-
-        Raises:
-            UnitError: ngspice reports a failure; the text holds its own words.
-        """
-        try:
-            return str(self._shared.exec_command(text))
-        except self._failures as error:
-            said = "; ".join(line.strip() for line in (*self._shared._stderr, *self._shared._stdout) if line.strip())
-            raise UnitError("ngspice", f"`{text[:60]}` failed: {said or error}") from error
-
-    def load(self, owner: object, text: str) -> bool:
-        """Make sure that the circuit in ngspice is that of `owner`.
-
-        Returns:
-            Whether it was loaded just now, so that all its values must be set.
+    def command(self, text: str) -> list[str]:
+        """Carry out one command and return the lines that it printed.
 
         Raises:
-            UnitError: ngspice refuses the netlist.
+            NgspiceError: ngspice printed an error.
         """
-        if self._loaded is owner:
-            return False
-        self.unload(self._loaded)
-        try:
-            self._shared.load_circuit(text)
-        except self._failures as error:
-            raise UnitError("ngspice", f"the netlist was refused: {self._shared.stdout or error}") from error
-        self._loaded = owner
-        return True
+        shared = self._shared
+        shared.clear_output()
+        self._commands += 1
+        if self._commands >= COMMANDS_TO_RELEASE:
+            self._library.ngSpice_Command(self._null)
+            self._commands = 0
+        code = self._library.ngSpice_Command(text.encode("ascii"))
+        if code or shared._error_in_stderr or shared._error_in_stdout:
+            self._raise_errors(text, code)
+        lines: list[str] = shared._stdout
+        return lines
 
-    def unload(self, owner: object) -> None:
-        """Remove the circuit of `owner` if it is the one in ngspice."""
-        if owner is not None and self._loaded is owner:
-            self._loaded = None
+    def _raise_errors(self, text: str, code: int) -> None:
+        errors = [str(line).strip() for line in (*self._shared._stderr, *self._shared._stdout) if is_error(str(line))]
+        if errors or code:
+            raise NgspiceError(f"ngspice refused `{text}`: {'; '.join(errors) or f'code {code}'}")
+
+    def load(self, netlist: str) -> None:
+        """Load a circuit; its title line must be new.
+
+        Raises:
+            NgspiceError: ngspice cannot read the netlist.
+        """
+        self._current = ""
+        try:
+            self._shared.load_circuit(netlist)
+        except NameError as error:  # PySpice's errors derive from it
+            raise NgspiceError(f"ngspice cannot read the netlist: {self._shared.stdout or error}") from error
+        self._raise_errors("load circuit", 0)
+
+    def circuits(self) -> dict[str, int]:
+        """Title line to the number by which `setcirc` knows a circuit; numbers move when circuits come and go."""
+        try:
+            lines = self.command("setcirc")
+        except NgspiceError:  # how ngspice says that there is none
+            return {}
+        columns = [line.split("\t") for line in lines]
+        return {c[-1].strip(): int(c[-2]) for c in columns if len(c) >= 2 and c[-2].strip().isdigit()}
+
+    def select(self, title: str) -> None:
+        """Make a circuit the current one.
+
+        Raises:
+            NgspiceError: It is not loaded.
+        """
+        if self._current == title:
+            return
+        number = self.circuits().get(title)
+        if number is None:
+            raise NgspiceError(f"ngspice holds no circuit `{title}`; it was removed")
+        self.command(f"setcirc {number}")
+        self._current = title
+
+    def remove(self, title: str) -> None:
+        """Free a circuit; nothing happens if it is not loaded."""
+        if title in self.circuits():
+            self.select(title)
             self.command("remcirc")
+        self._current = ""
 
-    def alter(self, changes: Iterable[tuple[str, float]]) -> None:
-        """Set element values: resistances [Ohm] and source voltages [V].
+    def plots(self) -> list[str]:
+        """Names of the results that ngspice holds; `const` is always there."""
+        return [str(name) for name in self._shared.plot_names]
 
-        ngspice keeps the old value where it cannot read the new one, so only finite numbers pass.
+    def read(self, vectors: Sequence[bytes]) -> Array:
+        """First value of each vector of the current plot; NaN where there is none."""
+        get, null = self._library.ngGet_Vec_Info, self._null
+        values = np.full(len(vectors), np.nan)
+        for i, name in enumerate(vectors):
+            info = get(name)
+            if info != null and info.v_realdata != null:
+                values[i] = info.v_realdata[0]
+        return values
 
-        Raises:
-            UnitError: A value is not finite.
-        """
-        waiting: list[str] = []
-        length = 0
-        for element, value in changes:
-            if not math.isfinite(value):
-                raise UnitError("ngspice", f"the value of {element} is {value}")
-            text = f"alter {element} = {value!r}"
-            if length + len(text) > _COMMAND_LENGTH:
-                self.command(";".join(waiting))
-                waiting, length = [], 0
-            waiting.append(text)
-            length += len(text) + 1
-        if waiting:
-            self.command(";".join(waiting))
 
-    def operating_point(self, vectors: Sequence[bytes]) -> Array:
-        """Solve the circuit and read vectors.
+@functools.cache
+def ngspice() -> Ngspice:
+    """The ngspice of this process, loaded at the first call.
+
+    Raises:
+        NgspiceMissingError: libngspice is not there or does not load.
+    """
+    return Ngspice()
+
+
+class Circuit:
+    """One netlist in ngspice, whose elements are altered and whose operating point is solved.
+
+    Args:
+        netlist: Text of the netlist without its title line.
+        vectors: Node voltages (`n1`) and branch currents (`v1#branch`) to read.
+
+    Raises:
+        NgspiceMissingError: libngspice is not there.
+        NgspiceError: ngspice cannot read the netlist.
+    """
+
+    def __init__(self, netlist: str, vectors: Sequence[str]) -> None:
+        self._engine = ngspice()
+        self._title = f"* circuit {next(_titles)}"
+        self._vectors = [v.encode("ascii") for v in vectors]
+        self._names = tuple(vectors)
+        with self._engine.lock:
+            self._engine.load(f"{self._title}\n{netlist}")
+
+    def solve(self, changes: Mapping[str, float]) -> Array:
+        """Alter elements and solve the operating point.
 
         Args:
-            vectors: Names of nodes, and of sources with `#branch`.
+            changes: Element to its new value [V, ohm]. Finite, and resistances positive: ngspice keeps the old value
+                where it cannot read the new one, and takes negative ones as they are.
 
         Returns:
-            Shape (vector,) [V] or [A].
+            Value of each vector [V, A], shape (vectors,).
 
         Raises:
-            UnitError: No solution, or a vector that does not exist.
+            NgspiceError: A change is not finite, or ngspice has no finite solution.
         """
-        self.command("op")
-        values = np.empty(len(vectors))
-        read = self._shared._ngspice_shared.ngGet_Vec_Info
-        for i, name in enumerate(vectors):
-            info = read(name)
-            if info == self._null or info.v_length < 1:
-                raise UnitError("ngspice", f"the operating point holds no {name.decode()}: it was not solved")
-            values[i] = info.v_realdata[0]
-        # Results pile up otherwise, and every later step gets slower.
-        self.command("destroy all")
-        self._shared.clear_output()
+        for element, value in changes.items():
+            if not np.isfinite(value):
+                raise NgspiceError(f"{element} = {value} is not a finite number")
+        engine = self._engine
+        with engine.lock:
+            engine.select(self._title)
+            try:
+                for element, value in changes.items():
+                    engine.command(f"alter {element} = {value!r}")
+                engine.command("op")
+                values = engine.read(self._vectors)
+            finally:
+                engine.command("destroy all")  # without it every further solution is slower: 64 ms after 1500
+        missing = np.flatnonzero(~np.isfinite(values))
+        if missing.size:
+            raise NgspiceError(f"ngspice has no finite value of {self._names[int(missing[0])]}")
         return values
+
+    def remove(self) -> None:
+        """Free it in ngspice; safe to call twice."""
+        with self._engine.lock:
+            self._engine.remove(self._title)

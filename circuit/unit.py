@@ -1,4 +1,4 @@
-"""The coil network as a unit: supply voltage and resistances in, currents and powers out."""
+"""The coil network as a unit of the co-simulation: voltages and resistances in, currents and powers out."""
 
 from __future__ import annotations
 
@@ -7,186 +7,195 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from circuit.netlist import OPEN_RESISTANCE, Network, netlist
-from circuit.ngspice import simulator
+from circuit.kirchhoff import Laws, Solution
+from circuit.netlist import (
+    MAX_RESISTANCE,
+    MIN_RESISTANCE,
+    Network,
+    ammeter_name,
+    coil_name,
+    node_name,
+    render,
+    source_name,
+)
+from circuit.ngspice import Circuit, NgspiceError
 from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, UnitError, Variable
 
-#: Relative tolerance of Kirchhoff's laws; ngspice's own reltol does not limit a linear circuit.
-TOLERANCE = 1e-9
-#: Current below which differences are rounding, not a violation [A].
-_LEAST_CURRENT = 1e-11
-
-
-def _variables(network: Network) -> dict[str, Variable]:
-    coils, strings = (network.coils,), (len(network.strings),)
-    supplies, supply = ((), ()) if network.supply == "common" else (strings, ("string",))
-    given, found = Causality.INPUT, Causality.OUTPUT
-    listed = (
-        Variable("supply_voltage", given, supplies, "V", supply, "voltage of every supply"),
-        Variable("resistance", given, coils, "ohm", ("coil",), "resistance of every coil (no effect if open or shorted)"),
-        Variable("current", found, coils, "A", ("coil",), "current through every coil"),
-        Variable("voltage", found, coils, "V", ("coil",), "voltage across every coil"),
-        Variable("power", found, coils, "W", ("coil",), "electrical power turned into heat in every coil"),
-        Variable("string_current", found, strings, "A", ("string",), "current into every string"),
-        Variable("supply_current", found, (), "A", (), "current out of all supplies"),
-        Variable("supply_power", found, (), "W", (), "power out of all supplies"),
-    )
-    return {v.name: v for v in listed}
+INPUTS = ("supply_voltage", "resistance")
 
 
 class CircuitUnit:
-    """The network solved by ngspice, anew only where an input has changed.
+    """A network of coils solved by ngspice; it has no memory, so its outputs follow its inputs at once.
+
+    ngspice solves only when an input differs from that of the last solution; `solves` counts. Each solution is held
+    against Kirchhoff's and Ohm's laws (`circuit.kirchhoff`).
+
+    An open coil carries what 1e12 ohm let pass (6 pA at 6 V, reported as solved) and takes the voltage of its string;
+    a shorted coil carries the current of its string at exactly 0 V and 0 W. The `resistance` given for either is not
+    used. Voltages may be negative; the current then is, too.
 
     Args:
-        name: Name of the unit.
-        network: Strings, coils and supplies.
+        name: Name of the unit in error texts.
+        network: What is connected to what.
 
     Raises:
-        UnitError: libngspice is missing.
+        NgspiceMissingError: libngspice is not there (a UnitError and a ValueError).
+        UnitError: ngspice does not take the netlist.
     """
 
     def __init__(self, name: str, network: Network) -> None:
         self.name, self.network = name, network
-        self.variables: Mapping[str, Variable] = _variables(network)
-        members = network.members()
-        string = np.repeat(np.arange(len(members)), network.strings)
-        place = np.concatenate([np.arange(len(m)) for m in members])
-        self.coordinates: Mapping[str, Coordinate] = {
-            "string": Coordinate("string", np.arange(1, len(members) + 1), "string of the circuit"),
-            "coil_string": Coordinate("coil", string + 1, "string that holds the coil"),
-            "coil_place": Coordinate("coil", place + 1, "place of the coil in its string, from the supply"),
-        }
-        self._store = ArrayStore(name, self.variables)
-        self._string = string
-        self._first = np.array([m[0] for m in members])
-        self._netlist = netlist(network)
-        self._nodes = list(dict.fromkeys(n for pair in self._netlist.coil_nodes for n in pair if n != "0"))
-        place_of = {n: i for i, n in enumerate(self._nodes)} | {"0": len(self._nodes)}
-        pairs = self._netlist.coil_nodes
-        self._high = np.array([place_of[a] for a, _ in pairs])
-        self._low = np.array([place_of[b] for _, b in pairs])
-        branches = [f"{v}#branch" for v in (*self._netlist.ammeters, *self._netlist.sources)]
-        self._vectors = [text.encode() for text in (*self._nodes, *branches)]
-        self._is_ordinary = np.array([bool(r) for r in self._netlist.resistors])
-        self._solved: tuple[Array, Array] | None = None
-        #: Number of times that ngspice has solved the network.
+        self.variables: Mapping[str, Variable] = {v.name: v for v in _variables(network)}
+        self.coordinates: Mapping[str, Coordinate] = _coordinates(network)
+        #: Number of solutions that ngspice has made for this unit.
         self.solves = 0
-        simulator()
+        faulty = {*network.open_coils, *network.shorted_coils}
+        self._elements = [source_name(s) for s in range(1, network.sources + 1)]
+        self._elements += [coil_name(c) for c in range(1, network.coils + 1)]
+        self._whole = np.array([c not in faulty for c in range(1, network.coils + 1)])
+        self._in_use = np.concatenate([np.ones(network.sources, dtype=bool), self._whole])
+        self._store = ArrayStore(name, self.variables)
+        self._solved = np.full(len(self._elements), np.nan)  # inputs that the outputs belong to
+        self._altered = np.full(len(self._elements), np.nan)  # values that ngspice holds
+        self._laws = Laws(network)
+        try:
+            self._circuit: Circuit | None = Circuit(render(network), self._vectors())
+        except NgspiceError as fault:
+            raise UnitError(name, str(fault)) from fault
+
+    def _vectors(self) -> list[str]:
+        network = self.network
+        return [
+            *(node_name(c) for c in range(1, network.coils + 1)),
+            *(f"{ammeter_name(s)}#branch" for s in range(1, len(network.strings) + 1)),
+            *(f"{source_name(s)}#branch" for s in range(1, network.sources + 1)),
+        ]
 
     def set(self, name: str, value: Array) -> None:
-        """Copy an input; raises UnitError if it is not finite."""
+        """Copy to an input: `supply_voltage` [V] or `resistance` [ohm]; UnitError if it is not finite."""
+        if name not in INPUTS:
+            raise UnitError(self.name, f"{name} is not an input", remedy=f"inputs: {', '.join(INPUTS)}")
         self._store.set(name, value)
 
     def get(self, name: str) -> Array:
-        """Current value of a variable."""
+        """The live array of a variable, SI."""
         return self._store.get(name)
 
     def initialise(self, time: int) -> None:
-        """Solve at the start."""
-        self._solve(time)
+        """Solve with the inputs that are set; UnitError if one is not or is out of range."""
+        self._follow_inputs(time)
 
     def do_step(self, time: int, size: int) -> StepOutcome:
-        """Solve with the present inputs; currents settle at once.
+        """Outputs at `time + size` of the inputs held over the step.
 
         Raises:
-            UnitError: A resistance that is not positive, no solution, or one that breaks Kirchhoff's laws.
+            UnitError: A resistance is out of range, ngspice fails, or its solution breaks Kirchhoff's laws.
         """
-        self._solve(time)
+        self._follow_inputs(time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
-        """Inputs and outputs; there is no other state."""
-        return {name: self._store.get(name).copy() for name in self.variables}
+        """All inputs and outputs, and the inputs that the outputs belong to."""
+        return {"solved": self._solved.copy(), **{n: a.copy() for n, a in self._store.arrays.items()}}
 
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
-        """Continue from `checkpoint`."""
-        for name in self.variables:
-            self._store.arrays[name][...] = state[name]
-        self._solved = self._store.get("supply_voltage").copy(), self._store.get("resistance").copy()
+        """Go on from a checkpoint; UnitError if it belongs to another network."""
+        for name, array in (*self._store.arrays.items(), ("solved", self._solved)):
+            if name not in state or state[name].shape != array.shape:
+                raise UnitError(
+                    self.name, f"the checkpoint's {name} does not fit this network", time, "resume the same scenario"
+                )
+            array[...] = state[name]
 
     def terminate(self) -> None:
-        """Remove the circuit from ngspice."""
-        simulator().unload(self)
+        """Free the circuit in ngspice."""
+        if self._circuit is not None:
+            self._circuit.remove()
+            self._circuit = None
 
-    def _solve(self, time: int) -> None:
-        voltage, resistance = self._store.get("supply_voltage"), self._store.get("resistance")
-        if self._solved is not None and all(map(np.array_equal, self._solved, (voltage, resistance))):
+    def _follow_inputs(self, time: int) -> None:
+        arrays = self._store.arrays
+        wanted = np.concatenate([arrays["supply_voltage"].reshape(-1), arrays["resistance"]])
+        if np.array_equal(wanted[self._in_use], self._solved[self._in_use]):
             return
-        self._check_resistance(resistance, time)
-        try:
-            self._set_values(voltage, resistance)
-            values = simulator().operating_point(self._vectors)
-        except UnitError as error:
-            raise UnitError(self.name, error.what, time, error.remedy) from error
-        self.solves += 1
-        self._distribute(values, time)
-        self._solved = voltage.copy(), resistance.copy()
+        self._check_inputs(time)
+        solution = self._solution(wanted, time)
+        violation = self._laws.violation(solution)
+        if violation:
+            raise UnitError(self.name, violation, time, "keep the resistances of a string within 12 orders of size")
+        self._publish(solution)
+        self._solved[...] = wanted
 
-    def _check_resistance(self, resistance: Array, time: int) -> None:
-        bad = np.flatnonzero(~(resistance > 0))
-        if bad.size:
+    def _check_inputs(self, time: int) -> None:
+        for name in INPUTS:
+            if np.isnan(self._store.arrays[name]).any():
+                raise UnitError(
+                    self.name, f"the input {name} was never set", time, "connect it or give it a start value"
+                )
+        resistance = self._store.arrays["resistance"]
+        wrong = np.flatnonzero(self._whole & ~((resistance >= MIN_RESISTANCE) & (resistance <= MAX_RESISTANCE)))
+        if wrong.size:
+            coil = int(wrong[0])
             raise UnitError(
-                self.name, f"resistance of coil {bad[0] + 1} is {resistance[bad[0]]} Ohm", time,
-                "it must be positive; a coil without resistance belongs into shorted_coils",
-            )  # fmt: skip
+                self.name,
+                f"resistance of {self.network.place(coil + 1)} is {resistance[coil]:g} ohm",
+                time,
+                f"it must lie within {MIN_RESISTANCE:g} to {MAX_RESISTANCE:g} ohm; list broken coils in open_coils or "
+                "shorted_coils",
+            )
 
-    def _set_values(self, voltage: Array, resistance: Array) -> None:
-        engine = simulator()
-        known = self._solved
-        is_new = engine.load(self, self._netlist.text) or known is None
-        changes: list[tuple[str, float]] = []
-        voltages = voltage.reshape(-1)
-        for i, source in enumerate(self._netlist.sources):
-            if is_new or known is None or known[0].reshape(-1)[i] != voltages[i]:
-                changes.append((source, float(voltages[i])))
-        for i in np.flatnonzero(self._is_ordinary):
-            if is_new or known is None or known[1][i] != resistance[i]:
-                changes.append((self._netlist.resistors[i], float(resistance[i])))
-        self._solved = None  # until the solution is there, a failure must not pass for "unchanged"
-        engine.alter(changes)
+    def _solution(self, wanted: Array, time: int) -> Solution:
+        if self._circuit is None:
+            raise UnitError(self.name, "the unit was terminated", time, "construct a new one")
+        changed = np.flatnonzero(self._in_use & (wanted != self._altered))
+        try:
+            values = self._circuit.solve({self._elements[i]: float(wanted[i]) for i in changed})
+        except NgspiceError as fault:
+            self._altered[...] = np.nan  # unknown how far ngspice came: alter everything next time
+            raise UnitError(self.name, str(fault), time, "check voltages and resistances") from fault
+        self._altered[changed] = wanted[changed]
+        self.solves += 1
+        n, strings, sources = self.network.coils, len(self.network.strings), self.network.sources
+        return Solution(
+            source_voltage=wanted[:sources],
+            resistance=wanted[sources:],
+            node_voltage=values[:n],
+            string_current=values[n : n + strings],
+            source_current=-values[n + strings :],  # SPICE counts current into a source's positive terminal
+        )
 
-    def _distribute(self, values: Array, time: int) -> None:
-        """Node voltages and branch currents to outputs."""
-        put, strings = self._store.arrays, len(self.network.strings)
-        if not np.isfinite(values).all():
-            raise UnitError(self.name, "ngspice returned a value that is not finite", time)
-        nodes = len(self._nodes)
-        potential = np.append(values[:nodes], 0.0)
-        put["string_current"][...] = values[nodes : nodes + strings]
-        sources = -values[nodes + strings :]  # SPICE counts current into the positive terminal
-        put["voltage"][...] = potential[self._high] - potential[self._low]
-        through = put["string_current"][self._string]
-        put["current"][...] = np.where(self._is_ordinary, put["voltage"] / put["resistance"], through)
-        put["power"][...] = put["voltage"] * put["current"]
-        put["supply_current"][...] = sources.sum()
-        put["supply_power"][...] = (put["supply_voltage"].reshape(-1) * sources).sum()
-        self._check_kirchhoff(sources, potential, time)
-
-    def _check_kirchhoff(self, sources: Array, potential: Array, time: int) -> None:
-        """Ohm's law in every coil against the ammeter of its string, and both laws of Kirchhoff."""
-        put, network = self._store.arrays, self.network
-        currents = put["string_current"]
-        scale = max(np.abs(currents).max(), _LEAST_CURRENT / TOLERANCE)
-        off = np.abs(put["current"] - currents[self._string])
-        if (off > TOLERANCE * scale).any():
-            worst = int(np.argmax(off))
-            self._violated(f"the current of coil {worst + 1} differs by {off[worst]:.3g} A from that of its string", time)
-        fed = currents.sum() if network.supply == "common" else currents
-        if (np.abs(sources - fed) > TOLERANCE * scale * len(currents)).any():
-            self._violated(f"the supplies give {sources.sum():.9g} A, the strings take {currents.sum():.9g} A", time)
-        drop = np.add.reduceat(put["voltage"], self._first) + network.string_resistance * currents
-        source_drop = network.supply_resistance * (sources if network.supply == "per_string" else sources[0])
-        loop = put["supply_voltage"].reshape(-1) - source_drop - drop
-        limit = TOLERANCE * max(1.0, float(np.abs(put["supply_voltage"]).max()))
-        if (np.abs(loop) > limit).any():
-            worst = int(np.argmax(np.abs(loop)))
-            self._violated(f"the voltages around string {worst + 1} leave {loop[worst]:.3g} V", time)
-
-    def _violated(self, what: str, time: int) -> None:
-        raise UnitError(
-            self.name, f"ngspice's solution breaks Kirchhoff's laws: {what}", time,
-            "check the resistances: ngspice loses accuracy where they differ by more than twelve orders of magnitude",
-        )  # fmt: skip
+    def _publish(self, solution: Solution) -> None:
+        arrays = self._store.arrays
+        arrays["string_current"][...] = solution.string_current
+        arrays["current"][...] = self._laws.coil_current(solution.string_current)
+        arrays["voltage"][...] = self._laws.coil_voltage(solution.node_voltage)
+        np.multiply(arrays["voltage"], arrays["current"], out=arrays["power"])
+        arrays["supply_current"][...] = solution.source_current.sum()
+        arrays["supply_power"][...] = solution.source_current @ solution.source_voltage
 
 
-__all__ = ["OPEN_RESISTANCE", "CircuitUnit"]
+def _variables(network: Network) -> list[Variable]:
+    coil, string = (network.coils,), (len(network.strings),)
+    is_common = network.supply == "common"
+    into, out = Causality.INPUT, Causality.OUTPUT
+    return [
+        Variable("supply_voltage", into, () if is_common else string, "V", () if is_common else ("string",),
+                 "Voltage of the ideal source, before its series resistance"),
+        Variable("resistance", into, coil, "ohm", ("coil",), "Resistance of a coil"),
+        Variable("current", out, coil, "A", ("coil",), "Current through a coil, from the supply to ground"),
+        Variable("voltage", out, coil, "V", ("coil",), "Voltage across a coil"),
+        Variable("power", out, coil, "W", ("coil",), "Heat in a coil"),
+        Variable("string_current", out, string, "A", ("string",), "Current through a string"),
+        Variable("supply_current", out, (), "A", (), "Current out of all sources together"),
+        Variable("supply_power", out, (), "W", (), "Power out of all sources together"),
+    ]  # fmt: skip
+
+
+def _coordinates(network: Network) -> dict[str, Coordinate]:
+    strings = network.coils_of_strings()
+    number = np.array([s for s, coils in enumerate(strings, 1) for _ in coils])
+    position = np.array([p for coils in strings for p in range(1, len(coils) + 1)])
+    return {
+        "string_of_coil": Coordinate("coil", number, "String that a coil belongs to, from 1"),
+        "position_in_string": Coordinate("coil", position, "Place of a coil in its string, from 1 at the supply"),
+    }
