@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import re
@@ -223,7 +224,9 @@ def _fmu(name: str, component: FmuComponent, parameters: Resolved, source: Path)
         values = {k: _in_fmu_unit(k, v, archive.description, source) for k, v in parameters.values.items()}
         settings = FmuSettings(component.structure, values)
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
-        return kind(name, archive, settings)
+        # fmpy changes the working folder while it loads a library, and stays there if that fails.
+        with contextlib.chdir(Path.cwd()):
+            return kind(name, archive, settings)
     except BaseException:
         archive.remove()
         raise
