@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from circuit.netlist import OPEN_RESISTANCE, Network
+from circuit.netlist import Network
 from cosim.unit import Array
 
 #: Relative tolerance of every law: worst measured 2e-12 (decision 0005), times fifty. Voltages count relative to the
@@ -47,14 +47,14 @@ class Laws:
 
     def __init__(self, network: Network) -> None:
         self._network = network
-        coils = np.arange(1, network.coils + 1)
         self._first = np.array([c[0] - 1 for c in network.coils_of_strings()])
         self._last = np.append(self._first[1:], network.coils) - 1
         self._string = np.repeat(np.arange(len(network.strings)), network.strings)
-        self._open = np.isin(coils, network.open_coils)
-        self._shorted = np.isin(coils, network.shorted_coils)
-        fixed = [r for r in (network.supply_resistance, network.string_resistance) if r > 0.0]
-        self._least_fixed = min(fixed, default=np.inf)
+        fixed = {**network.open_resistances(), **dict.fromkeys(network.shorted_coils, 0.0)}
+        self._fixed_coils = np.array([c - 1 for c in fixed], dtype=np.intp)
+        self._fixed_values = np.array(list(fixed.values()))
+        series = [r for r in (network.supply_resistance, network.string_resistance) if r > 0.0]
+        self._least_series = min(series, default=np.inf)
 
     def coil_voltage(self, node_voltage: Array) -> Array:
         """Voltage across every coil [V] from that of the nodes on its supply side; a string's last coil ends at ground.
@@ -73,38 +73,62 @@ class Laws:
 
     def violation(self, solution: Solution) -> str:
         """The law that a solution breaks, in a sentence with place and amount; empty if it keeps them all."""
-        network, source_current = self._network, solution.source_current
-        resistance = np.where(self._open, OPEN_RESISTANCE, solution.resistance)
-        resistance[self._shorted] = 0.0
-        least = np.minimum.reduceat(np.where(self._shorted, np.inf, resistance), self._first)
+        resistance = solution.resistance.copy()
+        resistance[self._fixed_coils] = self._fixed_values
+        # Rounding of a string's equations is relative to its largest conductance times the largest voltage.
         volts = float(np.abs(solution.source_voltage).max())
-        amperes = volts / np.minimum(least, self._least_fixed)
+        least = np.minimum.reduceat(np.where(resistance > 0.0, resistance, np.inf), self._first)
+        amperes = volts / np.minimum(least, self._least_series)
         voltage, current = self.coil_voltage(solution.node_voltage), self.coil_current(solution.string_current)
+        heat = float(voltage @ current)
+        return (
+            self._ohm(resistance, voltage, current, volts + resistance * amperes[self._string])
+            or self._loops(solution, volts, amperes)
+            or self._sources(solution, amperes)
+            or self._power(solution, heat, volts, amperes)
+        )
 
-        ohm = voltage - resistance * current
-        excess = np.abs(ohm) > TOLERANCE * (volts + resistance * amperes[self._string])
-        if excess.any():
-            coil = int(excess.argmax())
-            return (
-                f"{network.place(coil + 1)} breaks Ohm's law: {voltage[coil]:.9g} V across {resistance[coil]:.9g} ohm "
-                f"at {current[coil]:.9g} A"
-            )
-        supply_drop = network.supply_resistance * source_current
-        string_drop = network.string_resistance * solution.string_current
-        loop = solution.source_voltage - supply_drop - string_drop - solution.node_voltage[self._first]
-        drop_scale = network.supply_resistance * amperes.sum() + network.string_resistance * amperes
-        excess = np.abs(loop) > TOLERANCE * (volts + drop_scale)
-        if excess.any():
-            string = int(excess.argmax())
-            return f"string {string + 1} breaks Kirchhoff's voltage law: {loop[string]:.9g} V are left over its loop"
-        common = network.supply == "common"
-        into = solution.string_current.sum(keepdims=True) if common else solution.string_current
-        rest = source_current - into
-        if (np.abs(rest) > TOLERANCE * (amperes.sum() if common else amperes)).any():
-            worst = int(np.abs(rest).argmax())
-            return f"source {worst + 1} breaks Kirchhoff's current law: {rest[worst]:.9g} A more than its strings take"
-        heat = voltage @ current + supply_drop @ source_current + string_drop @ solution.string_current
-        power = solution.source_voltage @ source_current
-        if abs(power - heat) > TOLERANCE * (volts + float(drop_scale.max())) * amperes.sum():
-            return f"the power balance does not close: {power:.9g} W from the sources, {heat:.9g} W of heat"
-        return ""
+    def _ohm(self, resistance: Array, voltage: Array, current: Array, scale: Array) -> str:
+        excess = np.abs(voltage - resistance * current) > TOLERANCE * scale
+        if not excess.any():
+            return ""
+        coil = int(excess.argmax())
+        return (
+            f"{self._network.place(coil + 1)} breaks Ohm's law: {voltage[coil]:.9g} V across {resistance[coil]:.9g} "
+            f"ohm at {current[coil]:.9g} A"
+        )
+
+    def _drops(self, solution: Solution) -> tuple[Array, Array]:
+        """Voltage over the series resistance of every source and of every string [V]."""
+        network = self._network
+        return network.supply_resistance * solution.source_current, network.string_resistance * solution.string_current
+
+    def _loops(self, solution: Solution, volts: float, amperes: Array) -> str:
+        network = self._network
+        supply_drop, string_drop = self._drops(solution)
+        rest = solution.source_voltage - supply_drop - string_drop - solution.node_voltage[self._first]
+        scale = volts + network.supply_resistance * amperes.sum() + network.string_resistance * amperes
+        excess = np.abs(rest) > TOLERANCE * scale
+        if not excess.any():
+            return ""
+        string = int(excess.argmax())
+        return f"string {string + 1} breaks Kirchhoff's voltage law: {rest[string]:.9g} V are left over its loop"
+
+    def _sources(self, solution: Solution, amperes: Array) -> str:
+        strings = solution.string_current
+        if self._network.supply == "common":
+            strings, amperes = strings.sum(keepdims=True), amperes.sum(keepdims=True)
+        rest = solution.source_current - strings
+        excess = np.abs(rest) > TOLERANCE * amperes
+        if not excess.any():
+            return ""
+        source = int(excess.argmax())
+        return f"source {source + 1} breaks Kirchhoff's current law: {rest[source]:.9g} A more than its strings take"
+
+    def _power(self, solution: Solution, heat: float, volts: float, amperes: Array) -> str:
+        supply_drop, string_drop = self._drops(solution)
+        heat += float(supply_drop @ solution.source_current + string_drop @ solution.string_current)
+        power = float(solution.source_voltage @ solution.source_current)
+        if abs(power - heat) <= TOLERANCE * volts * float(amperes.sum()):
+            return ""
+        return f"the power balance does not close: {power:.9g} W from the sources, {heat:.9g} W of heat"

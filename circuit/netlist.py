@@ -14,14 +14,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-#: Resistance of an open coil [ohm]. Against a true interruption it lets V / 1e12 ohm pass: 6 pA at 6 V.
+#: Resistance of the only open coil of a string [ohm]. Against a true break it lets V / 1e12 ohm pass: 6 pA at 6 V.
 OPEN_RESISTANCE = 1e12
 
-#: Least resistance that ngspice solves to the tolerance of the unit [ohm]. libngspice 39 returned the current of
-#: 6 V / 2.2 ohm with a relative error of 2.5e-7 beside 1 nanoohm, 1e-10 beside 1 microohm; 0 silently becomes 1 mohm.
-MIN_RESISTANCE = 1e-6
+#: Resistance of each open coil where a string has several [ohm]; 6 nA at 6 V. The coils between two breaks hang on
+#: these alone: beside coils of 1 ohm their potential is right to 1e-7, with 1e12 ohm only to 2e-4 (rounding of
+#: 1 S + 1e-12 S), and ngspice fails beside a few microohm.
+SHARED_OPEN_RESISTANCE = 1e9
 
-#: Greatest resistance that is not an open coil [ohm].
+#: Least resistance [ohm]: what ngspice takes silently for 0 ohm. Below it currents lose digits: the error relative to
+#: 6 V / 2.2 ohm was 1e-10 beside 1 microohm and 2.5e-7 beside 1 nanoohm.
+MIN_RESISTANCE = 1e-3
+
+#: Greatest resistance [ohm].
 MAX_RESISTANCE = OPEN_RESISTANCE
 
 
@@ -34,7 +39,8 @@ class Network:
         supply: One supply for all strings, or one for each.
         supply_resistance: In series with every source [ohm]; 0 is an ideal source.
         string_resistance: In series with every string, for example its wires [ohm].
-        open_coils: Interrupted coils, `OPEN_RESISTANCE` each. Several in one string share its voltage equally.
+        open_coils: Broken coils, `OPEN_RESISTANCE`, or `SHARED_OPEN_RESISTANCE` each where a string has several: they
+            then share its voltage equally, which is a convention, for the true potential between breaks is undefined.
         shorted_coils: Bridged coils, an exact 0 V; ngspice cannot take 0 ohm.
 
     Raises:
@@ -104,6 +110,11 @@ class Network:
         ends = [sum(self.strings[: s + 1]) for s in range(len(self.strings))]
         return [range(end - count + 1, end + 1) for count, end in zip(self.strings, ends)]
 
+    def open_resistances(self) -> dict[int, float]:
+        """Coil (from 1) to resistance [ohm] of every open coil."""
+        groups = [[c for c in coils if c in self.open_coils] for coils in self.coils_of_strings()]
+        return {c: OPEN_RESISTANCE if len(g) == 1 else SHARED_OPEN_RESISTANCE for g in groups for c in g}
+
     def place(self, coil: int) -> str:
         """A coil (from 1) in words, for error texts."""
         string = next(s for s, coils in enumerate(self.coils_of_strings(), 1) if coil in coils)
@@ -162,5 +173,5 @@ def _coil(network: Network, coil: int, end: str) -> str:
     if coil in network.shorted_coils:
         return f"vshort{coil} {node_name(coil)} {end} dc 0"
     if coil in network.open_coils:
-        return f"ropen{coil} {node_name(coil)} {end} {OPEN_RESISTANCE!r}"
+        return f"ropen{coil} {node_name(coil)} {end} {network.open_resistances()[coil]!r}"
     return f"{coil_name(coil)} {node_name(coil)} {end} 1"
