@@ -41,7 +41,7 @@ class Network:
         string_resistance: In series with every string, for example its wires [ohm].
         open_coils: Broken coils, `OPEN_RESISTANCE`, or `SHARED_OPEN_RESISTANCE` each where a string has several: they
             then share its voltage equally, which is a convention, for the true potential between breaks is undefined.
-        shorted_coils: Bridged coils, an exact 0 V; ngspice cannot take 0 ohm.
+        shorted_coils: Bridged coils: both ends are one node, so exactly 0 V; ngspice cannot take 0 ohm.
 
     Raises:
         ValueError: A string without coils, a resistance out of range, a coil that does not exist or is both open and
@@ -136,9 +136,15 @@ def coil_name(coil: int) -> str:
     return f"rcoil{coil}"
 
 
-def node_name(coil: int) -> str:
-    """Node at the end of a coil (from 1) that looks to the supply."""
-    return f"n{coil}"
+def coil_nodes(network: Network) -> list[str]:
+    """Node at the supply side of every coil. A shorted coil's is that of the next coil, or ground, `0`."""
+    nodes: list[str] = []
+    for coils in reversed(network.coils_of_strings()):
+        node = "0"
+        for coil in reversed(coils):
+            node = node if coil in network.shorted_coils else f"n{coil}"
+            nodes.append(node)
+    return nodes[::-1]
 
 
 def render(network: Network) -> str:
@@ -156,22 +162,18 @@ def _sources(network: Network) -> Iterator[str]:
 
 
 def _strings(network: Network) -> Iterator[str]:
+    nodes, open_resistances = coil_nodes(network), network.open_resistances()
     for string, coils in enumerate(network.coils_of_strings(), 1):
         source = 1 if network.supply == "common" else string
-        top = node_name(coils[0])
+        top = nodes[coils[0] - 1]
         if network.string_resistance > 0.0:
             yield f"{ammeter_name(string)} s{source} w{string} dc 0"
             yield f"rstring{string} w{string} {top} {network.string_resistance!r}"
         else:
             yield f"{ammeter_name(string)} s{source} {top} dc 0"
         for coil in coils:
-            end = "0" if coil == coils[-1] else node_name(coil + 1)
-            yield _coil(network, coil, end)
-
-
-def _coil(network: Network, coil: int, end: str) -> str:
-    if coil in network.shorted_coils:
-        return f"vshort{coil} {node_name(coil)} {end} dc 0"
-    if coil in network.open_coils:
-        return f"ropen{coil} {node_name(coil)} {end} {network.open_resistances()[coil]!r}"
-    return f"{coil_name(coil)} {node_name(coil)} {end} 1"
+            end = "0" if coil == coils[-1] else nodes[coil]
+            if coil in open_resistances:
+                yield f"ropen{coil} {nodes[coil - 1]} {end} {open_resistances[coil]!r}"
+            elif coil not in network.shorted_coils:
+                yield f"{coil_name(coil)} {nodes[coil - 1]} {end} 1"

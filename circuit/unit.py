@@ -14,7 +14,7 @@ from circuit.netlist import (
     Network,
     ammeter_name,
     coil_name,
-    node_name,
+    coil_nodes,
     render,
     source_name,
 )
@@ -58,6 +58,10 @@ class CircuitUnit:
         self._solved = np.full(len(self._elements), np.nan)  # inputs that the outputs belong to
         self._altered = np.full(len(self._elements), np.nan)  # values that ngspice holds
         self._laws = Laws(network)
+        nodes = coil_nodes(network)
+        self._nodes = sorted(set(nodes) - {"0"})
+        #: Place of every coil's node among `_nodes`; ground comes after the last.
+        self._node_of_coil = np.array([self._nodes.index(n) if n != "0" else len(self._nodes) for n in nodes])
         try:
             self._circuit: Circuit | None = Circuit(render(network), self._vectors())
         except NgspiceError as fault:
@@ -66,7 +70,7 @@ class CircuitUnit:
     def _vectors(self) -> list[str]:
         network = self.network
         return [
-            *(node_name(c) for c in range(1, network.coils + 1)),
+            *self._nodes,
             *(f"{ammeter_name(s)}#branch" for s in range(1, len(network.strings) + 1)),
             *(f"{source_name(s)}#branch" for s in range(1, network.sources + 1)),
         ]
@@ -155,11 +159,11 @@ class CircuitUnit:
             raise UnitError(self.name, str(fault), time, "check voltages and resistances") from fault
         self._altered[changed] = wanted[changed]
         self.solves += 1
-        n, strings, sources = self.network.coils, len(self.network.strings), self.network.sources
+        n, strings, sources = len(self._nodes), len(self.network.strings), self.network.sources
         return Solution(
             source_voltage=wanted[:sources],
             resistance=wanted[sources:],
-            node_voltage=values[:n],
+            node_voltage=np.append(values[:n], 0.0)[self._node_of_coil],
             string_current=values[n : n + strings],
             source_current=-values[n + strings :],  # SPICE counts current into a source's positive terminal
         )
