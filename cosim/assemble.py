@@ -15,6 +15,7 @@ import numpy as np
 from fmpy.model_description import ModelDescription
 
 from circuit.netlist import Network
+from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
 from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
@@ -69,7 +70,7 @@ class Assembly:
         system: Units and connections.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
-        versions: What the components compute with beside Python packages: every FMU with its SHA-256.
+        versions: What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
     """
 
     system: System
@@ -115,7 +116,9 @@ def assemble(scenario: Scenario) -> Assembly:
 def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
     found = {}
     for name, unit in units.items():
-        if isinstance(unit, FmuUnit):
+        if isinstance(unit, CircuitUnit):
+            found["ngspice"] = str(ngspice().version)
+        elif isinstance(unit, FmuUnit):
             digest = hashlib.sha256(unit.archive.path.read_bytes()).hexdigest()
             found[f"FMU of {name}"] = f"{unit.archive.path.name}, sha256 {digest}"
     return found
