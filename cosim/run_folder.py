@@ -65,7 +65,7 @@ class RunFolder:
 
     def refuse_existing(self) -> None:
         """Raise InputError where the folder already holds a run: nothing is ever overwritten."""
-        if any(path.exists() for path in (self.scenario, self.results, self.summary, self.path / "checkpoints")):
+        if self.checkpoints() or any(path.exists() for path in (self.scenario, self.results, self.summary)):
             raise InputError(self.path, "", "this folder already holds a run",
                              "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
 

@@ -159,3 +159,11 @@ def test_an_input_that_is_not_finite_is_refused_where_it_arrives():
     with pytest.raises(UnitError, match=r"x: input input\[2\] is not a finite number"):
         unit.set("input", np.array([0.0, 1.0, np.inf]))
     assert isinstance(unit, Unit)
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_a_value_that_is_not_finite_is_caught_on_its_way_and_the_connection_named(algorithm):
+    system = two_tanks()
+    system.units["x"].get("state")[...] = math.nan
+    with pytest.raises(UnitError, match=r"input input.* is not a finite number, through x\.state -> y\.input"):
+        ALGORITHMS[algorithm](system, 0, 10)
