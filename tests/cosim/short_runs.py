@@ -47,7 +47,15 @@ def changed(scenario: Scenario, component: str, **fields: Any) -> Scenario:
     return scenario.model_copy(update={"components": {**scenario.components, component: new}})
 
 
-#: Short runs by name: with Bullet, without, with R(T).
+def without_fabric(name: str) -> Scenario:
+    """Circuit and actuator alone, over the whole time of the scenario: nothing feeds back from the fabric."""
+    scenario = load_scenario(name)
+    components = {n: c for n, c in scenario.components.items() if n != "fabric"}
+    algorithm = scenario.algorithm.model_copy(update={"order": list(components)})
+    connections = [c for c in scenario.connections if "fabric." not in c]
+    return scenario.model_copy(update={"components": components, "algorithm": algorithm, "connections": connections})
+
+
 def drape() -> Scenario:
     """0.3 s of the passive drape, a checkpoint every 0.1 s."""
     return shortened("passive_drape", "0.3 s", checkpoint_step="0.1 s")

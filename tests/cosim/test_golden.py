@@ -10,7 +10,7 @@ from cosim.scenario import load_scenario, shipped_scenarios
 
 from . import golden
 from .golden import Tolerance
-from .short_runs import changed, quantity, shortened, with_parameters
+from .short_runs import changed, quantity, shortened, with_parameters, without_fabric
 
 SMOOTH = Tolerance(0.0, 1e-9, "closed-form steps, linear circuit: only last digits of exp and LU differ between CPUs")
 
@@ -18,15 +18,6 @@ SMOOTH = Tolerance(0.0, 1e-9, "closed-form steps, linear circuit: only last digi
 def spread(absolute):
     """Fabrics are chaotic: friction changed by 1e-12 moves these runs by about a third of the tolerance."""
     return Tolerance(absolute, 0.0, "three times the spread of runs whose friction differs by 1e-12")
-
-
-def without_fabric(name):
-    """Circuit and actuator alone, over the whole time of the scenario: nothing feeds back from the fabric."""
-    scenario = load_scenario(name)
-    components = {n: c for n, c in scenario.components.items() if n != "fabric"}
-    algorithm = scenario.algorithm.model_copy(update={"order": list(components)})
-    connections = [c for c in scenario.connections if "fabric." not in c]
-    return scenario.model_copy(update={"components": components, "algorithm": algorithm, "connections": connections})
 
 
 def every(step, start, stop):
