@@ -90,7 +90,7 @@ class Laws:
         )
 
     def _ohm(self, resistance: Array, voltage: Array, current: Array, scale: Array) -> str:
-        excess = np.abs(voltage - resistance * current) > TOLERANCE * scale
+        excess = ~(np.abs(voltage - resistance * current) <= TOLERANCE * scale)  # NaN is an excess too
         if not excess.any():
             return ""
         coil = int(excess.argmax())
@@ -109,7 +109,7 @@ class Laws:
         supply_drop, string_drop = self._drops(solution)
         rest = solution.source_voltage - supply_drop - string_drop - solution.node_voltage[self._first]
         scale = volts + network.supply_resistance * amperes.sum() + network.string_resistance * amperes
-        excess = np.abs(rest) > TOLERANCE * scale
+        excess = ~(np.abs(rest) <= TOLERANCE * scale)
         if not excess.any():
             return ""
         string = int(excess.argmax())
@@ -120,7 +120,7 @@ class Laws:
         if self._network.supply == "common":
             strings, amperes = strings.sum(keepdims=True), amperes.sum(keepdims=True)
         rest = solution.source_current - strings
-        excess = np.abs(rest) > TOLERANCE * amperes
+        excess = ~(np.abs(rest) <= TOLERANCE * amperes)
         if not excess.any():
             return ""
         source = int(excess.argmax())

@@ -59,8 +59,8 @@ class Network:
         if not self.strings:
             raise ValueError("a network without strings; give the number of coils of each, for example [6, 6]")
         for number, coils in enumerate(self.strings, 1):
-            if coils < 1:
-                raise ValueError(f"string {number} has {coils} coils; every string needs at least one")
+            if not isinstance(coils, int) or isinstance(coils, bool) or coils < 1:
+                raise ValueError(f"string {number} has {coils!r} coils; give every string a whole number, at least one")
         if self.supply not in ("common", "per_string"):
             raise ValueError(f"supply {self.supply!r} is unknown; use `common` or `per_string`")
         for name, value in (("supply", self.supply_resistance), ("string", self.string_resistance)):

@@ -200,6 +200,7 @@ def _coordinates(network: Network) -> dict[str, Coordinate]:
     number = np.array([s for s, coils in enumerate(strings, 1) for _ in coils])
     position = np.array([p for coils in strings for p in range(1, len(coils) + 1)])
     return {
+        "string": Coordinate("string", np.arange(1, len(strings) + 1), "String of the circuit, from 1"),
         "string_of_coil": Coordinate("coil", number, "String that a coil belongs to, from 1"),
         "position_in_string": Coordinate("coil", position, "Place of a coil in its string, from 1 at the supply"),
     }
