@@ -105,7 +105,8 @@ class PhysicalValue:
         return float(f"{float(wanted.magnitude):.15g}")
 
     def __str__(self) -> str:
-        return f"{self.number:.15g} {self.unit}".strip()
+        short = f"{self.number:.15g}"
+        return f"{short if float(short) == self.number else repr(self.number)} {self.unit}".strip()
 
 
 def _serialise(value: object) -> str:

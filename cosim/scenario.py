@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
 
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
@@ -23,17 +23,14 @@ _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
 Time = Annotated[PhysicalValue, In("s")]
 Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
 AnyQuantity = Annotated[PhysicalValue, In()]
+Count = Annotated[StrictInt, Field(ge=1)]
 #: `component.output -> component.input`; variables of an FMU may hold dots and brackets themselves.
 CONNECTION = r"^\s*(\w+)\.(\S+)\s*->\s*(\w+)\.(\S+)\s*$"
 ParameterValue = StrictBool | AnyQuantity | list[AnyQuantity]
 
 
 def nanoseconds(value: PhysicalValue) -> int:
-    """Integer time [ns] of a quantity of time.
-
-    Raises:
-        ValueError: It is no whole number of nanoseconds.
-    """
+    """Integer time [ns] of a quantity of time; raises ValueError if it is no whole number of nanoseconds."""
     exact = value.to("s") * NANOSECONDS
     if abs(exact - round(exact)) > 1e-3:
         raise ValueError(f"`{value}` is not a whole number of nanoseconds")
@@ -53,9 +50,7 @@ class TimeSettings(Strict):
     stop: Time = Field(description="Simulated time at which the run ends; met exactly.")
     macro_step: Duration = Field(description="Communication step of the co-simulation.")
     output_step: Duration = Field(description="Interval between recorded values; a multiple of the macro-step.")
-    checkpoint_step: Duration = Field(
-        default=PhysicalValue(2.0, "s"), description="Interval between checkpoints; a multiple of the output step."
-    )
+    checkpoint_step: Duration = Field(default=PhysicalValue(2.0, "s"), description="Interval between checkpoints.")
 
     @model_validator(mode="after")
     def _check(self) -> TimeSettings:
@@ -87,7 +82,7 @@ class ProgrammeOutput(Strict):
     dim: str | None = Field(default=None, description="Dimension of a list of values, for example string.")
     constant: AnyQuantity | list[AnyQuantity] | None = None
     points: list[tuple[Time, AnyQuantity | list[AnyQuantity]]] | None = Field(
-        default=None, description="[time, value] pairs in rising order of time."
+        default=None, description="[time, value] pairs."
     )
     interpolation: Literal["hold", "linear"] = "hold"
 
@@ -124,12 +119,12 @@ class CircuitComponent(Strict):
     """The coil network, solved by ngspice."""
 
     kind: Literal["ngspice"]
-    strings: list[Annotated[int, Field(ge=1)]] = Field(min_length=1, description="Coils in series, per string.")
+    strings: list[Count] = Field(min_length=1, description="Coils in series, per string.")
     supply: Literal["common", "per_string"] = "common"
     supply_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
     string_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
-    open_coils: list[int] = Field(default=[], description="Coils that are open, counted from 1.")
-    shorted_coils: list[int] = Field(default=[], description="Coils that are shorted, counted from 1.")
+    open_coils: list[StrictInt] = Field(default=[], description="Coils that are open, counted from 1.")
+    shorted_coils: list[StrictInt] = Field(default=[], description="Coils that are shorted, counted from 1.")
     start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
 
 
@@ -142,7 +137,7 @@ class FmuComponent(Strict):
     integrator: Literal["internal", "cvode"] = Field(
         default="internal", description="internal: Co-Simulation; cvode: Model Exchange integrated by CVODE."
     )
-    structure: dict[str, Annotated[int, Field(ge=1)]] = Field(default={}, description="Structural parameters.")
+    structure: dict[str, Count] = Field(default={}, description="Structural parameters.")
     parameter_set: str | None = None
     parameters: dict[str, ParameterValue] = {}
     start: dict[str, AnyQuantity] = {}
@@ -152,14 +147,14 @@ class Tether(Strict):
     """Which links are held."""
 
     kind: Literal["cantilever", "hanging"]
-    rows: Annotated[int, Field(ge=1)] = 2
+    rows: Count = 2
 
 
 class Solver(Strict):
     """Bullet's solver."""
 
     micro_step: Duration = PhysicalValue(0.5, "ms")
-    iterations: Annotated[int, Field(ge=1)] = 50
+    iterations: Count = 50
     penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(1.0, "mm")
 
 
@@ -167,8 +162,8 @@ class FabricComponent(Strict):
     """Interlocked links as rigid bodies in Bullet."""
 
     kind: Literal["bullet_fabric"]
-    rows: Annotated[int, Field(ge=2)]
-    columns: Annotated[int, Field(ge=1)]
+    rows: Annotated[StrictInt, Field(ge=2)]
+    columns: Count
     tether: Tether
     solver: Solver = Solver()
     parameter_set: str | None = None
@@ -180,7 +175,7 @@ class HangingMassComponent(Strict):
     """A mass hanging from each coil, in equilibrium (the paper's water bath)."""
 
     kind: Literal["hanging_mass"]
-    coils: Annotated[int, Field(ge=1)]
+    coils: Count
     mass: Annotated[PhysicalValue, In("kg", minimum=0.0, is_exclusive=True)]
     start: dict[str, AnyQuantity] = {}
 
@@ -299,4 +294,5 @@ def json_schema() -> dict[str, Any]:
     """JSON Schema of scenario files."""
     schema = Scenario.model_json_schema(mode="validation")
     schema["properties"].pop("path", None)
+    schema["properties"]["components"]["additionalProperties"] = False  # names that break the pattern
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
