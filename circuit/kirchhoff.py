@@ -14,8 +14,8 @@ import numpy as np
 from circuit.netlist import Network
 from cosim.unit import Array
 
-#: Relative tolerance of every law. None of about 9000 solutions of random networks (0.001 to 8e5 ohm in one string, open and
-#: shorted coils) broke a law by 1e-15; four orders above that still find 0.12 nV at a coil of the paper's network.
+#: Relative tolerance of every law. None of some 9000 solutions of random networks (0.001 to 8e5 ohm in one string, open
+#: and shorted coils) broke a law by 1e-15; four orders above that still find 0.12 nV at a coil of the paper's network.
 #: Voltages count relative to the greatest source, currents to what it would drive through a string's least resistance.
 TOLERANCE = 1e-11
 
