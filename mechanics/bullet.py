@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from cosim.unit import Array
-from mechanics.quiet import without_output
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
+from mechanics.quiet import without_output
 from mechanics.springs import SteelSpring
 
 with without_output():  # it prints its build time
@@ -24,11 +24,10 @@ with without_output():  # it prints its build time
 
 #: Length units of Bullet per metre.
 SCALE = 100.0
-#: Time in which an overlap of two links is pushed apart, and in which a slide returns to its stop [s]. Bullet wants
-#: them as a share per step (ERP). Stops must be soft in position: a slide that is pushed off its stop is free there for
-#: a step, and a spring of some newtons throws it back by half a millimetre.
-CONTACT_CORRECTION_TIME = 2.5e-3
-STOP_CORRECTION_TIME = 25e-3
+#: Time in which half-solved overlaps and stops are pushed back [s]; Bullet wants it as a share per step (ERP). It must
+#: be long: a bar wedged between two others cannot leave its overlap, and a quick correction then presses on it with
+#: hundreds of newtons, which friction turns into a lock. See docs/decisions/0004-bullet-settings.md.
+CORRECTION_TIME = 25e-3
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
 
@@ -117,6 +116,13 @@ def woven(design: FabricDesign, layout: Layout) -> Motion:
 class World:
     """A Bullet world with one multibody per link: back half as base, front half on a slide.
 
+    Springs are not applied as forces beside the joint's stops: Bullet's stop acts only where the slide has already
+    passed it, and springs of 7 N would throw the slide up to 2 mm beyond in one step. Each spring pair is a joint
+    motor that seeks the stop towards which it acts, with no more than the springs' force. Between the stops the motor
+    is at its bound, which is the force itself; at a stop it gives just what keeps the slide there. What a load adds
+    against the stop is taken by Bullet's stop. A slide that would pass the stop at its present speed is caught by the
+    impulse that its mass needs.
+
     Args:
         design: Fabric.
         layout: Which links are held.
@@ -132,8 +138,9 @@ class World:
         if self._client < 0:
             raise RuntimeError("Bullet has no free client")
         self._configure()
-        shapes = self._shapes(half(design))
-        self._bodies = [self._link(i, shapes, half(design)) for i in range(design.links)]
+        self._half = half(design)
+        shapes = self._shapes(self._half)
+        self._bodies = [self._link(i, shapes, self._half) for i in range(design.links)]
         self._link_of = {body: link for link, body in enumerate(self._bodies)}
         sliding = np.flatnonzero(~layout.is_locked)
         #: (body, its two coils) of every link whose slide is free.
@@ -155,8 +162,8 @@ class World:
             useSplitImpulse=0,
             solverResidualThreshold=0,
             deterministicOverlappingPairs=1,
-            erp=_share(self.solver.micro_step / STOP_CORRECTION_TIME),
-            contactERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
+            erp=_share(self.solver.micro_step / CORRECTION_TIME),
+            contactERP=_share(self.solver.micro_step / CORRECTION_TIME),
             physicsClientId=self._client,
         )
         pybullet.setGravity(*(SCALE * g for g in self.design.gravity), physicsClientId=self._client)
@@ -273,21 +280,34 @@ class World:
             rest_length: Shape (coil,) [m].
         """
         client, get, put = self._client, pybullet.getJointState, pybullet.setJointMotorControl2
-        step, torque = pybullet.stepSimulation, pybullet.TORQUE_CONTROL
+        step, motor = pybullet.stepSimulation, pybullet.VELOCITY_CONTROL
         k, r = stiffness.tolist(), rest_length.tolist()
         steel, b = 2 * self.steel.stiffness, self.steel.rest_length
         longest, per_unit = self.design.length_cold, 1.0 / SCALE
-        # With all springs loaded (the usual case) the force is a straight line in the slide.
+        shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
+        per_step, slowly = 1.0 / self.solver.micro_step, 1.0 / CORRECTION_TIME
+        impact = self._half.mass / 2 * per_step  # two halves of mass m move against each other like m / 2
         links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
         for _ in range(steps):
             for body, k0, r0, k1, r1 in links:
-                length = longest + per_unit * get(body, 0, client)[0]
+                slide, rate = get(body, 0, client)[:2]
+                length = longest + per_unit * slide
                 force = steel * (b - length) if length < b else 0.0
                 if length > r0:
                     force -= k0 * (length - r0)
                 if length > r1:
                     force -= k1 * (length - r1)
-                put(body, 0, torque, force=SCALE * force, physicsClientId=client)
+                # See the class: a motor that seeks the stop ahead with no more than this force.
+                if force > 0:
+                    gap, bound = -slide, SCALE * force
+                    is_inside, speed = gap > 0, rate
+                else:
+                    gap, bound = shortest - slide, -SCALE * force
+                    is_inside, speed = gap < 0, -rate
+                if speed > abs(gap) * per_step:
+                    bound += impact * speed
+                put(body, 0, motor, targetVelocity=gap * (per_step if is_inside else slowly), force=bound,
+                    physicsClientId=client)  # fmt: skip
             step(client)
 
     def motion(self) -> Motion:
