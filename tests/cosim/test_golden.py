@@ -52,10 +52,10 @@ ELECTRICAL = {
 
 FABRIC = {
     # trace: stop, times, tolerance of curvature [1/m], length [m], row centres [m], link lengths [m], energy [J]
-    "passive_drape": ("0.3 s", every(0.06, 0.0, 0.3), (1.1, 4e-3, 7e-3, 1.3e-3, 4e-3)),
+    "passive_drape": ("0.2 s", every(0.04, 0.0, 0.2), (4.0, 2e-3, 5e-3, 1.3e-3, 2.5e-3)),
     "prototype_cantilever": ("-3.8 s", every(0.04, -4.0, -3.8), (1.6, 6e-4, 1e-3, 3e-4, 3e-4)),
     "hanging_contraction": ("-2.8 s", every(0.04, -3.0, -2.8), (1e-5, 1e-8, 1e-7, 1e-8, 1e-8)),
-    "spatial_control": ("-3.9 s", every(0.02, -4.0, -3.9), (0.15, 3e-4, 3e-4, 1e-4, 1e-4)),
+    "spatial_control": ("-3.9 s", every(0.02, -4.0, -3.9), (0.3, 3e-4, 4e-4, 1e-4, 1e-4)),
 }
 SHAPE = ("max_curvature", "fabric_length", "row_centre", "link_length", "potential_energy")
 
@@ -115,6 +115,8 @@ def test_a_wrong_fabric_leaves_the_tolerance(parameter, value):
 def test_gravity_the_wrong_way_round_leaves_the_tolerance():
     scenario, selection, times = fabric_run("passive_drape")
     up = with_parameters(scenario, "fabric", gravity=[quantity(f"{g} m/s^2") for g in (0, 0, 9.81)])
+    solver = up.components["fabric"].solver.model_copy(update={"penetration_limit": quantity("10 m")})
+    up = changed(up, "fabric", solver=solver)
     wrong = golden.series(run(up), selection, times)
     assert golden.differences(wrong, golden.load("passive_drape_fabric"), selection)
 

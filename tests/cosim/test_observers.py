@@ -11,7 +11,7 @@ from cosim import progress
 from cosim.observers.energy_balance import EnergyBalance
 from cosim.observers.trace import Trace
 from cosim.progress import progress_bar
-from cosim.run import Progress, run
+from cosim.run import Progress, RunStopped, run
 from cosim.run_folder import RunFolder, write_series
 from cosim.scenario import load_scenario
 from cosim.system import System
@@ -26,6 +26,19 @@ def test_a_closed_cycle_is_measured_by_what_flowed_in_between():
     # 30-70-30 degC: all energies end near zero, about 1.6 J went in and came out again.
     assert result.attrs["energy_convected_J"] == pytest.approx(0.0, abs=1e-9)
     assert abs(result.attrs["energy_residual"]) < 1e-12
+
+
+def test_a_resumed_run_remembers_what_flowed_before(tmp_path):
+    def interrupt(progress):
+        if progress.done >= 0.85 * progress.total:  # on the way down, long after the hottest moment
+            raise KeyboardInterrupt
+
+    scenario = load_scenario("water_bath")
+    with pytest.raises(RunStopped):
+        run(scenario, tmp_path / "run", on_progress=interrupt)
+    whole = run(scenario)
+    resumed = run(scenario, tmp_path / "run", resume=True)
+    assert resumed.attrs["energy_residual"] == whole.attrs["energy_residual"]
 
 
 def test_a_missing_joule_shows_in_the_residual():
