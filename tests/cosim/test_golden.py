@@ -54,7 +54,7 @@ FABRIC = {
     # trace: stop, times, tolerance of curvature [1/m], length [m], row centres [m], link lengths [m], energy [J]
     "passive_drape": ("0.2 s", every(0.04, 0.0, 0.2), (4.0, 2e-3, 5e-3, 1.3e-3, 2.5e-3)),
     "prototype_cantilever": ("-3.8 s", every(0.04, -4.0, -3.8), (1.6, 6e-4, 1e-3, 3e-4, 3e-4)),
-    "hanging_contraction": ("-2.8 s", every(0.04, -3.0, -2.8), (1e-5, 1e-8, 1e-7, 1e-8, 1e-8)),
+    "hanging_contraction": ("-2.8 s", every(0.04, -3.0, -2.8), (1e-4, 1e-8, 1e-7, 1e-8, 1e-8)),
     "spatial_control": ("-3.9 s", every(0.02, -4.0, -3.9), (0.3, 3e-4, 4e-4, 1e-4, 1e-4)),
 }
 SHAPE = ("max_curvature", "fabric_length", "row_centre", "link_length", "potential_energy")
