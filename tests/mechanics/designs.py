@@ -13,7 +13,8 @@ from mechanics.fabric import FabricDesign
 from mechanics.unit import FabricUnit, SolverSettings
 
 COLD, HOT, REST = 157.1, 356.0, 0.0094
-SOLVER = SolverSettings(micro_step=5e-4, iterations=50, penetration_limit=1e-3)
+#: The shipped defaults.
+SOLVER = SolverSettings(micro_step=5e-4, iterations=200, penetration_limit=1e-3)
 STEP = 10_000_000
 
 

@@ -84,7 +84,9 @@ def test_a_fabric_that_makes_no_sense_is_refused_by_name(change, what):
         prototype(**change)
 
 
-@pytest.mark.parametrize(("kind", "tethered"), [("cantilever", 1), ("cantilever", 2), ("cantilever", 3), ("hanging", 1)])
+@pytest.mark.parametrize(
+    ("kind", "tethered"), [("cantilever", 1), ("cantilever", 2), ("cantilever", 3), ("hanging", 1)]
+)
 @pytest.mark.parametrize("shape", [(6, 2), (8, 2), (5, 4)])
 def test_the_woven_start_overlaps_nowhere_and_every_link_is_hooked(kind, tethered, shape):
     design = prototype(rows=shape[0], columns=shape[1], tether_kind=kind, tether_rows=tethered)
@@ -101,10 +103,11 @@ def test_the_woven_start_overlaps_nowhere_and_every_link_is_hooked(kind, tethere
 def test_bars_of_one_layer_never_overlap_in_the_woven_start():
     design = prototype()
     plan = layout(design)
-    front = plan.bar_distance[:, None] * np.stack([np.zeros_like(plan.tilt), np.cos(plan.tilt), np.sin(plan.tilt)], axis=1)
-    middle = plan.link_in_row == 1  # seen from the side, one chain of A and B links
-    side = plan.link_in_row == 0
-    bars = np.concatenate([(p := plan.back_bar[m])[:, 1:].tolist() + (p + front[m])[:, 1:].tolist() for m in (middle, side)])
+    along = np.stack([np.cos(plan.tilt), np.sin(plan.tilt)], axis=1)
+    back = plan.back_bar[:, 1:]
+    front = back + plan.bar_distance[:, None] * along
+    chain = plan.link_in_row < 2  # seen from the side: every A and every B link once
+    bars = np.concatenate([back[chain], front[chain]])
     apart = np.linalg.norm(bars[:, None] - bars[None, :], axis=2) + np.eye(len(bars))
     assert apart.min() >= design.bar_diameter + 0.9 * CLEARANCE
 
@@ -146,7 +149,7 @@ def test_mass_and_inertia_of_a_half_agree_with_integration_over_its_volume():
         weights.append(np.full(n**3, sx * sy * sz / n**3))
     place, mass = np.concatenate(points), np.concatenate(weights)
     mass *= part.mass / mass.sum()
-    centre = mass @ place
+    centre = mass @ place / part.mass
     # A grid of 60 points per edge meets the cylinder's surface within 0.5 %.
     assert centre == pytest.approx([0, part.centre, 0], abs=0.005 * part.arm_size[1])
     off = place - centre
@@ -161,8 +164,8 @@ def test_frames_are_hooked_when_one_passes_through_the_other_and_not_when_it_lie
     distance = np.array([0.03, 0.03])
     pair = np.array([[0, 1]])
     down = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]).T
-    hooked = is_hooked(back + [[0, 0, 0], [0.01, 0, 0.005]], np.stack([flat, down]), distance, 0.012, pair)
-    beside = is_hooked(back + [[0, 0, 0], [0.05, 0, 0.005]], np.stack([flat, down]), distance, 0.012, pair)
+    hooked = is_hooked(back + np.array([[0, 0, 0], [0.01, 0, 0.005]]), np.stack([flat, down]), distance, 0.012, pair)
+    beside = is_hooked(back + np.array([[0, 0, 0], [0.05, 0, 0.005]]), np.stack([flat, down]), distance, 0.012, pair)
     within = is_hooked(back, np.stack([flat, upright]), np.array([0.03, 0.001]), 0.012, pair)
     assert hooked.tolist() == [True]
     assert beside.tolist() == [False]
