@@ -7,8 +7,8 @@ import time as clock
 
 from benchmarks.machine import heading, resident_memory, results_folder
 from cosim.assemble import assemble
-from cosim.run import ALGORITHMS
 from cosim.quantity import PhysicalValue
+from cosim.run import ALGORITHMS
 from cosim.scenario import FmuComponent, ProgrammeComponent, Scenario, load_scenario, nanoseconds
 
 #: (rows, columns): rows * (2 * columns - 1) links.
@@ -68,8 +68,9 @@ def main(arguments: list[str] | None = None) -> None:
     tables = {rows * (2 * columns - 1): measure(rows, columns, 40 if rows < 20 else 15) for rows, columns in SIZES}
     names = list(next(iter(tables.values())))
     lines = [heading("Cost of a macro-step, by unit", "python -m benchmarks.units"),
-             "Median microseconds per macro-step of 10 ms (20 Bullet micro-steps, 50 iterations).\n",
-             "| | " + " | ".join(f"{links} links" for links in tables) + " |", "|---|" + "---|" * len(tables)]  # fmt: skip
+             "Median microseconds per macro-step of 10 ms, with the shipped solver settings.\n",
+             "| | " + " | ".join(f"{links} links" for links in tables) + " |",
+             "|---|" + "---|" * len(tables)]  # fmt: skip
     for name in names:
         unit = "MiB more" if name == "memory" else "us"
         lines.append(f"| {name} [{unit}] | " + " | ".join(f"{t[name]:.0f}" for t in tables.values()) + " |")

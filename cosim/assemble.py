@@ -57,6 +57,7 @@ FABRIC_UNITS = {
     "restitution": "1",
     "steel_stiffness": "N/m",
     "steel_rest_length": "m",
+    "tether_play": "m",
 }
 
 _CONNECTION = re.compile(CONNECTION)

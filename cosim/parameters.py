@@ -22,7 +22,7 @@ class Parameter(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     value: StrictBool | Annotated[PhysicalValue, In()]
     unit: str = ""
-    source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why.")
+    source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why")
 
     @model_validator(mode="after")
     def _check(self) -> Parameter:

@@ -41,6 +41,7 @@ class FabricDesign:
         friction: Coefficient of friction between links.
         restitution: Coefficient of restitution between links.
         gravity: Acceleration vector [m/s^2].
+        tether_play: Gap between neighbouring bars of one layer in held rows [m].
 
     Raises:
         ValueError: A number is out of range or the fabric cannot be woven; names the field, its value and a remedy.
@@ -64,6 +65,7 @@ class FabricDesign:
     friction: float = 0.73
     restitution: float = 0.0
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
+    tether_play: float = 3e-4
 
     def __post_init__(self) -> None:
         self._check_numbers()
@@ -72,7 +74,7 @@ class FabricDesign:
     def _check_numbers(self) -> None:
         for name in ("bar_diameter", "tolerance", "length_cold", "length_hot", "link_mass", "steel_rest_length"):
             _require(name, getattr(self, name), getattr(self, name) > 0, "give a positive number")
-        for name in ("steel_stiffness", "friction"):
+        for name in ("steel_stiffness", "friction", "tether_play"):
             _require(name, getattr(self, name), getattr(self, name) >= 0, "give zero or a positive number")
         _require("restitution", self.restitution, 0 <= self.restitution <= 1, "give a number from 0 to 1")
         _require("length_offset", self.length_offset, self.length_hot + self.length_offset > 0, "make it larger")
@@ -92,7 +94,7 @@ class FabricDesign:
     def _check_weave(self) -> None:
         if self.length_hot >= self.length_cold:
             raise ValueError(
-                f"length_hot is {self.length_hot} m, not below length_cold {self.length_cold} m: heating contracts links"
+                f"length_hot is {self.length_hot} m, not below length_cold {self.length_cold} m: heat contracts links"
             )
         if self.width is not None and not self.width >= 4 * self.bar_diameter:
             raise ValueError(
@@ -146,13 +148,13 @@ class FabricDesign:
 
     @property
     def held_weave(self) -> Weave:
-        """Weave of held rows: as short as the inner stop or the jam allows, with the clearance at every bar.
+        """Weave of held rows: the jammed one, with some play between neighbouring bars of a layer.
 
-        A clearance c at each hook takes 4 c from the slack 2 L cos(theta) - 3 d / sin(theta) - d of the bars.
+        The slack between them is 2 L cos(theta) - 3 d / sin(theta) - d; a clearance c at each hook takes 3 c from it.
+        Without play the first free row sits in a wedge, and friction makes hundreds of newtons of some springs.
         """
         jam = jammed_weave(self.bar_diameter)
-        looser = jam.bar_distance + 2 * CLEARANCE / math.cos(jam.tilt)
-        distance = max(self.bar_distance_hot, looser)
+        distance = jam.bar_distance + (self.tether_play + 3 * CLEARANCE) / (2 * math.cos(jam.tilt))
         pitch = 2 * (distance * math.cos(jam.tilt) - self.bar_diameter / math.sin(jam.tilt))
         return Weave(distance, jam.tilt, pitch)
 

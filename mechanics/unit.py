@@ -142,7 +142,8 @@ class FabricUnit:
         steps, rest = divmod(size, self._micro)
         if rest:
             raise UnitError(
-                self.name, f"the macro-step {seconds(size)} s is no multiple of the micro-step {seconds(self._micro)} s",
+                self.name,
+                f"the macro-step {seconds(size)} s is no multiple of the micro-step {seconds(self._micro)} s",
                 time, "change solver.micro_step or time.macro_step",
             )  # fmt: skip
         self._check_inputs(time)
@@ -162,8 +163,8 @@ class FabricUnit:
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
         """Continue from `checkpoint`."""
         prefix = "motion."
-        arrays = {n.removeprefix(prefix): np.array(a, dtype=np.float64) for n, a in state.items() if n.startswith(prefix)}
-        self._seat(Motion(**arrays))
+        given = {n.removeprefix(prefix): a for n, a in state.items() if n.startswith(prefix)}
+        self._seat(Motion(**{n: np.array(a, dtype=np.float64) for n, a in given.items()}))
         for name in self.variables:
             self._store.arrays[name][...] = state[f"value.{name}"]
 

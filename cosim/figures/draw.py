@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from cosim.errors import InputError
-from cosim.figures import curvature, currents, lengths, side_view, stiffness_loops, temperatures
+from cosim.figures import currents, curvature, lengths, side_view, stiffness_loops, temperatures
 from cosim.run_folder import RunFolder, writing
 
 

@@ -50,7 +50,8 @@ def open_fmu(path: Path) -> FmuArchive:
         with zipfile.ZipFile(path) as archive:
             _check_entries(path, archive)
     except zipfile.BadZipFile as error:
-        raise InputError(path, "", f"this is not an FMU: {error}", "an FMU is a zip archive; export it again") from error
+        raise InputError(path, "", f"this is not an FMU: {error}",
+                         "an FMU is a zip archive; export it again") from error  # fmt: skip
     try:
         description = read_model_description(str(path), validate=True)
     except Exception as error:  # fmpy raises bare Exception for most defects

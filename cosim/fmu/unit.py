@@ -49,7 +49,7 @@ class FmuUnit:
             self._fmu = fmu_variables(archive.description, settings.structure)
         except ValueError as error:
             raise InputError(archive.path, f"{name}.structure", str(error)) from error
-        self.variables: dict[str, Variable] = {
+        self.variables: Mapping[str, Variable] = {
             n: v.variable for n, v in self._fmu.items() if v.is_real and v.variable.causality is not Causality.PARAMETER
         }
         self.binding = bind(archive, interface, name)

@@ -74,10 +74,11 @@ def refit(temperature: Array, stiffness: Array, guess: Gompertz) -> Refit:
     def curve(p: Array) -> Gompertz:
         return Gompertz(p[0], float(np.exp(p[1])), p[2], p[3])
 
+    def residual(p: Array) -> Array:
+        return curve(p)(temperature) - stiffness
+
     start = np.array([guess.a, np.log(guess.b), guess.c, guess.d])
-    found = least_squares(
-        lambda p: curve(p)(temperature) - stiffness, start, x_scale=np.abs(start), xtol=1e-14, ftol=1e-14, gtol=1e-14
-    )
+    found = least_squares(residual, start, x_scale=np.abs(start), xtol=1e-14, ftol=1e-14, gtol=1e-14)
     return Refit(curve(found.x), float(np.sum(np.square(found.fun))))
 
 

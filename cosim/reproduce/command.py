@@ -54,9 +54,7 @@ def run_one(name: str, out: Path) -> str:
     if folder.is_complete():
         return ""
     scenario = scenario_of(name)
-    is_begun = bool(folder.checkpoints())
-    if folder.scenario.exists() and not is_begun:
-        folder.scenario.unlink()  # begun, but nothing computed yet
+    is_begun = folder.scenario.exists()
     try:
         with progress_bar(name, Console(stderr=True, force_terminal=False)) as on_progress:
             run(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, on_progress)

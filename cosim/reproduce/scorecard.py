@@ -27,7 +27,8 @@ def as_markdown(rows: Sequence[Row]) -> str:
             tolerance = "relation" if r.tolerance is None else f"+-{r.tolerance:g}"
             verdict = "pass" if r.is_met else "**FAIL**"
             why = r.reason + (f"; {r.explanation}" if r.explanation else "")
-            lines.append(f"| {r.quantity} | {r.published} | {number(r.ours)} | {r.unit} | {tolerance} | {verdict} | {why} |")
+            cells = (r.quantity, r.published, number(r.ours), r.unit, tolerance, verdict, why)
+            lines.append(f"| {' | '.join(cells)} |")
         lines.append("")
     met = sum(r.is_met for r in rows)
     lines.append(f"{met} of {len(rows)} lines pass.")

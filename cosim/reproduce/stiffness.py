@@ -7,7 +7,7 @@ import xarray as xr
 
 from cosim.paper.laws import COOLING, HEATING
 from cosim.paper.measures import level_readings, refit
-from cosim.reproduce.row import Row, compare
+from cosim.reproduce.row import Row, compare, relation
 
 #: Levels of the scenario water_bath: interval and hold [s], and number of levels while heating.
 INTERVAL, HOLD, RISING = 60.0, 50.0, 21
@@ -46,7 +46,8 @@ def stiffness_rows(bath: xr.Dataset) -> list[Row]:
                                 abs(target) * (0.15 if name == "b" else 0.02), "b is ill determined: ln b counts"
                                 if name == "b" else "2 %"))  # fmt: skip
     total = up_fit.residual_norm + down_fit.residual_norm
-    rows.append(compare(s, "residual norm of the refit", "0.0058", total, 0.0058, "(N/mm)^2", 0.0058,
-                        "noise-free run: must not exceed the paper's",
-                        "the paper's residual is its measuring noise and the coil's own shape; our run has neither"))  # fmt: skip
+    # Published: the misfit of measured points.  Ours is the misfit of a noise-free run, so it can only be smaller.
+    rows.append(relation(s, "residual norm of the refit", "0.0058", total, "(N/mm)^2", total < 0.0058,
+                         "noise-free run: below the paper's",
+                         "the paper's residual is measuring noise and the coil's own shape; our run has neither"))  # fmt: skip
     return rows

@@ -50,8 +50,8 @@ def thermal_rows(heating: xr.Dataset, own_rate: xr.Dataset) -> list[Row]:
         relation(s, "the paper contradicts itself: rate heating / rate cooling", "0.2226 / 0.14", coil.heating_rate
                  / coil.cooling_rate, "1", abs(coil.heating_rate / coil.cooling_rate - 1.59) < 0.01,
                  "one hA and one heat capacity would give 1",
-                 "a lower h when off (chassis, no draught), a second heat capacity or latent heat could do it; the text "
-                 "names the chassis"),
+                 "a lower h when off (chassis, no draught), a second heat capacity or latent heat could do it; the "
+                 "text names the chassis"),
     ]  # fmt: skip
 
 
