@@ -49,5 +49,5 @@ def stiffness_rows(bath: xr.Dataset) -> list[Row]:
     # Published: the misfit of measured points.  Ours is the misfit of a noise-free run, so it can only be smaller.
     rows.append(relation(s, "residual norm of the refit", "0.0058", total, "(N/mm)^2", total < 0.0058,
                          "noise-free run: below the paper's",
-                         "the paper's residual is measuring noise and the coil's own shape; our run has neither"))  # fmt: skip
+                         "the paper's is measuring noise and the coil's own shape; ours has neither"))  # fmt: skip
     return rows
