@@ -152,7 +152,7 @@ def table(cells: tuple[tuple[float, int, int], ...], durations: tuple[float, flo
         "the starts and, in brackets, their range. Starts differ by speeds of up to 1 mm/s of the free links: their "
         "range is the yardstick, how far the fabric itself, not the solver, decides. Overlap: the worst of all starts. "
         f"Failed: starts that ended because links tore free or overlapped by more than {1e3 * ESCAPED:g} mm. Hung "
-        "lengths: hung by the first row, 2 s each, one start. Times are those of the processor, on one core. Cells that "
+        "lengths: hung by the first row, 2 s each, one start. Times: of the processor, on one core. Cells that "
         "are missing, and starts that are fewer, cost too much.\n"
     )
     yield ("| micro-step [ms] | iterations | starts | cold | hot | re-cooled | worst overlap [mm] | failed "
