@@ -1,4 +1,4 @@
-"""The only place where Bullet is called: a world of links, stepped with explicit spring forces.
+"""The only place where Bullet is called: a world of links, driven by its springs.
 
 Bullet works here in centimetres and kilograms, because its collision margin (0.001 length units) must be small against
 a bar; everything that enters or leaves this module is SI. Traps that the settings avoid are listed in
@@ -11,19 +11,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from cosim.unit import Array
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
+from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.quiet import without_output
 from mechanics.springs import SteelSpring
 
 with without_output():  # it prints its build time
     import pybullet
 
-#: Length units of Bullet per metre.
-SCALE = 100.0
+__all__ = ["SCALE", "Contacts", "Motion", "SolverSettings", "World", "rotation", "woven"]
+
 #: Time in which half-solved overlaps and stops are pushed back [s]; Bullet wants it as a share per step (ERP). It must
 #: be long: a bar wedged between two others cannot leave its overlap, and a quick correction then presses on it with
 #: hundreds of newtons, which friction turns into a lock. See docs/decisions/0004-bullet-settings.md.
@@ -56,31 +56,6 @@ class SolverSettings:
                 raise ValueError(f"{name} is {value}: give a positive number")
 
 
-@dataclass
-class Motion:
-    """State of all links; the arrays are what a checkpoint keeps, in Bullet's own units so that nothing is rounded.
-
-    Args:
-        position: Shape (link, 3), centre of mass of the back half [cm].
-        orientation: Shape (link, 4), quaternion x, y, z, w of the link.
-        velocity: Shape (link, 3) [cm/s].
-        angular_velocity: Shape (link, 3) [rad/s].
-        slide: Shape (link,), bar distance less its greatest value [cm].
-        slide_rate: Shape (link,) [cm/s].
-    """
-
-    position: Array
-    orientation: Array
-    velocity: Array
-    angular_velocity: Array
-    slide: Array
-    slide_rate: Array
-
-    def copy(self) -> Motion:
-        """Deep copy."""
-        return Motion(**{name: value.copy() for name, value in vars(self).items()})
-
-
 @dataclass(frozen=True)
 class Contacts:
     """Contacts between links.
@@ -99,18 +74,6 @@ class Contacts:
 def _share(steps: float) -> float:
     """Share of an error that is corrected in one step; at most half, beyond which corrections overshoot."""
     return min(0.5, steps)
-
-
-def woven(design: FabricDesign, layout: Layout) -> Motion:
-    """The flat start at rest."""
-    n = design.links
-    sine, cosine = np.sin(layout.tilt / 2), np.cos(layout.tilt / 2)
-    orientation = np.zeros((n, 4))
-    orientation[:, 0], orientation[:, 3] = sine, cosine
-    along = np.stack([np.zeros(n), np.cos(layout.tilt), np.sin(layout.tilt)], axis=1)
-    position = layout.back_bar + half(design).centre * along
-    slide = layout.bar_distance - design.bar_distance_cold
-    return Motion(SCALE * position, orientation, np.zeros((n, 3)), np.zeros((n, 3)), SCALE * slide, np.zeros(n))
 
 
 class World:
@@ -329,16 +292,3 @@ class World:
         deepest = min(points, key=lambda point: point[8])
         links = self._link_of[deepest[1]], self._link_of[deepest[2]]
         return Contacts(len(points), max(0.0, -deepest[8] / SCALE), links)
-
-
-def rotation(orientation: Array) -> npt.NDArray[np.float64]:
-    """Rotation matrices (link, 3, 3) of quaternions x, y, z, w (link, 4); columns are the links' x, y, z axes."""
-    x, y, z, w = orientation.T
-    return np.stack(
-        [
-            np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], -1),
-            np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], -1),
-            np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], -1),
-        ],
-        -2,
-    )

@@ -65,7 +65,7 @@ WRONG = [
     ({"width": 0.030}, "cannot be woven"),
     ({"width": 4 * 8.35e-3}, "leaves no play"),
     ({"bar_diameter": 10e-3}, "cannot be woven"),
-    ({"length_hot": 0.034}, "heating contracts links"),
+    ({"length_hot": 0.034}, "heat contracts links"),
     ({"friction": -0.1}, "friction"),
     ({"restitution": 1.5}, "restitution"),
     ({"rows": 2}, "rows is 2"),
