@@ -88,21 +88,20 @@ def drape(
 ) -> Drape:
     """Cold, hot at once, cold again; see `Drape`."""
     unit = woven_unit(prototype(**changes), SolverSettings(micro_step, iterations, ESCAPED), start)
-    found, worst, now, failure = [math.nan] * 3, 0.0, 0.0, ""
+    found, worst, now, failure = [math.nan] * 3, 0.0, 0, ""
     began = time.process_time()
     try:
         for index, (stiffness, duration) in enumerate(zip((COLD, HOT, COLD), durations)):
             series = []
-            for value, overlap in phase(unit, stiffness, duration, round(now * 1e9), "max_curvature"):
+            for value, overlap in phase(unit, stiffness, duration, now, "max_curvature"):
                 series.append(value)
-                worst = max(worst, overlap)
+                worst, now = max(worst, overlap), now + MACRO_STEP
             found[index] = float(np.mean(series[-100:]))
-            now += duration
     except UnitError as error:
         failure = error.what
     taken = time.process_time() - began
     unit.terminate()
-    return Drape((found[0], found[1], found[2]), worst, taken / max(now, 0.01), failure)
+    return Drape((found[0], found[1], found[2]), worst, taken / max(1e-9 * now, 0.01), failure)
 
 
 def hanging(micro_step: float, iterations: int, seconds: float) -> tuple[float, float]:
