@@ -211,6 +211,7 @@ def _fabric(name: str, component: FabricComponent, parameters: Resolved) -> Fabr
         micro_step=component.solver.micro_step.to("s"),
         iterations=component.solver.iterations,
         penetration_limit=component.solver.penetration_limit.to("m"),
+        springs=component.solver.springs,
     )
     return FabricUnit(name, design, solver)
 

@@ -154,8 +154,11 @@ class Solver(Strict):
     """Bullet's solver."""
 
     micro_step: Duration = PhysicalValue(0.5, "ms")
-    iterations: Count = 50
-    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(1.0, "mm")
+    iterations: Count = 200
+    springs: Literal["force", "motor"] = Field(
+        default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
+    )
+    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
 
 
 class FabricComponent(Strict):

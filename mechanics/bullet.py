@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -24,10 +25,12 @@ with without_output():  # it prints its build time
 
 __all__ = ["SCALE", "Contacts", "Motion", "SolverSettings", "World", "rotation", "woven"]
 
-#: Time in which half-solved overlaps and stops are pushed back [s]; Bullet wants it as a share per step (ERP). It must
-#: be long: a bar wedged between two others cannot leave its overlap, and a quick correction then presses on it with
-#: hundreds of newtons, which friction turns into a lock. See docs/decisions/0004-bullet-settings.md.
-CORRECTION_TIME = 25e-3
+#: Time in which an overlap of two links is pushed apart, and in which a slide returns to its stop [s]. Bullet wants
+#: them as a share per step (ERP). Stops must be slow: a slide that is pushed off its stop is free there for a step, in
+#: which a spring of some newtons throws it back by half a millimetre. docs/decisions/0004-bullet-settings.md.
+CONTACT_CORRECTION_TIME = 2.5e-3
+STOP_CORRECTION_TIME = 25e-3
+_TORQUE, _MOTOR = pybullet.TORQUE_CONTROL, pybullet.VELOCITY_CONTROL
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
 
@@ -40,20 +43,24 @@ class SolverSettings:
         micro_step: Time step [s].
         iterations: Iterations of the projected Gauss-Seidel solver per step.
         penetration_limit: Largest overlap of two links that is tolerated [m].
+        springs: "force": springs are joint forces; "motor": bounded joint motors (see `World`).
 
     Raises:
-        ValueError: A number is not positive.
+        ValueError: A number is not positive, or there is no such way to apply springs.
     """
 
     micro_step: float
     iterations: int
     penetration_limit: float
+    springs: Literal["force", "motor"] = "force"
 
     def __post_init__(self) -> None:
         for name in ("micro_step", "iterations", "penetration_limit"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
                 raise ValueError(f"{name} is {value}: give a positive number")
+        if self.springs not in ("force", "motor"):
+            raise ValueError(f"springs is {self.springs!r}: give 'force' or 'motor'")
 
 
 @dataclass(frozen=True)
@@ -79,12 +86,12 @@ def _share(steps: float) -> float:
 class World:
     """A Bullet world with one multibody per link: back half as base, front half on a slide.
 
-    Springs are not applied as forces beside the joint's stops: Bullet's stop acts only where the slide has already
-    passed it, and springs of 7 N would throw the slide up to 2 mm beyond in one step. Each spring pair is a joint
-    motor that seeks the stop towards which it acts, with no more than the springs' force. Between the stops the motor
-    is at its bound, which is the force itself; at a stop it gives just what keeps the slide there. What a load adds
-    against the stop is taken by Bullet's stop. A slide that would pass the stop at its present speed is caught by the
-    impulse that its mass needs.
+    Springs act in one of two ways (`SolverSettings.springs`). "force": as a joint force, set anew in every micro-step.
+    Bullet's stop acts only where the slide has already passed it, so preloaded slides rattle by some tenths of a
+    millimetre, which shakes friction loose. "motor": each spring pair is a joint motor that seeks the stop towards which
+    it acts, with no more than the springs' force. Between the stops the motor is at its bound, which is the force itself;
+    at a stop it gives just what keeps the slide there, and a slide that would pass the stop at its present speed is
+    caught by the impulse that its mass needs. Nothing rattles, and friction holds what it can hold.
 
     Args:
         design: Fabric.
@@ -125,8 +132,8 @@ class World:
             useSplitImpulse=0,
             solverResidualThreshold=0,
             deterministicOverlappingPairs=1,
-            erp=_share(self.solver.micro_step / CORRECTION_TIME),
-            contactERP=_share(self.solver.micro_step / CORRECTION_TIME),
+            erp=_share(self.solver.micro_step / STOP_CORRECTION_TIME),
+            contactERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
             physicsClientId=self._client,
         )
         pybullet.setGravity(*(SCALE * g for g in self.design.gravity), physicsClientId=self._client)
@@ -242,36 +249,54 @@ class World:
             stiffness: Shape (coil,) [N/m].
             rest_length: Shape (coil,) [m].
         """
-        client, get, put = self._client, pybullet.getJointState, pybullet.setJointMotorControl2
-        step, motor = pybullet.stepSimulation, pybullet.VELOCITY_CONTROL
+        act = self._push if self.solver.springs == "force" else self._drive
         k, r = stiffness.tolist(), rest_length.tolist()
+        links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
+        step, client = pybullet.stepSimulation, self._client
+        for _ in range(steps):
+            act(links)
+            step(client)
+
+    def _push(self, links: list[tuple[int, float, float, float, float]]) -> None:
+        """Springs as joint forces."""
+        client, get, put, torque = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _TORQUE
+        steel, b = 2 * self.steel.stiffness, self.steel.rest_length
+        longest, per_unit = self.design.length_cold, 1.0 / SCALE
+        for body, k0, r0, k1, r1 in links:
+            length = longest + per_unit * get(body, 0, client)[0]
+            force = steel * (b - length) if length < b else 0.0
+            if length > r0:
+                force -= k0 * (length - r0)
+            if length > r1:
+                force -= k1 * (length - r1)
+            put(body, 0, torque, force=SCALE * force, physicsClientId=client)
+
+    def _drive(self, links: list[tuple[int, float, float, float, float]]) -> None:
+        """Springs as bounded joint motors; see the class."""
+        client, get, put, motor = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _MOTOR
         steel, b = 2 * self.steel.stiffness, self.steel.rest_length
         longest, per_unit = self.design.length_cold, 1.0 / SCALE
         shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
-        per_step, slowly = 1.0 / self.solver.micro_step, 1.0 / CORRECTION_TIME
+        per_step, slowly = 1.0 / self.solver.micro_step, 1.0 / STOP_CORRECTION_TIME
         impact = self._half.mass / 2 * per_step  # two halves of mass m move against each other like m / 2
-        links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
-        for _ in range(steps):
-            for body, k0, r0, k1, r1 in links:
-                slide, rate = get(body, 0, client)[:2]
-                length = longest + per_unit * slide
-                force = steel * (b - length) if length < b else 0.0
-                if length > r0:
-                    force -= k0 * (length - r0)
-                if length > r1:
-                    force -= k1 * (length - r1)
-                # See the class: a motor that seeks the stop ahead with no more than this force.
-                if force > 0:
-                    gap, bound = -slide, SCALE * force
-                    is_inside, speed = gap > 0, rate
-                else:
-                    gap, bound = shortest - slide, -SCALE * force
-                    is_inside, speed = gap < 0, -rate
-                if speed > abs(gap) * per_step:
-                    bound += impact * speed
-                put(body, 0, motor, targetVelocity=gap * (per_step if is_inside else slowly), force=bound,
-                    physicsClientId=client)  # fmt: skip
-            step(client)
+        for body, k0, r0, k1, r1 in links:
+            slide, rate = get(body, 0, client)[:2]
+            length = longest + per_unit * slide
+            force = steel * (b - length) if length < b else 0.0
+            if length > r0:
+                force -= k0 * (length - r0)
+            if length > r1:
+                force -= k1 * (length - r1)
+            if force > 0:
+                gap, bound = -slide, SCALE * force
+                is_inside, speed = gap > 0, rate
+            else:
+                gap, bound = shortest - slide, -SCALE * force
+                is_inside, speed = gap < 0, -rate
+            if speed > abs(gap) * per_step:
+                bound += impact * speed
+            put(body, 0, motor, targetVelocity=gap * (per_step if is_inside else slowly), force=bound,
+                physicsClientId=client)  # fmt: skip
 
     def motion(self) -> Motion:
         """Current state; the arrays are overwritten by the next call."""

@@ -65,7 +65,7 @@ class FabricDesign:
     friction: float = 0.73
     restitution: float = 0.0
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
-    tether_play: float = 3e-4
+    tether_play: float = 1e-4
 
     def __post_init__(self) -> None:
         self._check_numbers()

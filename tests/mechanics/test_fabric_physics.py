@@ -130,7 +130,7 @@ def test_every_piece_of_every_link_has_the_friction_mass_and_inertia_of_the_desi
     for link, body in enumerate(world._bodies):
         for piece in (-1, 0):
             info = pybullet.getDynamicsInfo(body, piece, world._client)
-            assert info[1] ** 2 == pytest.approx(0.73, rel=1e-12)  # Bullet multiplies those of two bodies
+            assert info[1] == pytest.approx(0.73, rel=1e-12)  # as the paper sets it; Bullet multiplies two bodies
             assert info[5:8] == (0.0, 0.0, 0.0)  # restitution, rolling and spinning friction
             if link >= 6:  # the first two rows are held
                 assert info[0] == pytest.approx(part.mass, rel=1e-12)
@@ -143,6 +143,11 @@ def test_ten_thousand_iterations_are_possible():
     unit.do_step(0, 1_000_000)
     assert unit.get("max_penetration") < 1e-4
     unit.terminate()
+
+
+def test_there_are_two_ways_to_apply_springs():
+    with pytest.raises(ValueError, match="'force' or 'motor'"):
+        SolverSettings(5e-4, 50, 1e-3, "rope")
 
 
 @pytest.mark.parametrize("name", ["iterations", "micro_step", "penetration_limit"])

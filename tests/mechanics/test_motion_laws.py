@@ -32,7 +32,7 @@ def lost_momenta(stiffness, micro_step):
     design = prototype(tether_rows=0, gravity=(0.0, 0.0, 0.0))
     start = woven(design, layout(design))
     start.velocity += np.random.default_rng(7).uniform(-20.0, 20.0, start.velocity.shape)  # cm/s
-    world = World(design, layout(design), SolverSettings(micro_step, 200, 1e-3), start)
+    world = World(design, layout(design), SolverSettings(micro_step, 200, 1e-3, "motor"), start)
     before, turning = momenta(world, design)
     for k in (COLD, stiffness):
         world.advance(round(0.05 / micro_step), np.full(2 * design.links, k), np.full(2 * design.links, REST))
@@ -60,7 +60,7 @@ def test_the_momentum_lost_by_contracting_links_is_of_first_order_in_the_micro_s
 @pytest.mark.parametrize(("slope", "slides"), [(0.70, False), (0.80, True)])
 def test_a_link_slides_on_another_beyond_the_slope_of_its_friction(slope, slides):
     angle, g = math.atan(slope), 9.81
-    design = prototype(gravity=(0.0, g * math.sin(angle), -g * math.cos(angle)))
+    design = prototype(friction=0.73, gravity=(0.0, g * math.sin(angle), -g * math.cos(angle)))
     start = woven(design, layout(design))
     # Link 17 lies flat on the held link 1, arm on arm; everything else is far away.
     start.position[:, 0] = 100.0 * np.arange(1, design.links + 1)
