@@ -88,9 +88,9 @@ class World:
 
     Springs act in one of two ways (`SolverSettings.springs`). "force": as a joint force, set anew in every micro-step.
     Bullet's stop acts only where the slide has already passed it, so preloaded slides rattle by some tenths of a
-    millimetre, which shakes friction loose. "motor": each spring pair is a joint motor that seeks the stop towards which
-    it acts, with no more than the springs' force. Between the stops the motor is at its bound, which is the force itself;
-    at a stop it gives just what keeps the slide there, and a slide that would pass the stop at its present speed is
+    millimetre, which shakes friction loose. "motor": each spring pair is a joint motor that seeks the stop towards
+    which it acts, with no more than the springs' force. Between the stops the motor is at its bound, which is that force;
+    at a stop it gives what keeps the slide there, and a slide that would pass the stop at its present speed is
     caught by the impulse that its mass needs. Nothing rattles, and friction holds what it can hold.
 
     Args:
