@@ -1,12 +1,12 @@
 """The folder of one run: what was run, with what, and what came out.
 
-    scenario.yaml    the scenario as it was run, parameter sets inlined
-    parameters.csv   every parameter with unit and source
-    versions.json    versions of everything that computes
-    checkpoints/     state of every unit, and the values recorded since the checkpoint before
-    results.nc       all recorded values (NetCDF 4)
-    series.csv       the main series against time
-    summary.json     status, wall time of every unit, energy balance
+scenario.yaml    the scenario as it was run, parameter sets inlined
+parameters.csv   every parameter with unit and source
+versions.json    versions of everything that computes
+checkpoints/     state of every unit, and the values recorded since the checkpoint before
+results.nc       all recorded values (NetCDF 4)
+series.csv       the main series against time
+summary.json     status, wall time of every unit, energy balance
 """
 
 from __future__ import annotations

@@ -89,7 +89,7 @@ class World:
     Springs act in one of two ways (`SolverSettings.springs`). "force": as a joint force, set anew in every micro-step.
     Bullet's stop acts only where the slide has already passed it, so preloaded slides rattle by some tenths of a
     millimetre, which shakes friction loose. "motor": each spring pair is a joint motor that seeks the stop towards
-    which it acts, with no more than the springs' force. Between the stops the motor is at its bound, which is that force;
+    which it acts, with no more than the springs' force. Between the stops the motor is at its bound, that is the force;
     at a stop it gives what keeps the slide there, and a slide that would pass the stop at its present speed is
     caught by the impulse that its mass needs. Nothing rattles, and friction holds what it can hold.
 
@@ -237,9 +237,7 @@ class World:
         pybullet.resetJointState(
             body, 0, float(self._motion.slide[link]), float(self._motion.slide_rate[link]), physicsClientId=self._client
         )
-        pybullet.setJointMotorControl2(
-            body, 0, pybullet.VELOCITY_CONTROL, force=0.0, physicsClientId=self._client
-        )
+        pybullet.setJointMotorControl2(body, 0, pybullet.VELOCITY_CONTROL, force=0.0, physicsClientId=self._client)
 
     def advance(self, steps: int, stiffness: Array, rest_length: Array) -> None:
         """Take micro-steps with the spring forces of this instant.

@@ -78,9 +78,7 @@ def jammed_weave(bar_diameter: float) -> Weave:
     >>> round(jam.bar_distance, 2), round(jam.pitch, 2)
     (3.69, 2.49)
     """
-    tilt = float(
-        brentq(lambda t: math.sin(t) ** 2 * (math.sin(t) + 3) - 3 * math.cos(t) ** 2, 0.1, 1.5, xtol=1e-14)
-    )
+    tilt = float(brentq(lambda t: math.sin(t) ** 2 * (math.sin(t) + 3) - 3 * math.cos(t) ** 2, 0.1, 1.5, xtol=1e-14))
     distance = bar_diameter * (1 + 3 / math.sin(tilt)) / (2 * math.cos(tilt))
     return Weave(distance, tilt, 2 * (distance * math.cos(tilt) - bar_diameter / math.sin(tilt)))
 

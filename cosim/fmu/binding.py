@@ -56,7 +56,9 @@ class Binding(ABC):
             raise
         except Exception as error:  # fmpy raises bare Exception
             raise InputError(
-                archive.path, f"binaries/.../{kind.modelIdentifier}", f"its binary cannot be loaded: {error}",
+                archive.path,
+                f"binaries/.../{kind.modelIdentifier}",
+                f"its binary cannot be loaded: {error}",
                 "the binary may need libraries that are not installed here (see `ldd`)",
             ) from error
         self.is_alive = True
