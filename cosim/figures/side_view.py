@@ -20,7 +20,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         moments.append(("hot", positive[1] if len(positive) > 1 else end, HOT))
     if len(positive) > 1:
         moments.append(("re-cooled", end, RECOOLED))
-    with figure(path, width=6.4, height=5.0) as (axes,):
+    with figure(path, width=6.4, height=3.6) as (axes,):
         for label, moment, colour in moments:
             now = run.sel(time=moment, method="nearest")
             _outline(axes, now["fabric.marker_position"].values, now["fabric.row_centre"].values, colour,
@@ -28,7 +28,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         axes.set_aspect("equal")
         axes.set_xlabel("y, away from the tether [cm]")
         axes.set_ylabel("z, up [cm]")
-        axes.legend(frameon=False, fontsize=8)
+        axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     return path
 
 

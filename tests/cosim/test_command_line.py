@@ -204,7 +204,7 @@ def test_the_resolved_scenario_stands_alone_and_writes_its_defaults(cosim, tmp_p
     written = yaml.safe_load((tmp_path / "run" / "scenario.yaml").read_text())
     assert "parameter_set" not in written["components"]["fabric"]
     assert written["components"]["fabric"]["parameters"]["link_mass"] == "7.3 g"
-    assert written["components"]["fabric"]["solver"]["iterations"] == 50
+    assert written["components"]["fabric"]["solver"]["iterations"] == 200
     assert written["algorithm"]["kind"] == "gauss_seidel"
     again = load_scenario(tmp_path / "run" / "scenario.yaml")
     assert yaml.safe_load(again.to_yaml(is_complete=True)) == written
