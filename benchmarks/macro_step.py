@@ -15,7 +15,7 @@ from cosim.scenario import Scenario, load_scenario
 
 #: Macro-steps of the electro-thermal loop and of the prototype [ms]; its switching times allow divisors of 10 ms only.
 LOOP_STEPS = (400, 200, 100, 50)
-PROTOTYPE_STEPS = (10, 5, 2.5, 1)
+PROTOTYPE_STEPS = (10, 5)
 
 
 def with_steps(scenario: Scenario, macro_ms: float, **more: Any) -> Scenario:
