@@ -11,24 +11,29 @@ from contextlib import contextmanager
 
 @contextmanager
 def without_output() -> Iterator[None]:
-    """Send what C code prints to standard output to nowhere while the block runs.
+    """Send what C code prints to standard output and standard error to nowhere while the block runs.
 
-    C keeps its own buffer, so it is emptied before and after; where there is no C library to ask, nothing is hidden.
+    C keeps its own buffers, so they are emptied before and after; where there is no C library to ask, nothing is hidden.
     """
     try:
         flush = ctypes.CDLL(None).fflush
-        kept = os.dup(1)
+        kept = {stream: os.dup(stream) for stream in (1, 2)}
     except (OSError, AttributeError, TypeError):
         yield
         return
     sys.stdout.flush()
+    sys.stderr.flush()
     flush(None)
     nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
+    for stream in kept:
+        os.dup2(nowhere, stream)
     try:
         yield
     finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
         flush(None)
-        os.dup2(kept, 1)
-        os.close(kept)
+        for stream, copy in kept.items():
+            os.dup2(copy, stream)
+            os.close(copy)
         os.close(nowhere)
