@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from circuit.library import NgspiceMissingError, find_ngspice
+from circuit.installation import NgspiceMissingError, find_ngspice
 from cosim.unit import Array
 
 #: Commands after which ngspice's command history is freed; PySpice's own number.

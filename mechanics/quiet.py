@@ -13,7 +13,7 @@ from contextlib import contextmanager
 def without_output() -> Iterator[None]:
     """Send what C code prints to standard output and standard error to nowhere while the block runs.
 
-    C keeps its own buffers, so they are emptied before and after; where there is no C library to ask, nothing is hidden.
+    C keeps its own buffers, so they are emptied before and after; without a C library to ask, nothing is hidden.
     """
     try:
         flush = ctypes.CDLL(None).fflush
