@@ -7,22 +7,22 @@ import sys
 import numpy as np
 import pytest
 
-from circuit import library, ngspice
+from circuit import installation, ngspice
 from circuit.netlist import Network
 from circuit.unit import CircuitUnit
 from cosim.unit import UnitError
 
 
 def test_a_missing_library_is_one_clear_error(monkeypatch):
-    monkeypatch.setattr(library.ctypes.util, "find_library", lambda name: None)
-    monkeypatch.setattr(library, "USUAL_PLACES", ())
-    monkeypatch.setattr(library.sys, "prefix", "/nowhere")
+    monkeypatch.setattr(installation.ctypes.util, "find_library", lambda name: None)
+    monkeypatch.setattr(installation, "USUAL_PLACES", ())
+    monkeypatch.setattr(installation.sys, "prefix", "/nowhere")
     for variable in ("NGSPICE_LIBRARY_PATH", "CONDA_PREFIX"):
         monkeypatch.delenv(variable, raising=False)
     with pytest.raises(
         UnitError, match=r"not found .*libngspice0.*dnf.*ngspice-lib.*Homebrew.*NGSPICE_LIBRARY_PATH"
     ) as e:
-        library.find_ngspice()
+        installation.find_ngspice()
     assert "\n" not in str(e.value)
     assert isinstance(e.value, ValueError)  # construction of a unit failed
 
