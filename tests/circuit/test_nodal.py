@@ -195,8 +195,8 @@ def test_an_input_that_was_never_set_is_named():
 
 def test_a_missing_library_reaches_the_user_as_one_error_and_an_exit_code():
     hide = (
-        "import sys\nfrom circuit import library\n"
-        "library._candidates = lambda: iter(())\n"
+        "import sys\nfrom circuit import installation\n"
+        "installation._candidates = lambda: iter(())\n"
         "from cosim.cli import main\nsys.argv = ['cosim', 'validate', 'single_coil_heating']\nmain()\n"
     )
     done = subprocess.run([sys.executable, "-c", hide], capture_output=True, text=True, check=False)
