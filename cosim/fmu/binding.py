@@ -39,6 +39,10 @@ class Binding(ABC):
         name: Instance name, used in messages.
     """
 
+    #: Functions of the shared library that set and get doubles.
+    setter: str
+    getter: str
+
     def __init__(self, archive: FmuArchive, interface: Interface, name: str) -> None:
         self.archive, self.interface, self.name = archive, interface, name
         self.messages: list[str] = []
@@ -91,17 +95,34 @@ class Binding(ABC):
     def configure(self, variable: FmuVariable, value: int) -> None:
         """Set a structural parameter before initialisation."""
 
-    @abstractmethod
     def set_parameter(self, variable: FmuVariable, value: Any) -> None:
         """Set a parameter of any FMI type; arrays as numpy arrays."""
+        setter = getattr(self.fmu, f"set{variable.kind}")
+        values = [value] if variable.kind == "String" else np.ravel(value).tolist()
+        self.call(setter, list(variable.value_references), values)
 
     @abstractmethod
+    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
+        """Arguments after the component of the functions that set and get doubles."""
+
+    def _access(self, function: str, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
+        call, component = getattr(self.fmu.dll, function), self.fmu.component
+        arguments = self._arguments(variable, buffer)
+
+        def access() -> None:
+            status = call(component, *arguments)
+            if status > _WARNING:
+                self.check(f"{function}({variable.variable.name})", status)
+
+        return access
+
     def writer(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
         """A function that copies `buffer` (its address is kept) to the FMU."""
+        return self._access(self.setter, variable, buffer)
 
-    @abstractmethod
     def reader(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
         """A function that fills `buffer` (its address is kept) from the FMU."""
+        return self._access(self.getter, variable, buffer)
 
     @abstractmethod
     def enter_initialisation(self, time: float) -> None:
@@ -161,6 +182,8 @@ def _pointer(buffer: Array) -> Any:
 class Fmi3Binding(Binding):
     """FMI 3.0."""
 
+    setter, getter = "fmi3SetFloat64", "fmi3GetFloat64"
+
     def _load(self, identifier: str) -> Any:
         kind = fmi3.FMU3Slave if self.interface == "co_simulation" else fmi3.FMU3Model
         fmu = kind(
@@ -178,28 +201,9 @@ class Fmi3Binding(Binding):
         self.set_parameter(variable, value)
         self.call(self.fmu.exitConfigurationMode)
 
-    def set_parameter(self, variable: FmuVariable, value: Any) -> None:
-        setter = getattr(self.fmu, f"set{variable.kind}")
-        values = [value] if variable.kind == "String" else np.ravel(value).tolist()
-        self.call(setter, list(variable.value_references), values)
-
-    def _access(self, function: str, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        call = getattr(self.fmu.dll, function)
+    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
         references = (ctypes.c_uint32 * 1)(*variable.value_references)
-        pointer, size, component = _pointer(buffer), buffer.size, self.fmu.component
-
-        def access() -> None:
-            status = call(component, references, 1, pointer, size)
-            if status > _WARNING:
-                self.check(f"{function}({variable.variable.name})", status)
-
-        return access
-
-    def writer(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        return self._access("fmi3SetFloat64", variable, buffer)
-
-    def reader(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        return self._access("fmi3GetFloat64", variable, buffer)
+        return references, 1, _pointer(buffer), buffer.size
 
     def enter_initialisation(self, time: float) -> None:
         self.call(lambda: self.fmu.enterInitializationMode(startTime=time))
@@ -221,6 +225,8 @@ class Fmi3Binding(Binding):
 class Fmi2Binding(Binding):
     """FMI 2.0."""
 
+    setter, getter = "fmi2SetReal", "fmi2GetReal"
+
     def _load(self, identifier: str) -> Any:
         kind = fmi2.FMU2Slave if self.interface == "co_simulation" else fmi2.FMU2Model
         fmu = kind(
@@ -239,29 +245,10 @@ class Fmi2Binding(Binding):
         raise InputError(self.archive.path, variable.variable.name, "FMI 2.0 has no structural parameters",
                          "build the FMU for this size, or use FMI 3.0")  # fmt: skip
 
-    def set_parameter(self, variable: FmuVariable, value: Any) -> None:
-        setter = getattr(self.fmu, f"set{variable.kind}")
-        values = [value] if variable.kind == "String" else np.ravel(value).tolist()
-        self.call(setter, list(variable.value_references), values)
-
-    def _access(self, function: str, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        call = getattr(self.fmu.dll, function)
+    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
         count = len(variable.value_references)
         references = (ctypes.c_uint * count)(*variable.value_references)
-        pointer, component = _pointer(buffer), self.fmu.component
-
-        def access() -> None:
-            status = call(component, references, count, pointer)
-            if status > _WARNING:
-                self.check(f"{function}({variable.variable.name})", status)
-
-        return access
-
-    def writer(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        return self._access("fmi2SetReal", variable, buffer)
-
-    def reader(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        return self._access("fmi2GetReal", variable, buffer)
+        return references, count, _pointer(buffer)
 
     def enter_initialisation(self, time: float) -> None:
         self.call(lambda: self.fmu.setupExperiment(startTime=time))
