@@ -47,7 +47,7 @@ ELECTRICAL = {
     "prototype_cantilever": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "prototype_cantilever_instant": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "hanging_contraction": (without_fabric, COILS | SUPPLY, every(3.0, -3.0, 36.0), [0, 35]),
-    "spatial_control": (without_fabric, COILS | SUPPLY, every(2.0, -2.0, 12.0), [0, 29, 30, 39, 40, 59]),
+    "spatial_control": (without_fabric, COILS | SUPPLY, every(1.0, -1.0, 10.0), [0, 29, 30, 39, 40, 59]),
 }  # fmt: skip
 
 FABRIC = {
@@ -55,7 +55,7 @@ FABRIC = {
     "passive_drape": ("0.2 s", every(0.04, 0.0, 0.2), (4.0, 2e-3, 5e-3, 1.3e-3, 2.5e-3)),
     "prototype_cantilever": ("-3.8 s", every(0.04, -4.0, -3.8), (1.6, 6e-4, 1e-3, 3e-4, 3e-4)),
     "hanging_contraction": ("-2.8 s", every(0.04, -3.0, -2.8), (1e-4, 1e-8, 1e-7, 1e-8, 1e-8)),
-    "spatial_control": ("-1.9 s", every(0.02, -2.0, -1.9), (0.3, 3e-4, 4e-4, 1e-4, 1e-4)),
+    "spatial_control": ("-0.9 s", every(0.02, -1.0, -0.9), (0.3, 3e-4, 4e-4, 1e-4, 1e-4)),
 }
 SHAPE = ("max_curvature", "fabric_length", "row_centre", "link_length", "potential_energy")
 
