@@ -19,7 +19,8 @@ from cosim.quantity import PhysicalValue
 from cosim.scenario import scenario_folder
 from cosim.unit import UnitError
 from mechanics.fabric import FabricDesign
-from mechanics.unit import FabricUnit, SolverSettings
+from mechanics.solver import SolverSettings
+from mechanics.unit import FabricUnit
 
 #: Spring constants of equation (2) at 22 and at 70 degC [N/m]; rest length of the coil [m].
 COLD, HOT, REST_LENGTH = 157.1, 356.0, 9.4e-3

@@ -42,7 +42,8 @@ from cosim.system import Connection, ConnectionFault, System
 from cosim.unit import Causality, Unit, UnitError
 from mechanics.fabric import FabricDesign
 from mechanics.hanging_mass import HangingMassUnit
-from mechanics.unit import FabricUnit, SolverSettings
+from mechanics.solver import SolverSettings
+from mechanics.unit import FabricUnit
 
 #: SI unit of every number of a fabric that a parameter set or a scenario may give.
 FABRIC_UNITS = {

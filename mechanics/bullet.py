@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -18,12 +17,13 @@ from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.quiet import without_output
+from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring
 
 with without_output():  # it prints its build time
     import pybullet
 
-__all__ = ["SCALE", "Contacts", "Motion", "SolverSettings", "World", "rotation", "woven"]
+__all__ = ["SCALE", "Contacts", "Motion", "World", "rotation", "woven"]
 
 #: Time in which an overlap of two links is pushed apart, and in which a slide returns to its stop [s]. Bullet wants
 #: them as a share per step (ERP). Stops must be slow: a slide that is pushed off its stop is free there for a step, in
@@ -33,34 +33,6 @@ STOP_CORRECTION_TIME = 25e-3
 _TORQUE, _MOTOR = pybullet.TORQUE_CONTROL, pybullet.VELOCITY_CONTROL
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
-
-
-@dataclass(frozen=True)
-class SolverSettings:
-    """Numerical settings of Bullet.
-
-    Args:
-        micro_step: Time step [s].
-        iterations: Iterations of the projected Gauss-Seidel solver per step.
-        penetration_limit: Largest overlap of two links that is tolerated [m].
-        springs: "force": springs are joint forces; "motor": bounded joint motors (see `World`).
-
-    Raises:
-        ValueError: A number is not positive, or there is no such way to apply springs.
-    """
-
-    micro_step: float
-    iterations: int
-    penetration_limit: float
-    springs: Literal["force", "motor"] = "force"
-
-    def __post_init__(self) -> None:
-        for name in ("micro_step", "iterations", "penetration_limit"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} is {value}: give a positive number")
-        if self.springs not in ("force", "motor"):
-            raise ValueError(f"springs is {self.springs!r}: give 'force' or 'motor'")
 
 
 @dataclass(frozen=True)

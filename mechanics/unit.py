@@ -19,14 +19,13 @@ from cosim.unit import (
     Variable,
     seconds,
 )
-from mechanics.bullet import SCALE, Motion, SolverSettings, World, rotation, woven
+from mechanics.bullet import SCALE, Motion, World, rotation, woven
 from mechanics.curvature import max_curvature
 from mechanics.fabric import FabricDesign, layout
 from mechanics.half import half
 from mechanics.linking import is_hooked
+from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring, coil_tension, spring_energy
-
-__all__ = ["FabricUnit", "SolverSettings"]
 
 
 def fabric_variables(design: FabricDesign) -> dict[str, Variable]:

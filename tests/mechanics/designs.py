@@ -10,7 +10,8 @@ from cosim.assemble import FABRIC_UNITS
 from cosim.parameters import resolve
 from cosim.scenario import scenario_folder
 from mechanics.fabric import FabricDesign
-from mechanics.unit import FabricUnit, SolverSettings
+from mechanics.solver import SolverSettings
+from mechanics.unit import FabricUnit
 
 COLD, HOT, REST = 157.1, 356.0, 0.0094
 #: The shipped defaults.

@@ -7,10 +7,11 @@ import pybullet
 import pytest
 
 from cosim.unit import Unit, UnitError
-from mechanics.bullet import SolverSettings, World, woven
+from mechanics.bullet import World, woven
 from mechanics.fabric import layout
 from mechanics.half import half
 from mechanics.hanging_mass import HangingMassUnit
+from mechanics.solver import SolverSettings
 
 from .designs import COLD, HOT, REST, SOLVER, STEP, advance, prototype, woven_unit
 

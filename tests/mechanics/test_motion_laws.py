@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from mechanics.bullet import SCALE, SolverSettings, World, rotation, woven
+from mechanics.bullet import SCALE, World, rotation, woven
 from mechanics.fabric import layout
 from mechanics.half import half
+from mechanics.solver import SolverSettings
 
 from .designs import COLD, HOT, REST, SOLVER, prototype
 

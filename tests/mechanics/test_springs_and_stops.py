@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from mechanics.bullet import SolverSettings, World, woven
+from mechanics.bullet import World, woven
 from mechanics.fabric import layout
+from mechanics.solver import SolverSettings
 
 from .designs import HOT, REST, prototype
 
