@@ -30,6 +30,8 @@ __all__ = ["SCALE", "Contacts", "Motion", "World", "rotation", "woven"]
 #: which a spring of some newtons throws it back by half a millimetre. docs/decisions/0004-bullet-settings.md.
 CONTACT_CORRECTION_TIME = 2.5e-3
 STOP_CORRECTION_TIME = 25e-3
+#: Metres per length unit of Bullet.
+_PER_UNIT = 1.0 / SCALE
 _TORQUE, _MOTOR = pybullet.TORQUE_CONTROL, pybullet.VELOCITY_CONTROL
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
@@ -227,36 +229,32 @@ class World:
             act(links)
             step(client)
 
+    def _opening_force(self, slide: float, k0: float, r0: float, k1: float, r1: float) -> float:
+        """Force of both arms' springs that lengthens a link [N]: two steel coils push, NiTi coils 0 and 1 pull."""
+        length, steel = self.design.length_cold + slide * _PER_UNIT, self.steel
+        force = 2 * steel.stiffness * (steel.rest_length - length) if length < steel.rest_length else 0.0
+        if length > r0:
+            force -= k0 * (length - r0)
+        if length > r1:
+            force -= k1 * (length - r1)
+        return force
+
     def _push(self, links: list[tuple[int, float, float, float, float]]) -> None:
         """Springs as joint forces."""
         client, get, put, torque = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _TORQUE
-        steel, b = 2 * self.steel.stiffness, self.steel.rest_length
-        longest, per_unit = self.design.length_cold, 1.0 / SCALE
         for body, k0, r0, k1, r1 in links:
-            length = longest + per_unit * get(body, 0, client)[0]
-            force = steel * (b - length) if length < b else 0.0
-            if length > r0:
-                force -= k0 * (length - r0)
-            if length > r1:
-                force -= k1 * (length - r1)
+            force = self._opening_force(get(body, 0, client)[0], k0, r0, k1, r1)
             put(body, 0, torque, force=SCALE * force, physicsClientId=client)
 
     def _drive(self, links: list[tuple[int, float, float, float, float]]) -> None:
         """Springs as bounded joint motors; see the class."""
         client, get, put, motor = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _MOTOR
-        steel, b = 2 * self.steel.stiffness, self.steel.rest_length
-        longest, per_unit = self.design.length_cold, 1.0 / SCALE
         shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
         per_step, slowly = 1.0 / self.solver.micro_step, 1.0 / STOP_CORRECTION_TIME
         impact = self._half.mass / 2 * per_step  # two halves of mass m move against each other like m / 2
         for body, k0, r0, k1, r1 in links:
             slide, rate = get(body, 0, client)[:2]
-            length = longest + per_unit * slide
-            force = steel * (b - length) if length < b else 0.0
-            if length > r0:
-                force -= k0 * (length - r0)
-            if length > r1:
-                force -= k1 * (length - r1)
+            force = self._opening_force(slide, k0, r0, k1, r1)
             if force > 0:
                 gap, bound = -slide, SCALE * force
                 is_inside, speed = gap > 0, rate

@@ -82,9 +82,10 @@ def reproduce(out: Path, jobs: int) -> int:
         return 1
     runs = {name: open_run(out / name) for name in RUNS}
     rows = scorecard_rows(runs)
-    for folders in ([out / "prototype_cantilever", out / "prototype_cantilever_instant"], *([out / n] for n in RUNS)):
-        if len(folders) > 1 or folders[0].name not in ("prototype_cantilever",):
-            draw_runs(folders)
+    for name in RUNS:
+        # Figure 3 compares the prototype with and without the heating model.
+        compared = ["prototype_cantilever_instant"] if name == "prototype_cantilever" else []
+        draw_runs([out / n for n in (name, *compared)])
     with writing(out):
         write_atomically(out / "scorecard.md", as_markdown(rows).encode())
         write_atomically(out / "scorecard.json", as_json(rows).encode())

@@ -11,14 +11,7 @@ from circuit.unit import CircuitUnit
 from cosim.unit import Unit, UnitError
 
 from .closed_form import string_currents
-
-
-def solved(network, voltage, resistance):
-    unit = CircuitUnit("circuit", network)
-    unit.set("supply_voltage", np.asarray(voltage, dtype=float))
-    unit.set("resistance", np.broadcast_to(np.asarray(resistance, dtype=float), (network.coils,)))
-    unit.initialise(0)
-    return unit
+from .solved_unit import solved
 
 
 def test_prototype_draws_the_published_currents():

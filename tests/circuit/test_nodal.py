@@ -14,14 +14,7 @@ from circuit.unit import CircuitUnit
 from cosim.unit import UnitError
 
 from . import nodal
-
-
-def unit_of(network, voltage, resistance):
-    unit = CircuitUnit("circuit", network)
-    unit.set("supply_voltage", np.asarray(voltage, dtype=float))
-    unit.set("resistance", np.broadcast_to(np.asarray(resistance, dtype=float), (network.coils,)))
-    unit.initialise(0)
-    return unit
+from .solved_unit import solved
 
 
 @st.composite
@@ -49,7 +42,7 @@ def cases(draw):
 @given(cases())
 def test_every_voltage_current_and_power_agrees_with_nodal_analysis(case):
     network, voltage, resistance = case
-    unit = unit_of(network, voltage, resistance)
+    unit = solved(network, voltage, resistance)
     resistors, sources, ends = nodal.elements(network, voltage, resistance)
     potential, currents = nodal.solve(resistors, sources)
     expected = potential[ends[:, 0]] - potential[ends[:, 1]]
@@ -71,7 +64,7 @@ def test_every_voltage_current_and_power_agrees_with_nodal_analysis(case):
 def test_the_prototype_with_uneven_coils_agrees_with_nodal_analysis():
     network = Network((6,) * 6, supply_resistance=0.02, string_resistance=0.1)
     resistance = np.random.default_rng(7).uniform(1.9, 2.5, 36)
-    unit = unit_of(network, 6.0, resistance)
+    unit = solved(network, 6.0, resistance)
     resistors, sources, ends = nodal.elements(network, 6.0, resistance)
     potential, currents = nodal.solve(resistors, sources)
     voltage = potential[ends[:, 0]] - potential[ends[:, 1]]
@@ -82,14 +75,14 @@ def test_the_prototype_with_uneven_coils_agrees_with_nodal_analysis():
 
 
 def test_an_open_coil_passes_picoamperes_and_all_broken_strings_still_solve():
-    unit = unit_of(Network((2, 3), open_coils=(1, 3, 5)), 6.0, 2.0)
+    unit = solved(Network((2, 3), open_coils=(1, 3, 5)), 6.0, 2.0)
     # 6 V over 1e12 ohm; over two of 1e9 ohm. The other coils' 2 ohm change that by 2e-9 at most.
     np.testing.assert_allclose(unit.get("string_current"), [6e-12, 3e-9], rtol=1e-6)
     np.testing.assert_allclose(unit.get("voltage"), [6.0, 0.0, 3.0, 0.0, 3.0], atol=1e-6)
 
 
 def test_runs_of_shorted_coils_pass_the_current_of_their_string():
-    unit = unit_of(Network((4, 3), string_resistance=1.0, shorted_coils=(1, 2, 4, 5, 6, 7)), 6.0, 2.0)
+    unit = solved(Network((4, 3), string_resistance=1.0, shorted_coils=(1, 2, 4, 5, 6, 7)), 6.0, 2.0)
     np.testing.assert_allclose(unit.get("string_current"), [2.0, 6.0], rtol=1e-12)
     np.testing.assert_array_equal(unit.get("voltage")[[0, 1, 3, 4, 5, 6]], 0.0)
     np.testing.assert_array_equal(unit.get("power")[[0, 1, 3, 4, 5, 6]], 0.0)
@@ -99,12 +92,12 @@ def test_runs_of_shorted_coils_pass_the_current_of_their_string():
 def test_two_strings_of_shorted_coils_behind_one_supply_resistance_are_refused():
     with pytest.raises(ValueError, match="string 2 are shorted, which leaves its current without a limit"):
         Network((1, 1), supply_resistance=1.0, shorted_coils=(1, 2))
-    unit = unit_of(Network((1, 1), "per_string", supply_resistance=2.0, shorted_coils=(1, 2)), [6.0, 4.0], 1.0)
+    unit = solved(Network((1, 1), "per_string", supply_resistance=2.0, shorted_coils=(1, 2)), [6.0, 4.0], 1.0)
     np.testing.assert_allclose(unit.get("string_current"), [3.0, 2.0], rtol=1e-12)
 
 
 def test_a_reversed_supply_turns_currents_but_no_power():
-    unit = unit_of(Network((2,)), -6.0, 1.5)
+    unit = solved(Network((2,)), -6.0, 1.5)
     np.testing.assert_allclose(unit.get("current"), -2.0, rtol=1e-12)
     np.testing.assert_allclose(unit.get("power"), 6.0, rtol=1e-12)
     assert unit.get("supply_power") == pytest.approx(12.0, rel=1e-12)
@@ -114,7 +107,7 @@ def test_a_solution_does_not_depend_on_what_was_solved_before():
     """Bit for bit, or a resumed run would not repeat the uninterrupted one."""
     network = Network((3, 4), supply_resistance=0.1, open_coils=(2,), shorted_coils=(5,))
     rng = np.random.default_rng(3)
-    old = unit_of(network, 6.0, 2.2)
+    old = solved(network, 6.0, 2.2)
     for step in range(20):
         old.set("resistance", 10.0 ** rng.uniform(-2, 4, 7))
         old.do_step(step, 1)
@@ -140,7 +133,7 @@ def test_a_checkpoint_of_another_network_is_refused():
 
 def test_circuits_that_are_terminated_leave_ngspice():
     before = len(ngspice().circuits())
-    units = [unit_of(Network((n,)), 1.0, 1.0) for n in (1, 2, 3)]
+    units = [solved(Network((n,)), 1.0, 1.0) for n in (1, 2, 3)]
     units[1].terminate()
     units[1].terminate()
     assert len(ngspice().circuits()) == before + 2
