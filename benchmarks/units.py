@@ -7,9 +7,10 @@ import time as clock
 
 from benchmarks.machine import heading, resident_memory, results_folder
 from cosim.assemble import assemble
+from cosim.components import FmuComponent, ProgrammeComponent, nanoseconds
 from cosim.quantity import PhysicalValue
 from cosim.run import ALGORITHMS
-from cosim.scenario import FmuComponent, ProgrammeComponent, Scenario, load_scenario, nanoseconds
+from cosim.scenario import Scenario, load_scenario
 
 #: (rows, columns): rows * (2 * columns - 1) links.
 SIZES = ((6, 2), (8, 5), (32, 5))

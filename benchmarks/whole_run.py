@@ -17,9 +17,10 @@ import numpy as np
 
 from benchmarks.machine import heading, results_folder
 from cosim.assemble import assemble
+from cosim.components import nanoseconds
 from cosim.observers.trace import Trace
 from cosim.run import ALGORITHMS
-from cosim.scenario import load_scenario, nanoseconds
+from cosim.scenario import load_scenario
 from mechanics.bullet import World, woven
 from mechanics.fabric import layout
 from mechanics.unit import FabricUnit

@@ -19,12 +19,12 @@ from circuit.netlist import (
     source_name,
 )
 from circuit.ngspice import Circuit, NgspiceError
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, UnitError, Variable
+from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 INPUTS = ("supply_voltage", "resistance")
 
 
-class CircuitUnit:
+class CircuitUnit(Unit):
     """A network of coils solved by ngspice; it has no memory, so its outputs follow its inputs at once.
 
     ngspice solves only when an input differs from that of the last solution; `solves` counts. Each solution is held
@@ -42,6 +42,8 @@ class CircuitUnit:
         NgspiceMissingError: libngspice is not there (a UnitError and a ValueError).
         UnitError: ngspice does not take the netlist.
     """
+
+    can_restore = True
 
     def __init__(self, name: str, network: Network) -> None:
         self.name, self.network = name, network

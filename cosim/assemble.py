@@ -2,31 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fmpy.model_description import ModelDescription
 
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
-from cosim.errors import InputError
-from cosim.fmu.archive import open_fmu
-from cosim.fmu.co_simulation import CoSimulationUnit
-from cosim.fmu.model_exchange import ModelExchangeUnit
-from cosim.fmu.unit import FmuSettings, FmuUnit
-from cosim.parameters import Resolved, resolve
-from cosim.programme import Course, ProgrammeUnit
-from cosim.quantity import PhysicalValue, conversion
-from cosim.scenario import (
-    CONNECTION,
+from cosim.components import (
     CircuitComponent,
     Component,
     FabricComponent,
@@ -35,9 +23,15 @@ from cosim.scenario import (
     ParameterValue,
     ProgrammeComponent,
     ProgrammeOutput,
-    Scenario,
     nanoseconds,
 )
+from cosim.errors import InputError
+from cosim.fmu.unit import FmuUnit
+from cosim.fmu_assembly import build_fmu
+from cosim.parameters import Resolved, resolve
+from cosim.programme import Course, ProgrammeUnit
+from cosim.quantity import PhysicalValue, conversion
+from cosim.scenario import CONNECTION, Scenario
 from cosim.system import Connection, ConnectionFault, System
 from cosim.unit import Causality, Unit, UnitError
 from mechanics.fabric import FabricDesign
@@ -81,12 +75,6 @@ class Assembly:
     versions: Mapping[str, str]
 
 
-def fmu_folder() -> Path:
-    """Folder of the FMUs that `make fmus` builds; `COSIM_FMU_PATH` overrides it."""
-    given = os.environ.get("COSIM_FMU_PATH")
-    return Path(given) if given else Path(__file__).resolve().parent.parent / "build" / "fmus"
-
-
 def assemble(scenario: Scenario) -> Assembly:
     """Build every unit of a scenario and connect them.
 
@@ -101,7 +89,10 @@ def assemble(scenario: Scenario) -> Assembly:
             component = scenario.components[name]
             parameters[name] = _parameters(name, component, source)
             units[name] = _build(name, component, parameters[name], scenario, source)
-        connections = [_connection(text, i, units, source) for i, text in enumerate(scenario.connections)]
+        connections = [
+            _connection(text if isinstance(text, str) else text.connect, i, units, source)
+            for i, text in enumerate(scenario.connections)
+        ]
         sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
         try:
             system = System(units, connections, sources)
@@ -155,7 +146,7 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
             return HangingMassUnit(name, component.coils, component.mass.to("kg"))
         if isinstance(component, FabricComponent):
             return _fabric(name, component, parameters)
-        return _fmu(name, component, parameters, source)
+        return build_fmu(name, component, parameters, source)
     except InputError as error:
         raise _within(name, source, error) from error
     except UnitError as error:  # libngspice is missing
@@ -220,52 +211,14 @@ def _fabric(name: str, component: FabricComponent, parameters: Resolved) -> Fabr
 def _gravity(value: ParameterValue) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3:
         raise ValueError("gravity is a list of three accelerations, for example [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
-    x, y, z = (element.to("m/s^2") for element in value)
+    x, y, z = (_quantity(element).to("m/s^2") for element in value)
     return x, y, z
 
 
-def _fmu(name: str, component: FmuComponent, parameters: Resolved, source: Path) -> Unit:
-    archive = open_fmu(find_fmu(component, source))
-    try:
-        values = {k: _in_fmu_unit(k, v, archive.description, source) for k, v in parameters.values.items()}
-        settings = FmuSettings(component.structure, values)
-        kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
-        # fmpy changes the working folder while it loads a library, and stays there if that fails.
-        with contextlib.chdir(Path.cwd()):
-            return kind(name, archive, settings)
-    except BaseException:
-        archive.remove()
-        raise
-
-
-def find_fmu(component: FmuComponent, source: Path) -> Path:
-    """File of an FMU: a path beside the scenario, or one of the shipped FMUs of the size that the scenario needs."""
-    if component.fmu.endswith(".fmu"):
-        beside = source.parent / component.fmu
-        return beside if beside.is_file() else Path(component.fmu)
-    coils = component.structure.get("coils", 36)
-    suffix = f"_n{coils}" if component.fmi == 2 and coils != 36 else ""
-    path = fmu_folder() / f"{component.fmu}_fmi{component.fmi}{suffix}.fmu"
-    if not path.is_file():
-        there = ", ".join(sorted(p.stem for p in fmu_folder().glob("*.fmu"))) or "none built"
-        how = f"make -C fmus COILS={coils}" if suffix else "make fmus"
-        raise InputError(source, "fmu", f"there is no FMU `{path.stem}` (there: {there})",
-                         f"build it with `{how}`, or give the path of a .fmu file")  # fmt: skip
-    return path
-
-
-def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription, source: Path) -> Any:
-    if isinstance(value, bool):
-        return value
-    found = next((v for v in description.modelVariables if v.name in (key, f"{key}[1]")), None)
-    declared = found.declaredType.unit if found is not None and found.declaredType is not None else None
-    unit = (found.unit or declared or "1") if found is not None else "1"
-    if found is None:
-        return [e.number for e in value] if isinstance(value, list) else value.number
-    try:
-        return [e.to(unit) for e in value] if isinstance(value, list) else value.to(unit)
-    except ValueError as error:
-        raise InputError(source, f"parameters.{key}", str(error), f"give it in {unit}") from error
+def _quantity(value: object) -> PhysicalValue:
+    if not isinstance(value, PhysicalValue):
+        raise ValueError(f"{value!r} is not a number with a unit")
+    return value
 
 
 def _connection(text: str, index: int, units: Mapping[str, Unit], source: Path) -> Connection:
@@ -286,6 +239,8 @@ def _connection(text: str, index: int, units: Mapping[str, Unit], source: Path) 
 
 def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[str, float]:
     values: dict[str, float] = {}
+    if isinstance(component, FmuComponent):
+        return values  # they are the FMU's own start values
     for key, value in getattr(component, "start", {}).items():
         variable = unit.variables.get(key)
         where = f"components.{name}.start.{key}"
@@ -293,7 +248,7 @@ def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[st
             inputs = ", ".join(n for n, v in unit.variables.items() if v.causality is Causality.INPUT) or "none"
             raise InputError(source, where, "there is no such input", f"it has: {inputs}")
         try:
-            values[key] = value.to(variable.unit)
+            values[key] = _quantity(value).to(variable.unit)
         except ValueError as error:
             raise InputError(source, where, str(error), f"give it in {variable.unit}") from error
     return values

@@ -10,9 +10,10 @@ from typing import Annotated
 import pydantic
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
+from cosim.components import ParameterValue
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue, parse_unit
-from cosim.scenario import ParameterValue, scenario_folder
+from cosim.scenario import scenario_folder
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Variable, seconds
+from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, Variable, seconds
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Course:
         return np.asarray(self.values[max(index, 0)])
 
 
-class ProgrammeUnit:
+class ProgrammeUnit(Unit):
     """A source: its outputs are functions of time alone.
 
     Over a step its output is the value held from the begin of the step (a jump lies on the macro-step grid, which the
@@ -51,6 +51,8 @@ class ProgrammeUnit:
         name: Name of the component.
         courses: Output name to its course.
     """
+
+    can_restore = True
 
     def __init__(self, name: str, courses: Mapping[str, Course]) -> None:
         self.name = name

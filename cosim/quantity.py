@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import pint
@@ -61,10 +61,12 @@ class PhysicalValue:
     Args:
         number: The number.
         unit: The unit as written; empty for a pure number.
+        text: The whole text as written, where it was text.
     """
 
     number: float
     unit: str
+    text: str = field(default="", compare=False)
 
     @classmethod
     def parse(cls, value: object) -> PhysicalValue:
@@ -85,7 +87,7 @@ class PhysicalValue:
         parse_unit(match["unit"])
         if not math.isfinite(float(match["number"])):
             raise ValueError(f"`{value}` is not a finite number")
-        return cls(float(match["number"]), match["unit"])
+        return cls(float(match["number"]), match["unit"], str(value))
 
     def to(self, unit: str) -> float:
         """The number in another unit.

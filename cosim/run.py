@@ -13,12 +13,13 @@ import xarray as xr
 
 from cosim.algorithms import gauss_seidel, jacobi
 from cosim.assemble import Assembly, assemble
+from cosim.components import nanoseconds
 from cosim.errors import InputError
 from cosim.interrupt import Interrupt, deferred_interrupt
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
 from cosim.run_folder import RunFolder, read_checkpoint
-from cosim.scenario import Scenario, nanoseconds
+from cosim.scenario import Scenario
 from cosim.system import ConnectionFault, System
 from cosim.unit import StepOutcome, StepStatus, UnitError, seconds
 

@@ -6,41 +6,21 @@ their units. `json_schema()` is what editors use to complete and check a file.
 
 from __future__ import annotations
 
-import itertools
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
+from pydantic import Field, StrictFloat, StrictInt, model_validator
 
+from cosim.components import Component, Count, Duration, FabricComponent, ProgrammeComponent, Strict, Time, nanoseconds
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
-from cosim.unit import NANOSECONDS
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
-Time = Annotated[PhysicalValue, In("s")]
-Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
-AnyQuantity = Annotated[PhysicalValue, In()]
-Count = Annotated[StrictInt, Field(ge=1)]
 #: `component.output -> component.input`; variables of an FMU may hold dots and brackets themselves.
 CONNECTION = r"^\s*(\w+)\.(\S+)\s*->\s*(\w+)\.(\S+)\s*$"
-ParameterValue = StrictBool | AnyQuantity | list[AnyQuantity]
-
-
-def nanoseconds(value: PhysicalValue) -> int:
-    """Integer time [ns] of a quantity of time; raises ValueError if it is no whole number of nanoseconds."""
-    exact = value.to("s") * NANOSECONDS
-    if abs(exact - round(exact)) > 1e-3:
-        raise ValueError(f"`{value}` is not a whole number of nanoseconds")
-    return round(exact)
-
-
-class Strict(BaseModel):
-    """Base: unknown keys are errors, and nothing changes after loading."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class TimeSettings(Strict):
@@ -68,125 +48,67 @@ class TimeSettings(Strict):
         return self
 
 
-class Algorithm(Strict):
-    """How the units are stepped."""
-
-    kind: Literal["gauss_seidel", "jacobi"] = "gauss_seidel"
-    order: list[str] | None = Field(default=None, description="Order of the components; default: as listed.")
-
-
-class ProgrammeOutput(Strict):
-    """One quantity given over time."""
-
-    unit: str = Field(description="Unit of the output, for example V or K.")
-    dim: str | None = Field(default=None, description="Dimension of a list of values, for example string.")
-    constant: AnyQuantity | list[AnyQuantity] | None = None
-    points: list[tuple[Time, AnyQuantity | list[AnyQuantity]]] | None = Field(
-        default=None, description="[time, value] pairs."
-    )
-    interpolation: Literal["hold", "linear"] = "hold"
-
-    @model_validator(mode="after")
-    def _check(self) -> ProgrammeOutput:
-        if (self.constant is None) == (self.points is None):
-            raise ValueError("give either `constant` or `points`")
-        values = [self.constant] if self.points is None else [v for _, v in self.points]
-        if not values:
-            raise ValueError("`points` is empty")
-        sizes = {len(v) if isinstance(v, list) else None for v in values}
-        if len(sizes) > 1:
-            raise ValueError("all points must have the same number of values")
-        if (sizes != {None}) != (self.dim is not None):
-            raise ValueError("a list of values needs `dim`, a single value must not have it")
-        for value in values:
-            for element in value if isinstance(value, list) else [value]:
-                assert element is not None
-                element.to(self.unit)
-        times = [nanoseconds(t) for t, _ in self.points or []]
-        if any(a >= b for a, b in itertools.pairwise(times)):
-            raise ValueError("the times of `points` must rise")
-        return self
-
-
-class ProgrammeComponent(Strict):
-    """Quantities given over time: supply voltage, room or bath temperature."""
-
-    kind: Literal["programme"]
-    outputs: dict[str, ProgrammeOutput]
-
-
-class CircuitComponent(Strict):
-    """The coil network, solved by ngspice."""
-
-    kind: Literal["ngspice"]
-    strings: list[Count] = Field(min_length=1, description="Coils in series, per string.")
-    supply: Literal["common", "per_string"] = "common"
-    supply_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
-    string_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
-    open_coils: list[StrictInt] = Field(default=[], description="Coils that are open, counted from 1.")
-    shorted_coils: list[StrictInt] = Field(default=[], description="Coils that are shorted, counted from 1.")
-    start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
-
-
-class FmuComponent(Strict):
-    """A functional mock-up unit; an actuator, or anything else."""
-
-    kind: Literal["fmu"]
-    fmu: str = Field(description="Name of a shipped FMU (thermal_stiffness) or path of a .fmu file.")
-    fmi: Literal[2, 3] = Field(default=3, description="FMI version of a shipped FMU.")
-    integrator: Literal["internal", "cvode"] = Field(
-        default="internal", description="internal: Co-Simulation; cvode: Model Exchange integrated by CVODE."
-    )
-    structure: dict[str, Count] = Field(default={}, description="Structural parameters.")
-    parameter_set: str | None = None
-    parameters: dict[str, ParameterValue] = {}
-    start: dict[str, AnyQuantity] = {}
-
-
-class Tether(Strict):
-    """Which links are held."""
-
-    kind: Literal["cantilever", "hanging"]
-    rows: Count = 2
-
-
-class Solver(Strict):
-    """Bullet's solver."""
-
-    micro_step: Duration = PhysicalValue(0.5, "ms")
-    iterations: Count = 200
-    springs: Literal["force", "motor"] = Field(
-        default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
-    )
-    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
-
-
-class FabricComponent(Strict):
-    """Interlocked links as rigid bodies in Bullet."""
-
-    kind: Literal["bullet_fabric"]
-    rows: Annotated[StrictInt, Field(ge=2)]
-    columns: Count
-    tether: Tether
-    solver: Solver = Solver()
-    parameter_set: str | None = None
-    parameters: dict[str, ParameterValue] = {}
-    start: dict[str, AnyQuantity] = {}
-
-
-class HangingMassComponent(Strict):
-    """A mass hanging from each coil, in equilibrium (the paper's water bath)."""
-
-    kind: Literal["hanging_mass"]
-    coils: Count
-    mass: Annotated[PhysicalValue, In("kg", minimum=0.0, is_exclusive=True)]
-    start: dict[str, AnyQuantity] = {}
-
-
-Component = Annotated[
-    ProgrammeComponent | CircuitComponent | FmuComponent | FabricComponent | HangingMassComponent,
-    Field(discriminator="kind"),
+_Order = Annotated[list[str] | None, Field(description="Order of the components; default: as listed.")]
+_OnEvent = Annotated[
+    Literal["continue", "synchronise"],
+    Field(
+        default="continue",
+        description="When an FMU returns early. continue: it goes on alone to the end of the macro-step; synchronise: "
+        "all units go back and step to that instant (every unit must be able to restore).",
+    ),
 ]
+_Tolerance = Annotated[PhysicalValue, In("1", minimum=0.0, is_exclusive=True)]
+
+
+class GaussSeidel(Strict):
+    """Units step one after the other, each with the newest outputs."""
+
+    kind: Literal["gauss_seidel"] = "gauss_seidel"
+    order: _Order = None
+    on_event: _OnEvent = "continue"
+
+
+class Jacobi(Strict):
+    """All units step with the outputs of the last communication point."""
+
+    kind: Literal["jacobi"]
+    order: _Order = None
+    on_event: _OnEvent = "continue"
+
+
+class Iterated(Strict):
+    """Steps are repeated until the values exchanged inside each loop of units agree."""
+
+    kind: Literal["iterated"]
+    order: _Order = None
+    relative_tolerance: _Tolerance = PhysicalValue(1e-8, "")
+    iterations: Count = Field(default=50, description="Most repetitions of one step.")
+    inputs: Literal["mean", "end"] = Field(
+        default="mean",
+        description="What a loop's inputs are over the step: mean of its begin and end (second order), or its end.",
+    )
+
+
+class StepDoubling(Strict):
+    """Each step is made once whole and once in halves; their difference sets the step within the macro-step."""
+
+    kind: Literal["step_doubling"]
+    order: _Order = None
+    inner: Literal["gauss_seidel", "jacobi"] = "gauss_seidel"
+    relative_tolerance: _Tolerance = PhysicalValue(1e-4, "")
+    absolute_tolerance: StrictFloat = Field(default=1e-6, gt=0.0, description="In the unit of each variable.")
+    minimum_step: Duration = PhysicalValue(1.0, "us")
+
+
+Algorithm = Annotated[GaussSeidel | Jacobi | Iterated | StepDoubling, Field(discriminator="kind")]
+
+
+class ScaledConnection(Strict):
+    """A connection whose value is scaled: target = factor * source + offset, after conversion of units."""
+
+    connect: Annotated[str, Field(pattern=CONNECTION)]
+    factor: StrictFloat | StrictInt = 1.0
+    offset: StrictFloat | StrictInt = 0.0
 
 
 class Scenario(Strict):
@@ -195,9 +117,9 @@ class Scenario(Strict):
     title: str
     description: str = ""
     time: TimeSettings
-    algorithm: Algorithm = Algorithm()
-    components: dict[Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")], Component]
-    connections: list[Annotated[str, Field(pattern=CONNECTION)]]
+    algorithm: Algorithm = GaussSeidel()
+    components: dict[Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")], Component] = Field(min_length=1)
+    connections: list[Annotated[str, Field(pattern=CONNECTION)] | ScaledConnection] = []
     path: Path | None = Field(default=None, exclude=True, description="File that it was read from.")
 
     @model_validator(mode="after")

@@ -1,8 +1,8 @@
 """What every simulated part looks like to the co-simulation algorithm.
 
-A unit owns arrays of float64 in SI units. The algorithm sets its inputs, asks it for one step and reads its
-outputs. FMUs, the ngspice circuit, the Bullet fabric and the sources all satisfy this one protocol; circuit and
-mechanics import nothing of `cosim` but this module.
+A unit owns named arrays (`cosim.variable`); those of our own units are float64 in SI units. The algorithm sets its
+inputs, asks it for one step and reads its outputs. FMUs, the ngspice circuit, the Bullet fabric and the sources all
+satisfy this one protocol; circuit and mechanics import nothing of `cosim` but this module.
 """
 
 from __future__ import annotations
@@ -11,12 +11,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Protocol, TypeAlias, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
-Array: TypeAlias = npt.NDArray[np.float64]
+from cosim.variable import AnyArray, Array, Causality, Coordinate, Variable, VariableType
+
+__all__ = [
+    "NANOSECONDS", "AnyArray", "Array", "ArrayStore", "Causality", "Coordinate", "StepOutcome", "StepStatus", "Unit",
+    "UnitError", "Variable", "VariableType", "seconds",
+]  # fmt: skip
 
 #: Simulated time is an integer number of nanoseconds, so that steps never drift and the end is met exactly.
 NANOSECONDS = 1_000_000_000
@@ -25,63 +30,6 @@ NANOSECONDS = 1_000_000_000
 def seconds(time: int) -> float:
     """Simulated time [s] of an integer time [ns]."""
     return time / NANOSECONDS
-
-
-class Causality(Enum):
-    """Role of a variable, with the names of FMI."""
-
-    INPUT = "input"
-    OUTPUT = "output"
-    PARAMETER = "parameter"
-
-
-@dataclass(frozen=True)
-class Variable:
-    """One named array of a unit.
-
-    Args:
-        name: Name within the unit, for example `power`.
-        causality: Whether the algorithm writes it (input) or reads it (output).
-        shape: Shape of the array; `()` is a scalar.
-        unit: SI unit as text that pint parses (`W`, `K`, `N/m`, `1/m`, `1`).
-        dims: Name of each dimension, for example `("coil",)`; same length as `shape`.
-        description: One sentence for results and error texts.
-        start: Value of an input that nothing is connected to; a scalar fills the shape. None: must be connected.
-        recorded: Whether a trace keeps it.
-    """
-
-    name: str
-    causality: Causality
-    shape: tuple[int, ...]
-    unit: str
-    dims: tuple[str, ...] = ()
-    description: str = ""
-    start: float | None = None
-    recorded: bool = True
-
-    def __post_init__(self) -> None:
-        if len(self.dims) != len(self.shape):
-            raise ValueError(f"{self.name}: {len(self.dims)} dimension names for shape {self.shape}")
-
-    @property
-    def size(self) -> int:
-        """Number of elements."""
-        return math.prod(self.shape)
-
-
-@dataclass(frozen=True)
-class Coordinate:
-    """A labelled axis of results, for example the row of every link.
-
-    Args:
-        dim: Dimension that it runs along.
-        values: Shape (size of dim,); numbers or text.
-        description: One sentence for the result file.
-    """
-
-    dim: str
-    values: npt.NDArray[np.generic]
-    description: str = ""
 
 
 class StepStatus(Enum):
@@ -127,30 +75,66 @@ class UnitError(Exception):
 class Unit(Protocol):
     """One simulated part.
 
-    Call order: `set` of start values, `initialise`, then any number of (`set`, `do_step`, `get`), then `terminate`.
-    After `initialise(time)` every output holds its value at `time`. `do_step(time, size)` advances to
-    `time + size` with the inputs held constant; its outputs are stamped `time + size`.
+    Call order: `set` of start values, `initialise`, any number of (`set`, `refresh`, `get`), `exit_initialisation`,
+    then any number of (`set`, `do_step`, `refresh`, `get`), then `terminate`. After `initialise(time)` every output
+    holds its value at `time`. `do_step(time, size)` advances to `time + size` with the inputs held constant; its
+    outputs are stamped `time + size`.
+
+    A class that names this protocol as its base inherits the defaults below: no direct feedthrough, no way back.
     """
 
     name: str
     variables: Mapping[str, Variable]
     coordinates: Mapping[str, Coordinate]
+    #: Output to the inputs that it depends on at the same instant: after `set`, `refresh` gives its new value. What
+    #: a unit computes in `do_step` alone is not listed.
+    feedthrough: Mapping[str, frozenset[str]] = {}
+    #: The same between `initialise` and `exit_initialisation`.
+    initial_feedthrough: Mapping[str, frozenset[str]] = {}
+    #: Whether `save` and `restore` work, so that a step can be repeated.
+    can_restore: bool = False
 
-    def set(self, name: str, value: Array) -> None:
-        """Copy `value` (shape of the variable, SI) to an input. Raises UnitError if it is not finite."""
+    def set(self, name: str, value: AnyArray) -> None:
+        """Copy `value` (shape of the variable) to an input. Raises UnitError if it is not finite."""
         ...
 
-    def get(self, name: str) -> Array:
+    def get(self, name: str) -> AnyArray:
         """Current value of a variable; the array may be overwritten by the next step, so copy it to keep it."""
         ...
 
     def initialise(self, time: int) -> None:
-        """Make all outputs valid at the start time [ns]."""
+        """Make all outputs valid at the start time [ns]; an FMU enters Initialization Mode."""
         ...
+
+    def exit_initialisation(self) -> None:
+        """All start values have been exchanged; an FMU leaves Initialization Mode."""
+        return
+
+    def refresh(self) -> None:
+        """Outputs that depend directly on inputs follow what was set since; no time passes."""
+        return
 
     def do_step(self, time: int, size: int) -> StepOutcome:
         """Advance from `time` by `size` [ns]. Raises UnitError if the unit cannot go on."""
         ...
+
+    def save(self) -> Any:
+        """State, inputs and outputs, to come back to with `restore`; hand it to `release` when it is not needed.
+
+        Raises:
+            UnitError: The unit cannot restore.
+        """
+        if not self.can_restore:
+            raise UnitError(self.name, "it cannot return to a saved state")
+        return self.checkpoint()
+
+    def restore(self, saved: Any, time: int) -> None:
+        """Return to what `save` gave at `time` [ns]; may be done any number of times."""
+        self.resume(saved, time)
+
+    def release(self, saved: Any) -> None:
+        """Free what `save` gave."""
+        return
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
         """State from which a fresh unit, after `resume`, continues exactly as this one does from here on.
@@ -161,7 +145,7 @@ class Unit(Protocol):
         ...
 
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
-        """Take the place of `initialise`: continue from a checkpoint made at `time` [ns]."""
+        """Take the place of `initialise` and `exit_initialisation`: continue from a checkpoint made at `time` [ns]."""
         ...
 
     def terminate(self) -> None:
@@ -182,7 +166,7 @@ class ArrayStore:
             name: np.full(v.shape, math.nan if v.start is None else v.start) for name, v in self.variables.items()
         }
 
-    def set(self, name: str, value: Array) -> None:
+    def set(self, name: str, value: AnyArray) -> None:
         """Copy a finite value to an input; raises UnitError with the first element that is not finite."""
         array = self.arrays[name]
         array[...] = value

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, UnitError, Variable
+from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 
-class HangingMassUnit:
+class HangingMassUnit(Unit):
     """Quasi-static load: extension = m g / k, length = rest length + extension, tension = m g.
 
     Inertia is left out: the bath changes over minutes, the 500 g swing at about 3 Hz.
@@ -26,6 +26,8 @@ class HangingMassUnit:
 
     Source: paper, section 2.3.
     """
+
+    can_restore = True
 
     def __init__(self, name: str, coils: int, mass: float, gravity: float = 9.81) -> None:
         if coils < 1:

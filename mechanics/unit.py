@@ -15,6 +15,7 @@ from cosim.unit import (
     Coordinate,
     StepOutcome,
     StepStatus,
+    Unit,
     UnitError,
     Variable,
     seconds,
@@ -71,7 +72,7 @@ def fabric_coordinates(design: FabricDesign) -> dict[str, Coordinate]:
     }
 
 
-class FabricUnit:
+class FabricUnit(Unit):
     """A fabric of interlocked links in Bullet.
 
     Args:

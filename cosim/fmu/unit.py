@@ -12,7 +12,7 @@ from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Interface, bind
 from cosim.fmu.variables import FmuVariable, fmu_variables
-from cosim.unit import Array, Causality, Coordinate, StepOutcome, UnitError, Variable, seconds
+from cosim.unit import Array, Causality, Coordinate, StepOutcome, Unit, UnitError, Variable, seconds
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class FmuSettings:
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
 
-class FmuUnit:
+class FmuUnit(Unit):
     """Base of both interfaces: variables as numpy buffers that the FMU reads and writes in place.
 
     Args:

@@ -11,6 +11,7 @@ from pathlib import Path
 import xarray as xr
 from rich.console import Console
 
+from cosim.components import FmuComponent
 from cosim.errors import InputError
 from cosim.figures.draw import draw_runs, open_run
 from cosim.progress import progress_bar
@@ -22,7 +23,7 @@ from cosim.reproduce.stiffness import stiffness_rows
 from cosim.reproduce.thermal import thermal_rows
 from cosim.run import RunStopped, run
 from cosim.run_folder import RunFolder, write_atomically, writing
-from cosim.scenario import FmuComponent, Scenario, load_scenario
+from cosim.scenario import Scenario, load_scenario
 
 #: The longest first, so that two processes end together.
 RUNS = (

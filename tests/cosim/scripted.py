@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from cosim.unit import ArrayStore, Causality, StepOutcome, StepStatus, UnitError, Variable
+from cosim.unit import ArrayStore, Causality, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 
-class Relaxation:
+class Relaxation(Unit):
     """dx/dt = rate * (input - x), solved exactly for an input that is constant over the step."""
+
+    can_restore = True
 
     def __init__(self, name: str, rate: float, start: float, feedback_start: float | None = None, shape=()) -> None:
         self.name, self.rate, self.first = name, rate, start

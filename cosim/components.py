@@ -1,0 +1,170 @@
+"""Components of a scenario: one typed model per kind."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, StrictStr, model_validator
+
+from cosim.quantity import In, PhysicalValue
+from cosim.unit import NANOSECONDS
+
+Time = Annotated[PhysicalValue, In("s")]
+Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
+AnyQuantity = Annotated[PhysicalValue, In()]
+Count = Annotated[StrictInt, Field(ge=1)]
+#: A parameter or start value of any FMI type. Text that is no quantity is for String (as it is) and Binary (hexadecimal).
+Scalar = Annotated[StrictBool | AnyQuantity | StrictStr, Field(union_mode="left_to_right")]
+ParameterValue = Annotated[
+    Scalar | list[Scalar] | list[list[Scalar]] | list[list[list[Scalar]]], Field(union_mode="left_to_right")
+]
+
+
+class Strict(BaseModel):
+    """Base: unknown keys are errors, and nothing changes after loading."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def nanoseconds(value: PhysicalValue) -> int:
+    """Integer time [ns] of a quantity of time; raises ValueError if it is no whole number of nanoseconds."""
+    exact = value.to("s") * NANOSECONDS
+    if abs(exact - round(exact)) > 1e-3:
+        raise ValueError(f"`{value}` is not a whole number of nanoseconds")
+    return round(exact)
+
+
+class ProgrammeOutput(Strict):
+    """One quantity given over time."""
+
+    unit: str = Field(description="Unit of the output, for example V or K.")
+    dim: str | None = Field(default=None, description="Dimension of a list of values, for example string.")
+    constant: AnyQuantity | list[AnyQuantity] | None = None
+    points: list[tuple[Time, AnyQuantity | list[AnyQuantity]]] | None = Field(
+        default=None, description="[time, value] pairs."
+    )
+    interpolation: Literal["hold", "linear"] = "hold"
+
+    @model_validator(mode="after")
+    def _check(self) -> ProgrammeOutput:
+        if (self.constant is None) == (self.points is None):
+            raise ValueError("give either `constant` or `points`")
+        values = [self.constant] if self.points is None else [v for _, v in self.points]
+        if not values:
+            raise ValueError("`points` is empty")
+        sizes = {len(v) if isinstance(v, list) else None for v in values}
+        if len(sizes) > 1:
+            raise ValueError("all points must have the same number of values")
+        if (sizes != {None}) != (self.dim is not None):
+            raise ValueError("a list of values needs `dim`, a single value must not have it")
+        for value in values:
+            for element in value if isinstance(value, list) else [value]:
+                assert element is not None
+                element.to(self.unit)
+        times = [nanoseconds(t) for t, _ in self.points or []]
+        if any(a >= b for a, b in itertools.pairwise(times)):
+            raise ValueError("the times of `points` must rise")
+        return self
+
+
+class ProgrammeComponent(Strict):
+    """Quantities given over time: supply voltage, room or bath temperature."""
+
+    kind: Literal["programme"]
+    outputs: dict[str, ProgrammeOutput]
+
+
+class CircuitComponent(Strict):
+    """The coil network, solved by ngspice."""
+
+    kind: Literal["ngspice"]
+    strings: list[Count] = Field(min_length=1, description="Coils in series, per string.")
+    supply: Literal["common", "per_string"] = "common"
+    supply_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
+    string_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
+    open_coils: list[StrictInt] = Field(default=[], description="Coils that are open, counted from 1.")
+    shorted_coils: list[StrictInt] = Field(default=[], description="Coils that are shorted, counted from 1.")
+    start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
+
+
+class Isolation(Strict):
+    """An FMU in a process of its own: its crash, endless step or leak becomes an error of this unit alone."""
+
+    kind: Literal["process"] = "process"
+    step_limit: Duration = Field(
+        default=PhysicalValue(60.0, "s"), description="Wall time that one call into the FMU may take."
+    )
+    memory_limit: Annotated[PhysicalValue, In("byte", minimum=0.0, is_exclusive=True)] = Field(
+        default=PhysicalValue(4.0, "GB"), description="Memory that its process may use."
+    )
+
+
+class FmuComponent(Strict):
+    """A functional mock-up unit; an actuator, or anything else."""
+
+    kind: Literal["fmu"]
+    fmu: str = Field(description="Name of a shipped FMU (thermal_stiffness) or path of a .fmu file.")
+    fmi: Literal[2, 3] = Field(default=3, description="FMI version of a shipped FMU.")
+    integrator: Literal["internal", "cvode"] = Field(
+        default="internal", description="internal: Co-Simulation; cvode: Model Exchange integrated by CVODE."
+    )
+    tolerance: Annotated[PhysicalValue, In("1", minimum=0.0, is_exclusive=True)] | None = Field(
+        default=None, description="Relative tolerance of the integrator; default 1e-8 for cvode, the FMU's own else."
+    )
+    isolation: Literal["none", "process"] | Isolation = Field(
+        default="none", description="process: in a process of its own; a mapping sets its limits."
+    )
+    structure: dict[str, Count] = Field(default={}, description="Structural parameters.")
+    parameter_set: str | None = None
+    parameters: dict[str, ParameterValue] = {}
+    start: dict[str, ParameterValue] = Field(
+        default={}, description="Start values: of inputs, and of what the FMU declares as initial exact or approx."
+    )
+    record: list[str] = Field(default=[], description="Local variables that the results keep beside the outputs.")
+
+
+class Tether(Strict):
+    """Which links are held."""
+
+    kind: Literal["cantilever", "hanging"]
+    rows: Count = 2
+
+
+class Solver(Strict):
+    """Bullet's solver."""
+
+    micro_step: Duration = PhysicalValue(0.5, "ms")
+    iterations: Count = 200
+    springs: Literal["force", "motor"] = Field(
+        default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
+    )
+    penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
+
+
+class FabricComponent(Strict):
+    """Interlocked links as rigid bodies in Bullet."""
+
+    kind: Literal["bullet_fabric"]
+    rows: Annotated[StrictInt, Field(ge=2)]
+    columns: Count
+    tether: Tether
+    solver: Solver = Solver()
+    parameter_set: str | None = None
+    parameters: dict[str, ParameterValue] = {}
+    start: dict[str, AnyQuantity] = {}
+
+
+class HangingMassComponent(Strict):
+    """A mass hanging from each coil, in equilibrium (the paper's water bath)."""
+
+    kind: Literal["hanging_mass"]
+    coils: Count
+    mass: Annotated[PhysicalValue, In("kg", minimum=0.0, is_exclusive=True)]
+    start: dict[str, AnyQuantity] = {}
+
+
+Component = Annotated[
+    ProgrammeComponent | CircuitComponent | FmuComponent | FabricComponent | HangingMassComponent,
+    Field(discriminator="kind"),
+]
