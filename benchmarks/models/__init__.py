@@ -1,0 +1,1 @@
+"""Small FMUs for measurements: C sources, their descriptions and the builder."""

@@ -1,0 +1,54 @@
+"""The same systems run by this project's own tool, through a scenario of plain FMU components."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from benchmarks.models.systems import System
+from cosim.run import run
+from cosim.scenario import Scenario, parse_scenario
+
+
+def scenario(system: System, version: int, step: float, kind: str = "jacobi", output_step: float | None = None) -> Any:
+    """What a user would write, as the mapping that a scenario file holds.
+
+    Args:
+        system: What to simulate.
+        version: FMI version, 2 or 3.
+        step: Macro-step [s].
+        kind: Algorithm.
+        output_step: Interval of recorded values [s]; None: the end alone.
+    """
+    steps = round(system.stop / step)
+    output = step * steps if output_step is None else output_step
+    components: dict[str, dict[str, Any]] = {
+        name: {"kind": "fmu", "fmu": str(system.fmu(name, version))} for name in system.components
+    }
+    # Inputs that nothing is connected to, or that close a loop, start from zero unless the system says otherwise.
+    for wire in system.connections:
+        components[wire.target].setdefault("start", {})[wire.input] = 0.0
+    for (name, variable), value in system.start.items():
+        components[name].setdefault("start", {})[variable] = value
+    return {
+        "title": "measured system",
+        "time": {"stop": f"{system.stop:.9g} s", "macro_step": f"{step * 1e9:.0f} ns",
+                 "output_step": f"{output * 1e9:.0f} ns", "checkpoint_step": f"{step * steps * 1e9:.0f} ns"},
+        "algorithm": {"kind": kind},
+        "components": components,
+        "connections": [f"{c.source}.{c.output} -> {c.target}.{c.input}" for c in system.connections],
+    }  # fmt: skip
+
+
+def load(system: System, version: int, step: float, kind: str = "jacobi", output_step: float | None = None) -> Scenario:
+    """The scenario, checked."""
+    text = yaml.safe_dump(scenario(system, version, step, kind, output_step), sort_keys=False)
+    return parse_scenario(text, Path("benchmark.yaml"))
+
+
+def simulate(system: System, version: int, step: float, kind: str = "jacobi") -> tuple[float, ...]:
+    """Outputs of `system` at its stop time."""
+    result = run(load(system, version, step, kind))
+    return tuple(float(result[f"{name}.{variable}"].values[-1]) for name, variable in system.outputs)
