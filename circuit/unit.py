@@ -48,6 +48,10 @@ class CircuitUnit(Unit):
     def __init__(self, name: str, network: Network) -> None:
         self.name, self.network = name, network
         self.variables: Mapping[str, Variable] = {v.name: v for v in _variables(network)}
+        # While it steps it is sampled: its outputs change in `do_step` alone.
+        self.initial_feedthrough = {
+            n: frozenset(INPUTS) for n, v in self.variables.items() if v.causality is Causality.OUTPUT
+        }
         self.coordinates: Mapping[str, Coordinate] = _coordinates(network)
         #: Number of solutions that ngspice has made for this unit.
         self.solves = 0
@@ -64,6 +68,7 @@ class CircuitUnit(Unit):
         self._nodes = sorted(set(nodes) - {"0"})
         #: Place of every coil's node among `_nodes`; ground comes after the last.
         self._node_of_coil = np.array([self._nodes.index(n) if n != "0" else len(self._nodes) for n in nodes])
+        self._start = 0
         try:
             self._circuit: Circuit | None = Circuit(render(network), self._vectors())
         except NgspiceError as fault:
@@ -89,7 +94,12 @@ class CircuitUnit(Unit):
 
     def initialise(self, time: int) -> None:
         """Solve with the inputs that are set; UnitError if one is not or is out of range."""
+        self._start = time
         self._follow_inputs(time)
+
+    def refresh(self) -> None:
+        """Solve again with the inputs set since (start values that close a loop)."""
+        self._follow_inputs(self._start)
 
     def do_step(self, time: int, size: int) -> StepOutcome:
         """Outputs at `time + size` of the inputs held over the step.

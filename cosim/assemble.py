@@ -14,6 +14,8 @@ import numpy as np
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
+from cosim.algorithms.choose import Step, choose
+from cosim.algorithms.restoring import CannotRestore
 from cosim.components import (
     CircuitComponent,
     Component,
@@ -25,15 +27,16 @@ from cosim.components import (
     ProgrammeOutput,
     nanoseconds,
 )
+from cosim.connection import Connection, ConnectionFault, Element
 from cosim.errors import InputError
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
-from cosim.scenario import CONNECTION, Scenario
-from cosim.system import Connection, ConnectionFault, System
-from cosim.unit import Causality, Unit, UnitError
+from cosim.scenario import CONNECTION, ScaledConnection, Scenario
+from cosim.system import System
+from cosim.unit import Causality, Unit, UnitError, Variable
 from mechanics.fabric import FabricDesign
 from mechanics.hanging_mass import HangingMassUnit
 from mechanics.solver import SolverSettings
@@ -56,6 +59,7 @@ FABRIC_UNITS = {
 }
 
 _CONNECTION = re.compile(CONNECTION)
+_ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d+(,\d+)*)\]$")
 
 
 @dataclass(frozen=True)
@@ -64,12 +68,14 @@ class Assembly:
 
     Args:
         system: Units and connections.
+        step: The algorithm, which makes one macro-step.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
         versions: What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
     """
 
     system: System
+    step: Step
     start: Mapping[str, Mapping[str, float]]
     parameters: Mapping[str, Resolved]
     versions: Mapping[str, str]
@@ -96,14 +102,18 @@ def assemble(scenario: Scenario) -> Assembly:
         sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
         try:
             system = System(units, connections, sources)
+            step = choose(scenario.algorithm, system, nanoseconds(scenario.time.macro_step))
         except ConnectionFault as error:
             raise InputError(source, "connections", str(error), "correct the connection") from error
+        except CannotRestore as error:
+            raise InputError(source, "algorithm", str(error),
+                             "use gauss_seidel or jacobi with `on_event: continue`") from error  # fmt: skip
         start = {n: _start(n, c, units[n], source) for n, c in scenario.components.items()}
     except BaseException:
         for unit in units.values():
             unit.terminate()
         raise
-    return Assembly(system, start, parameters, _versions(units))
+    return Assembly(system, step, start, parameters, _versions(units))
 
 
 def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
@@ -221,20 +231,37 @@ def _quantity(value: object) -> PhysicalValue:
     return value
 
 
-def _connection(text: str, index: int, units: Mapping[str, Unit], source: Path) -> Connection:
-    match = _CONNECTION.match(text)
+def _connection(given: str | ScaledConnection, index: int, units: Mapping[str, Unit], source: Path) -> Connection:
+    scaled = given if isinstance(given, ScaledConnection) else ScaledConnection(connect=given)
+    match = _CONNECTION.match(scaled.connect)
     assert match is not None  # the scenario's pattern has checked it
-    ends = (match[1], match[2]), (match[3], match[4])
-    found = [units[u].variables.get(v) if u in units else None for u, v in ends]
+    ends, elements, found = [], [], []
+    for unit, text in ((match[1], match[2]), (match[3], match[4])):
+        variables = units[unit].variables if unit in units else {}
+        name, element = _element(text, variables)
+        ends.append((unit, name))
+        elements.append(element)
+        found.append(variables.get(name))
     factor, offset = 1.0, 0.0
-    if found[0] is not None and found[1] is not None:
+    if found[0] is not None and found[1] is not None and scaled.convert_units:
         try:
             factor, offset = conversion(found[0].unit, found[1].unit)
         except ValueError as error:
             raise InputError(
-                source, f"connections[{index}]", f"{text}: {error}", "connect variables that measure the same thing"
-            ) from error
-    return Connection(ends[0], ends[1], factor, offset)
+                source, f"connections[{index}]", f"{scaled.connect}: {error}",
+                "connect variables that measure the same thing",
+            ) from error  # fmt: skip
+    factor, offset = scaled.factor * factor, scaled.factor * offset + scaled.offset
+    return Connection(ends[0], ends[1], factor, offset, elements[0], elements[1])
+
+
+def _element(text: str, variables: Mapping[str, Variable]) -> tuple[str, Element | None]:
+    """Name and zero-based element of `power[3]`; a variable whose own name has brackets comes first."""
+    match = _ELEMENT.match(text)
+    if text in variables or match is None or match["name"] not in variables:
+        return text, None
+    first = variables[match["name"]].first_index
+    return match["name"], tuple(int(i) - first for i in match["index"].split(","))
 
 
 def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[str, float]:

@@ -14,7 +14,7 @@ Time = Annotated[PhysicalValue, In("s")]
 Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]
 AnyQuantity = Annotated[PhysicalValue, In()]
 Count = Annotated[StrictInt, Field(ge=1)]
-#: A parameter or start value of any FMI type. Text that is no quantity is for String (as it is) and Binary (hexadecimal).
+#: A parameter or start value of any FMI type. Text that is no quantity is for String, or for Binary in hexadecimal.
 Scalar = Annotated[StrictBool | AnyQuantity | StrictStr, Field(union_mode="left_to_right")]
 ParameterValue = Annotated[
     Scalar | list[Scalar] | list[list[Scalar]] | list[list[list[Scalar]]], Field(union_mode="left_to_right")
@@ -124,6 +124,19 @@ class FmuComponent(Strict):
     record: list[str] = Field(default=[], description="Local variables that the results keep beside the outputs.")
 
 
+class ActuatorComponent(FmuComponent):
+    """An FMU behind the actuator interface: it connects itself to the neighbours named here."""
+
+    kind: Literal["actuator"]  # type: ignore[assignment]  # another tag of the same keys
+    electrical: str | None = Field(
+        default=None, description="Component that powers it (`power`, `voltage`) and takes its `resistance`."
+    )
+    ambient: str | None = Field(default=None, description="Component whose `temperature` surrounds it.")
+    mechanical: str | None = Field(
+        default=None, description="Component that takes `stiffness` and `rest_length`, gives `extension` and `tension`."
+    )
+
+
 class Tether(Strict):
     """Which links are held."""
 
@@ -165,6 +178,6 @@ class HangingMassComponent(Strict):
 
 
 Component = Annotated[
-    ProgrammeComponent | CircuitComponent | FmuComponent | FabricComponent | HangingMassComponent,
+    ProgrammeComponent | CircuitComponent | FmuComponent | ActuatorComponent | FabricComponent | HangingMassComponent,
     Field(discriminator="kind"),
 ]

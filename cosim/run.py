@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosim.algorithms import gauss_seidel, jacobi
 from cosim.assemble import Assembly, assemble
 from cosim.components import nanoseconds
 from cosim.errors import InputError
@@ -21,10 +20,7 @@ from cosim.observers.trace import Trace
 from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import Scenario
 from cosim.system import ConnectionFault, System
-from cosim.unit import StepOutcome, StepStatus, UnitError, seconds
-
-Step = Callable[[System, int, int], StepOutcome]
-ALGORITHMS: Mapping[str, Step] = {"gauss_seidel": gauss_seidel.step, "jacobi": jacobi.step}
+from cosim.unit import StepStatus, UnitError, seconds
 
 
 @dataclass(frozen=True)
@@ -237,17 +233,19 @@ def _step_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
 ) -> None:
     time = state.scenario.time
-    step = ALGORITHMS[state.scenario.algorithm.kind]
+    step, system = state.assembly.step, state.assembly.system
     per_output = nanoseconds(time.output_step) // state.macro
     per_checkpoint = nanoseconds(time.checkpoint_step) // state.macro
     while state.index < state.total:
-        outcome = step(state.assembly.system, state.now, state.macro)
+        outcome = step(system, state.now, state.macro)
         if outcome.status is not StepStatus.OK:
             raise UnitError("algorithm", f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} "
-                            "cannot repeat a step", outcome.time, "use a smaller macro_step")  # fmt: skip
+                            "cannot repeat a step", outcome.time,
+                            "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
         state.index += 1
         state.meter.add_step(seconds(state.macro))
         if state.index % per_output == 0:
+            system.propagate()
             state.trace.record(state.now)
             state.meter.note_largest()
             if state.index % per_checkpoint == 0 and state.index < state.total:

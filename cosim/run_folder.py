@@ -131,7 +131,8 @@ class RunFolder:
     def write_results(self, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
         """Write results, main series and summary."""
         with writing(self.path):
-            encoding = {name: {"zlib": True, "complevel": 4} for name in dataset.data_vars}
+            numbers = [name for name, values in dataset.data_vars.items() if values.dtype.kind in "biuf"]
+            encoding = {name: {"zlib": True, "complevel": 4} for name in numbers}
             with replacing(self.results) as partial:
                 dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
             write_series(self.path / "series.csv", dataset)
@@ -186,15 +187,17 @@ def write_series(path: Path, dataset: xr.Dataset) -> None:
     """Main series: scalars and string quantities against time, and mean, lowest and highest value over the coils."""
     columns: dict[str, np.ndarray[Any, Any]] = {"time [s]": dataset["time"].values}
     for name, values in dataset.data_vars.items():
-        unit = values.attrs["units"]
+        if values.dtype.kind not in "biuf":  # text is in the NetCDF file
+            continue
+        unit = f" [{values.attrs['units']}]" if "units" in values.attrs else ""
         if values.ndim == 1:
-            columns[f"{name} [{unit}]"] = values.values
+            columns[f"{name}{unit}"] = values.values
         elif values.dims[1:] == ("string",):
             for i in range(values.sizes["string"]):
-                columns[f"{name}[{i + 1}] [{unit}]"] = values.values[:, i]
-        elif values.ndim == 2:
+                columns[f"{name}[{i + 1}]{unit}"] = values.values[:, i]
+        elif values.ndim == 2 and values.shape[1]:
             for kind in ("mean", "min", "max"):
-                columns[f"{kind} {name} [{unit}]"] = getattr(np, kind)(values.values, axis=1)
+                columns[f"{kind} {name}{unit}"] = getattr(np, kind)(values.values, axis=1)
     rows = zip(*columns.values(), strict=True)
     with replacing(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import Field, StrictFloat, StrictInt, model_validator
+from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
 
 from cosim.components import Component, Count, Duration, FabricComponent, ProgrammeComponent, Strict, Time, nanoseconds
 from cosim.errors import InputError
@@ -109,6 +109,7 @@ class ScaledConnection(Strict):
     connect: Annotated[str, Field(pattern=CONNECTION)]
     factor: StrictFloat | StrictInt = 1.0
     offset: StrictFloat | StrictInt = 0.0
+    convert_units: StrictBool = Field(default=True, description="Whether the variables' units are converted first.")
 
 
 class Scenario(Strict):

@@ -8,55 +8,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cosim.unit import Array, Causality, StepOutcome, Unit, UnitError, Variable
+from cosim.connection import Connection, ConnectionFault, Element, Transfer
+from cosim.loops import AlgebraicLoop, Propagation
+from cosim.unit import AnyArray, Causality, StepOutcome, Unit, Variable
 
-
-class ConnectionFault(ValueError):
-    """A connection or a component does not fit; the text names it and the remedy."""
-
-
-@dataclass(frozen=True)
-class Connection:
-    """A directed connection `source_unit.source_variable -> target_unit.target_variable`.
-
-    Args:
-        source: (unit, variable) of an output.
-        target: (unit, variable) of an input.
-        factor: Target value = factor * source value + offset (unit conversion).
-        offset: See factor, in the unit of the target.
-    """
-
-    source: tuple[str, str]
-    target: tuple[str, str]
-    factor: float = 1.0
-    offset: float = 0.0
-
-    def __str__(self) -> str:
-        return f"{'.'.join(self.source)} -> {'.'.join(self.target)}"
-
-
-@dataclass
-class Transfer:
-    """A connection bound to its two units, ready to be carried out."""
-
-    connection: Connection
-    source: Unit
-    target: Unit
-
-    def carry_out(self) -> None:
-        """Copy the output to the input, converted; raises UnitError, naming the connection, if it is not finite."""
-        value = self.source.get(self.connection.source[1])
-        if self.connection.factor != 1.0 or self.connection.offset != 0.0:
-            value = self.connection.factor * value + self.connection.offset
-        try:
-            self.target.set(self.connection.target[1], value)
-        except UnitError as error:
-            raise UnitError(error.unit, f"{error.what}, through {self.connection}", error.time, error.remedy) from error
+__all__ = ["Connection", "ConnectionFault", "System"]
 
 
 @dataclass
 class System:
-    """Units, the connections into each, and the time spent in each.
+    """Units, the connections that lead into each, and the time spent in each.
 
     Args:
         units: Name to unit, in the order in which Gauss-Seidel steps them.
@@ -64,8 +25,8 @@ class System:
         sources: Names of units that are functions of time alone; they are sampled before any other unit steps.
 
     Raises:
-        ConnectionFault: An unknown name, a wrong causality or shape, two connections into one input, or an input that
-            is neither connected nor has a start value.
+        ConnectionFault: An unknown name, a wrong causality, type or shape, two connections into one input, an input
+            that is neither connected nor has a start value, or an algebraic loop of values that are no numbers.
     """
 
     units: Mapping[str, Unit]
@@ -76,40 +37,66 @@ class System:
 
     def __post_init__(self) -> None:
         self.wall_time = dict.fromkeys(self.units, 0.0)
-        self.transfers = {name: [] for name in self.units}
+        inputs: dict[tuple[str, str], Transfer] = {}
         for connection in self.connections:
             self._check(connection)
-            source, target = self.units[connection.source[0]], self.units[connection.target[0]]
-            self.transfers[connection.target[0]].append(Transfer(connection, source, target))
+            target = self.units[connection.target[0]]
+            transfer = inputs.setdefault(connection.target, Transfer(target, target.variables[connection.target[1]]))
+            transfer.add(connection, self.units[connection.source[0]])
+        self.transfers = {name: [t for end, t in inputs.items() if end[0] == name] for name in self.units}
         self._check_inputs()
+        self._propagation = Propagation(self.units, self.transfers, lambda u: u.feedthrough, is_complete=False)
+        self._initial = Propagation(self.units, self.transfers, lambda u: u.initial_feedthrough, is_complete=True)
 
-    def _variable(self, end: tuple[str, str], causality: Causality, connection: Connection) -> Variable:
+    @property
+    def loops(self) -> Sequence[AlgebraicLoop]:
+        """Algebraic loops between outputs and inputs of one instant while the system steps."""
+        return self._propagation.loops
+
+    @property
+    def initial_loops(self) -> Sequence[AlgebraicLoop]:
+        """Algebraic loops between start values."""
+        return self._initial.loops
+
+    def _variable(self, end: tuple[str, str], causalities: set[Causality], connection: Connection) -> Variable:
         if end[0] not in self.units:
             raise ConnectionFault(f"{connection}: there is no component {end[0]}; there are: {', '.join(self.units)}")
         variables = self.units[end[0]].variables
         found = variables.get(end[1])
-        if found is None or found.causality is not causality:
-            names = ", ".join(n for n, v in variables.items() if v.causality is causality) or "none"
-            raise ConnectionFault(f"{connection}: {end[0]} has no {causality.value} {end[1]}; it has: {names}")
+        if found is None or found.causality not in causalities:
+            names = ", ".join(n for n, v in variables.items() if v.causality in causalities) or "none"
+            what = "input" if Causality.INPUT in causalities else "output"
+            raise ConnectionFault(f"{connection}: {end[0]} has no {what} {end[1]}; it has: {names}")
         return found
 
     def _check(self, connection: Connection) -> None:
-        source = self._variable(connection.source, Causality.OUTPUT, connection)
-        target = self._variable(connection.target, Causality.INPUT, connection)
-        if source.shape != target.shape and source.shape != ():
-            raise ConnectionFault(f"{connection}: shape {source.shape} does not fit shape {target.shape}")
-        if any(t.connection.target == connection.target for t in self.transfers[connection.target[0]]):
-            raise ConnectionFault(f"{connection}: another connection already leads into {'.'.join(connection.target)}")
+        source = self._variable(connection.source, {Causality.OUTPUT, Causality.LOCAL}, connection)
+        target = self._variable(connection.target, {Causality.INPUT}, connection)
+        shapes = [_shape(v, e, connection)
+                  for v, e in ((source, connection.source_element), (target, connection.target_element))]  # fmt: skip
+        if shapes[0] != shapes[1] and shapes[0] != ():
+            raise ConnectionFault(f"{connection}: shape {shapes[0]} does not fit shape {shapes[1]}")
+        if not target.type.accepts(source.type):
+            raise ConnectionFault(f"{connection}: {source.type.value} does not fit {target.type.value} without loss")
+        if connection.is_scaled and not (target.type.is_number and source.type.is_number):
+            raise ConnectionFault(f"{connection}: a value of type {source.type.value} cannot be scaled")
 
     def _check_inputs(self) -> None:
         for name, unit in self.units.items():
-            connected = {t.connection.target[1] for t in self.transfers[name]}
+            connected = {t.variable.name: t for t in self.transfers[name]}
             for variable in unit.variables.values():
-                if variable.causality is Causality.INPUT and variable.start is None and variable.name not in connected:
+                if variable.causality is not Causality.INPUT or variable.start is not None:
+                    continue
+                if variable.name not in connected:
                     raise ConnectionFault(f"{name}.{variable.name}: nothing is connected to this input; connect it")
+                missing = connected[variable.name].missing
+                if missing is not None:
+                    element = ",".join(str(i + 1) for i in missing)
+                    raise ConnectionFault(f"{name}.{variable.name}[{element}]: nothing is connected to this element "
+                                          "of the input; connect it")  # fmt: skip
 
     def initialise(self, time: int, start: Mapping[str, Mapping[str, float]]) -> None:
-        """Initialise every unit in order.
+        """Initialise every unit in order, then exchange start values until all agree, loops included.
 
         An input whose source comes later in the order takes its first value from `start` or from the variable's own
         start value; it is set again once all units are initialised.
@@ -120,6 +107,7 @@ class System:
 
         Raises:
             ConnectionFault: A feedback input has no start value.
+            UnitError: A unit cannot begin, or a loop of start values has no solution.
         """
         ready: set[str] = set()
         for name, unit in self.units.items():
@@ -129,21 +117,25 @@ class System:
             unit.initialise(time)
             self.wall_time[name] += clock.perf_counter() - begin
             ready.add(name)
+        self._initial.carry_out()
+        for unit in self.units.values():
+            unit.exit_initialisation()
         self.exchange_all()
 
     def _first_value(self, transfer: Transfer, ready: set[str], start: Mapping[str, float]) -> None:
-        connection = transfer.connection
-        if connection.source[0] in ready:
+        late = next((p.connection for p in transfer.parts if p.connection.source[0] not in ready), None)
+        if late is None:
             transfer.carry_out()
             return
-        variable = transfer.target.variables[connection.target[1]]
+        variable = transfer.variable
         value = start.get(variable.name, variable.start)
         if value is None:
             raise ConnectionFault(
-                f"{connection}: {connection.source[0]} is initialised after {connection.target[0]}, so this input "
-                f"needs a first value; give components.{connection.target[0]}.start.{variable.name}"
+                f"{late}: {late.source[0]} is initialised after {late.target[0]}, so this input "
+                f"needs a first value; give components.{late.target[0]}.start.{variable.name}"
             )
-        transfer.target.set(variable.name, np.full(variable.shape, value))
+        transfer.buffer[...] = value
+        transfer.write()
 
     def exchange(self, name: str) -> None:
         """Carry out all connections into one unit."""
@@ -151,9 +143,14 @@ class System:
             transfer.carry_out()
 
     def exchange_all(self) -> None:
-        """Carry out every connection."""
+        """Carry out every connection, those with direct feedthrough in the order in which outputs follow."""
+        self._propagation.carry_out()
         for name in self.units:
             self.exchange(name)
+
+    def propagate(self) -> None:
+        """Let every output that depends directly on an input follow the outputs of this instant."""
+        self._propagation.carry_out()
 
     def step(self, name: str, time: int, size: int) -> StepOutcome:
         """Step one unit and add its wall time."""
@@ -162,11 +159,43 @@ class System:
         self.wall_time[name] += clock.perf_counter() - begin
         return outcome
 
-    def value(self, name: str, variable: str) -> Array:
+    def sample_sources(self, time: int, size: int) -> None:
+        """Let the functions of time take their values for a step."""
+        for name in self.sources:
+            self.step(name, time, size)
+
+    @property
+    def movers(self) -> list[str]:
+        """Names of all units but the sources, in order."""
+        return [name for name in self.units if name not in self.sources]
+
+    def value(self, name: str, variable: str) -> AnyArray:
         """Copy of a unit's variable."""
-        return np.array(self.units[name].get(variable), dtype=np.float64)
+        return np.array(self.units[name].get(variable))
+
+    def save(self) -> dict[str, object]:
+        """States of all units, for `restore` and `release`; raises UnitError if one cannot return."""
+        return {name: unit.save() for name, unit in self.units.items()}
+
+    def restore(self, saved: Mapping[str, object], time: int) -> None:
+        """Return the saved units to what they were at `time` [ns]."""
+        for name, state in saved.items():
+            self.units[name].restore(state, time)
+
+    def release(self, saved: Mapping[str, object]) -> None:
+        """Free saved states."""
+        for name, state in saved.items():
+            self.units[name].release(state)
 
     def terminate(self) -> None:
         """Terminate every unit."""
         for unit in self.units.values():
             unit.terminate()
+
+
+def _shape(variable: Variable, element: Element | None, connection: Connection) -> tuple[int, ...]:
+    if element is None:
+        return variable.shape
+    if len(element) != len(variable.shape) or any(not 0 <= i < n for i, n in zip(element, variable.shape)):
+        raise ConnectionFault(f"{connection}: {variable.name} has shape {variable.shape}; there is no such element")
+    return ()

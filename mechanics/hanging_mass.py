@@ -49,6 +49,13 @@ class HangingMassUnit(Unit):
                 Variable("tension", Causality.OUTPUT, shape, "N", dims, "weight carried by every coil"),
             )
         }
+        # While it steps it is sampled: its outputs change in `do_step` alone.
+        self.initial_feedthrough = {
+            "extension": frozenset({"stiffness"}),
+            "length": frozenset({"stiffness", "rest_length"}),
+            "tension": frozenset(),
+        }
+        self._start = 0
         self._store = ArrayStore(name, self.variables)
 
     def set(self, name: str, value: Array) -> None:
@@ -61,7 +68,12 @@ class HangingMassUnit(Unit):
 
     def initialise(self, time: int) -> None:
         """Equilibrium at the start."""
+        self._start = time
         self._solve(time)
+
+    def refresh(self) -> None:
+        """Equilibrium with the inputs set since."""
+        self._solve(self._start)
 
     def do_step(self, time: int, size: int) -> StepOutcome:
         """Equilibrium at the end of the step; raises UnitError where a stiffness is not positive."""

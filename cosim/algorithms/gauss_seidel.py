@@ -22,11 +22,9 @@ def step(system: System, time: int, size: int) -> StepOutcome:
 
     Source: Kuebler and Schiehlen, Math. Comput. Model. Dyn. Syst. 6 (2000) 93-113 (sequential co-simulation).
     """
-    for name in system.sources:
-        system.step(name, time, size)
-    for name in system.units:
-        if name in system.sources:
-            continue
+    system.sample_sources(time, size)
+    system.propagate()
+    for name in system.movers:
         system.exchange(name)
         outcome = system.step(name, time, size)
         if outcome.status is not StepStatus.OK:

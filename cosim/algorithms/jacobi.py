@@ -22,9 +22,9 @@ def step(system: System, time: int, size: int) -> StepOutcome:
 
     Source: Kuebler and Schiehlen, Math. Comput. Model. Dyn. Syst. 6 (2000) 93-113 (parallel co-simulation).
     """
-    for name in system.sources:
-        system.step(name, time, size)
-    movers = [name for name in system.units if name not in system.sources]
+    system.sample_sources(time, size)
+    system.propagate()
+    movers = system.movers
     for name in movers:
         system.exchange(name)
     for name in movers:

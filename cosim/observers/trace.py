@@ -10,7 +10,9 @@ import numpy as np
 import xarray as xr
 
 from cosim.system import System
-from cosim.unit import Causality, Coordinate, Variable, seconds
+from cosim.unit import Causality, Coordinate, Variable, VariableType, seconds
+
+_RECORDED = {Causality.OUTPUT, Causality.LOCAL}
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class Trace:
         self.times = times
         self.channels = _channels(system)
         self.count = 0
-        self._data = {c.name: np.empty((len(times), *c.variable.shape)) for c in self.channels}
+        self._data = {c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels}
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
@@ -61,8 +63,9 @@ class Trace:
         self.count += 1
 
     def chunk(self, first: int) -> dict[str, np.ndarray[Any, Any]]:
-        """Values recorded from output `first` on, by channel name."""
-        return {name: values[first : self.count] for name, values in self._data.items()}
+        """Values recorded from output `first` on, by channel name; text as fixed-width text, which files can hold."""
+        chosen = {name: values[first : self.count] for name, values in self._data.items()}
+        return {name: v.astype(np.str_) if v.dtype == object else v for name, v in chosen.items()}
 
     def load(self, chunk: Mapping[str, np.ndarray[Any, Any]]) -> None:
         """Append values of an earlier run of the same scenario."""
@@ -76,7 +79,9 @@ class Trace:
         """All values recorded so far; dimension `time` in seconds."""
         variables: dict[str, Any] = {}
         for channel in self.channels:
-            attributes = {"units": channel.variable.unit, "long_name": channel.variable.description or channel.name}
+            attributes = {"long_name": channel.variable.description or channel.name}
+            if channel.variable.type.is_number:  # text, switches and enumerations have no unit
+                attributes["units"] = channel.variable.unit
             values = self._data[channel.name][: self.count]
             variables[channel.name] = (("time", *channel.dims), values, attributes)
         moments = np.array([seconds(t) for t in self.times[: self.count]])
@@ -90,8 +95,8 @@ def _channels(system: System) -> list[Channel]:
     result = []
     for name, unit in system.units.items():
         for variable in unit.variables.values():
-            if variable.causality is not Causality.OUTPUT or not variable.recorded:
-                continue
+            if variable.causality not in _RECORDED or not variable.recorded or variable.type is VariableType.BINARY:
+                continue  # NetCDF has no bytes of variable length
             dims = []
             for dim, size in zip(variable.dims, variable.shape, strict=True):
                 shared = dim if sizes.setdefault(dim, size) == size else f"{name}_{dim}"

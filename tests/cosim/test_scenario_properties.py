@@ -109,7 +109,7 @@ BROKEN = [
     (("components", "fabric", "tether"), "kind", "nailed"),
     ((), "connections", ["coil.stiffness = fabric.stiffness"]),
     ((), "connections", "coil.stiffness -> fabric.stiffness"),
-    ((), "components", {"Fabric": DATA["passive_drape"]["components"]["fabric"]}),
+    ((), "components", {"2fabric": DATA["passive_drape"]["components"]["fabric"]}),
     ((), "title", None),
     ((), "path", "elsewhere.yaml"),
 ]

@@ -1,0 +1,29 @@
+"""Which units an algorithm may take back to the begin of a step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from cosim.system import System
+
+
+class CannotRestore(ValueError):
+    """An algorithm must repeat the step of a unit that cannot go back; the text names it."""
+
+
+def require_restoring(system: System, names: Iterable[str], purpose: str) -> None:
+    """Check that units can return to a saved state.
+
+    Args:
+        system: The system.
+        names: Units that the algorithm takes back.
+        purpose: What it does with them, for the error.
+
+    Raises:
+        CannotRestore: One of them cannot.
+    """
+    unable = [name for name in names if not system.units[name].can_restore]
+    if unable:
+        kinds = ", ".join(f"{name} ({type(system.units[name]).__name__})" for name in unable)
+        raise CannotRestore(f"{purpose} takes units back to the begin of a step, but {kinds} cannot return to a saved "
+                            "state")  # fmt: skip

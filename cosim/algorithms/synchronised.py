@@ -1,0 +1,55 @@
+"""Synchronised: where a unit returns early, all units go back and step to that instant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from cosim.algorithms.restoring import require_restoring
+from cosim.system import System
+from cosim.unit import StepOutcome, StepStatus, UnitError
+
+
+class Synchronised:
+    """Makes an event of one unit a communication point of all.
+
+    Args:
+        system: The system.
+        inner: The algorithm that makes each step.
+
+    Raises:
+        CannotRestore: A unit cannot return to a saved state.
+    """
+
+    def __init__(self, system: System, inner: Callable[[System, int, int], StepOutcome]) -> None:
+        require_restoring(system, system.movers, "on_event: synchronise")
+        self._inner = inner
+
+    def __call__(self, system: System, time: int, size: int) -> StepOutcome:
+        """Advance all units by one macro-step, with a communication point at every event inside it.
+
+        Returns:
+            OK at `time + size`, or an outcome that is neither OK nor an early return.
+
+        Raises:
+            UnitError: A unit returns early without having moved.
+        """
+        now, end = time, time + size
+        while now < end:
+            saved = system.save()
+            try:
+                outcome = self._inner(system, now, end - now)
+                if outcome.status is StepStatus.OK:
+                    return outcome
+                if outcome.status is not StepStatus.EARLY_RETURN:
+                    return outcome
+                if not now < outcome.time < end:
+                    raise UnitError("synchronise", f"{outcome.message or 'a unit returned early'} without having moved",
+                                    now, "use `on_event: continue`")  # fmt: skip
+                system.restore(saved, now)
+            finally:
+                system.release(saved)
+            repeated = self._inner(system, now, outcome.time - now)
+            if repeated.status is not StepStatus.OK:
+                return repeated
+            now = outcome.time
+        return StepOutcome(StepStatus.OK, end)

@@ -1,0 +1,173 @@
+"""Direct feedthrough between units: in which order outputs follow inputs, and which of them form algebraic loops.
+
+An output that depends on an input at the same instant is only right once that input is; a chain of such dependences is
+followed in order, a ring of them is an algebraic loop, a set of equations that is solved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+from scipy.optimize import anderson, root
+
+from cosim.connection import ConnectionFault, Transfer
+from cosim.ordering import in_order
+from cosim.unit import Array, Unit, UnitError
+
+#: Largest difference of a loop's inputs, relative to 1 + their size, at which the loop counts as closed.
+TOLERANCE = 1e-10
+#: Repetitions of setting the inputs to what follows from them; enough where the ring is none element by element.
+REPETITIONS = 3
+#: Up to this many unknowns a Jacobian is made by differences; beyond, Anderson mixing needs none.
+MOST_UNKNOWNS_WITH_JACOBIAN = 64
+
+Action = Callable[[], None]
+Feedthrough = Callable[[Unit], Mapping[str, frozenset[str]]]
+
+
+class AlgebraicLoop:
+    """Inputs that depend on each other at one instant: u = g(u).
+
+    Args:
+        transfers: The inputs of the loop.
+        units: The units that have them.
+
+    Raises:
+        ConnectionFault: One of them is no floating-point number.
+    """
+
+    def __init__(self, transfers: Sequence[Transfer], units: Sequence[Unit]) -> None:
+        self.transfers, self.units = list(transfers), list(units)
+        self.size = sum(t.variable.size for t in transfers)
+        for transfer in transfers:
+            if not transfer.variable.type.is_float:
+                raise ConnectionFault(f"{self}: {'.'.join(transfer.end)} is {transfer.variable.type.value}; "
+                                      "only floating-point numbers can be solved for")  # fmt: skip
+
+    def __str__(self) -> str:
+        return "algebraic loop " + ", ".join(str(p.connection) for t in self.transfers for p in t.parts)
+
+    def _inputs(self) -> Array:
+        return np.concatenate([np.ravel(t.buffer) for t in self.transfers]).astype(np.float64)
+
+    def _apply(self, unknowns: Array) -> None:
+        begin = 0
+        for transfer in self.transfers:
+            end = begin + transfer.variable.size
+            transfer.buffer[...] = unknowns[begin:end].reshape(transfer.variable.shape)
+            transfer.write()
+            begin = end
+        for unit in self.units:
+            unit.refresh()
+
+    def _follow(self, unknowns: Array) -> Array:
+        """g(u): the inputs that follow from the outputs that follow from the inputs u."""
+        self._apply(unknowns)
+        for transfer in self.transfers:
+            for part in transfer.parts:
+                part.copy()
+        return self._inputs()
+
+    def solve(self) -> None:
+        """Find inputs that agree with the outputs they cause.
+
+        Raises:
+            UnitError: There are none, or they were not found.
+        """
+        for transfer in self.transfers:
+            for part in transfer.parts:
+                part.copy()
+        unknowns = self._inputs()
+        for _ in range(REPETITIONS):
+            following = self._follow(unknowns)
+            if _agree(following, unknowns):
+                return
+            unknowns = following
+        unknowns = self._root(unknowns)
+        following = self._follow(unknowns)
+        if not _agree(following, unknowns):
+            worst = float(np.max(np.abs(following - unknowns)))
+            raise self._unsolved(f"inputs and outputs differ by {worst:g}")
+
+    def _root(self, unknowns: Array) -> Array:
+        def residual(u: Array) -> Array:
+            return self._follow(np.asarray(u, dtype=np.float64)) - u
+
+        if self.size <= MOST_UNKNOWNS_WITH_JACOBIAN:
+            return np.asarray(root(residual, unknowns, method="hybr", options={"xtol": 1e-14}).x, dtype=np.float64)
+        try:
+            return np.asarray(anderson(residual, unknowns, f_tol=1e-12), dtype=np.float64)  # type: ignore[arg-type]
+        except Exception as error:  # scipy raises NoConvergence, and others for overflow
+            raise self._unsolved(str(error)) from error
+
+    def _unsolved(self, why: str) -> UnitError:
+        what = f"{self}: no solution was found ({why})"
+        return UnitError(self.units[0].name, what, remedy="give start values near a solution, or break the loop")
+
+
+def _agree(one: Array, other: Array) -> bool:
+    return bool(np.all(np.abs(one - other) <= TOLERANCE * (1.0 + np.abs(other))))
+
+
+class Propagation:
+    """Sets inputs and lets outputs follow, in an order in which every output is right when it is read.
+
+    Args:
+        units: Name to unit.
+        transfers: Name of a unit to the transfers into it.
+        feedthrough: Which dependences count: `Unit.feedthrough` or `Unit.initial_feedthrough`.
+        is_complete: Carry out every transfer, not only those into inputs with direct feedthrough.
+
+    Raises:
+        ConnectionFault: An algebraic loop of values that are no floating-point numbers.
+    """
+
+    def __init__(
+        self, units: Mapping[str, Unit], transfers: Mapping[str, Sequence[Transfer]], feedthrough: Feedthrough,
+        is_complete: bool,
+    ) -> None:  # fmt: skip
+        through = {n: feedthrough(u) for n, u in units.items()}
+        direct = {(n, i) for n, depends in through.items() for inputs in depends.values() for i in inputs}
+        self._nodes = [t for into in transfers.values() for t in into if is_complete or t.end in direct]
+        self._direct = direct
+        self.loops: list[AlgebraicLoop] = []
+        self._actions: list[Action] = list(self._plan(units, self._edges(through)))
+
+    def carry_out(self) -> None:
+        """Set the inputs and let the outputs follow; raises UnitError where a loop has no solution."""
+        for action in self._actions:
+            action()
+
+    def _edges(self, through: Mapping[str, Mapping[str, frozenset[str]]]) -> list[tuple[int, int]]:
+        """(before, after): input `after` is fed by an output that depends directly on input `before`."""
+        index = {t.end: i for i, t in enumerate(self._nodes)}
+        edges = []
+        for after, transfer in enumerate(self._nodes):
+            for unit, output in {p.connection.source for p in transfer.parts}:
+                for name in through[unit].get(output, ()):
+                    if (unit, name) in index:
+                        edges.append((index[unit, name], after))
+        return edges
+
+    def _plan(self, units: Mapping[str, Unit], edges: Sequence[tuple[int, int]]) -> Iterator[Action]:
+        stale: dict[str, Unit] = {}
+        for group in in_order(len(self._nodes), edges):
+            members = [self._nodes[i] for i in group]
+            for name in dict.fromkeys(p.connection.source[0] for t in members for p in t.parts):
+                if name in stale and not _is_inside(name, members):
+                    yield stale.pop(name).refresh
+            if len(group) > 1 or (group[0], group[0]) in edges:
+                loop = AlgebraicLoop(members, list({t.target.name: t.target for t in members}.values()))
+                self.loops.append(loop)
+                yield loop.solve
+                continue
+            yield members[0].carry_out
+            if members[0].end in self._direct:
+                stale[members[0].target.name] = members[0].target
+        for unit in stale.values():
+            yield unit.refresh
+
+
+def _is_inside(unit: str, members: Sequence[Transfer]) -> bool:
+    return len(members) > 1 and any(t.target.name == unit for t in members)
