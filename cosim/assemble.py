@@ -14,9 +14,11 @@ import numpy as np
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
+from cosim.actuator.resolve import resolve_actuators
 from cosim.algorithms.choose import Step, choose
 from cosim.algorithms.restoring import CannotRestore
 from cosim.components import (
+    ActuatorComponent,
     CircuitComponent,
     Component,
     FabricComponent,
@@ -67,6 +69,7 @@ class Assembly:
     """A system ready to be initialised.
 
     Args:
+        scenario: The scenario with every actuator written out as an FMU with its connections.
         system: Units and connections.
         step: The algorithm, which makes one macro-step.
         start: First values of feedback inputs, SI.
@@ -74,6 +77,7 @@ class Assembly:
         versions: What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
     """
 
+    scenario: Scenario
     system: System
     step: Step
     start: Mapping[str, Mapping[str, float]]
@@ -91,10 +95,7 @@ def assemble(scenario: Scenario) -> Assembly:
     units: dict[str, Unit] = {}
     parameters: dict[str, Resolved] = {}
     try:
-        for name in scenario.names():
-            component = scenario.components[name]
-            parameters[name] = _parameters(name, component, source)
-            units[name] = _build(name, component, parameters[name], scenario, source)
+        scenario = _build_all(scenario, source, units, parameters)
         connections = [
             _connection(text if isinstance(text, str) else text.connect, i, units, source)
             for i, text in enumerate(scenario.connections)
@@ -113,7 +114,24 @@ def assemble(scenario: Scenario) -> Assembly:
         for unit in units.values():
             unit.terminate()
         raise
-    return Assembly(system, step, start, parameters, _versions(units))
+    return Assembly(scenario, system, step, start, parameters, _versions(units))
+
+
+def _build_all(scenario: Scenario, source: Path, units: dict[str, Unit], parameters: dict[str, Resolved]) -> Scenario:
+    """Fill `units` and `parameters`, in stepping order; actuators, which take their size from neighbours, come last."""
+    names = scenario.names()
+    actuators = [n for n in names if isinstance(scenario.components[n], ActuatorComponent)]
+    for name in [*(n for n in names if n not in actuators), *actuators]:
+        if actuators and name == actuators[0]:
+            scenario = resolve_actuators(scenario, units, source)
+        component = scenario.components[name]
+        parameters[name] = _parameters(name, component, source)
+        units[name] = _build(name, component, parameters[name], scenario, source)
+    for built in (units, parameters):
+        ordered = {name: built[name] for name in names}
+        built.clear()
+        built.update(ordered)  # type: ignore[arg-type]
+    return scenario
 
 
 def _versions(units: Mapping[str, Unit]) -> dict[str, str]:

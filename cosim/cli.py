@@ -48,7 +48,7 @@ def validate(scenario: ScenarioArgument) -> None:
     counts = {n: len(u.variables) for n, u in assembly.system.units.items()}
     assembly.system.terminate()
     parts = ", ".join(f"{name} ({count} variables)" for name, count in counts.items())
-    print(f"{loaded.path}: valid; {parts}; {len(loaded.connections)} connections")
+    print(f"{loaded.path}: valid; {parts}; {len(assembly.scenario.connections)} connections")
 
 
 @app.command()

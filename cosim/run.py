@@ -120,11 +120,11 @@ def run(
     assembly = assemble(scenario)
     try:
         if folder is not None and resume:
-            folder.refuse_other(scenario, assembly.parameters)
+            folder.refuse_other(assembly.scenario, assembly.parameters)
         state = _begin(scenario, assembly, folder if resume else None)
         # The folder is made once all units are initialised: a run that cannot begin leaves none behind.
         if folder is not None and not resume:
-            folder.create(scenario, assembly.parameters, assembly.versions)
+            folder.create(assembly.scenario, assembly.parameters, assembly.versions)
         return _run_to_end(state, folder, on_progress)
     finally:
         assembly.system.terminate()

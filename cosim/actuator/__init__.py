@@ -1,0 +1,1 @@
+"""Actuators: the interface that makes them interchangeable, and how they connect themselves."""
