@@ -17,6 +17,17 @@ static bool holds(const char *names, const char *name)
     return false;
 }
 
+/* Whether unknown i depends directly on variable j. In Initialization Mode the states themselves are computed from the
+ * parameters, which are listed all. */
+static bool depends_on(size_t i, size_t j, bool is_initial)
+{
+    const Role role = model_variables[j].role;
+    if (is_initial && (role == ROLE_PARAMETER || role == ROLE_FLAG)) {
+        return true;
+    }
+    return holds(model_variables[i].depends, model_variables[j].name) && !(is_initial && role == ROLE_STATE);
+}
+
 static void write_causality(Role role)
 {
     switch (role) {
@@ -89,19 +100,15 @@ static void write_structure(void)
             if (!(pass == 0 ? is_output : pass == 1 ? is_derivative : is_output || is_derivative)) {
                 continue;
             }
-            printf("    <%s valueReference=\"%zu\"", elements[pass], i);
-            if (pass < 2) {
-                printf(" dependencies=\"");
-                const char *separator = "";
-                for (size_t j = 0; j < VARIABLE_COUNT; j++) {
-                    if (holds(model_variables[i].depends, model_variables[j].name)) {
-                        printf("%s%zu", separator, j);
-                        separator = " ";
-                    }
+            printf("    <%s valueReference=\"%zu\" dependencies=\"", elements[pass], i);
+            const char *separator = "";
+            for (size_t j = 0; j < VARIABLE_COUNT; j++) {
+                if (depends_on(i, j, pass == 2)) {
+                    printf("%s%zu", separator, j);
+                    separator = " ";
                 }
-                printf("\"");
             }
-            printf("/>\n");
+            printf("\"/>\n");
         }
     }
 }
@@ -171,8 +178,8 @@ static void write_scalar(size_t i, size_t element, size_t rank)
     printf("/></ScalarVariable>\n");
 }
 
-/* One section of ModelStructure; `with_dependencies` where FMI 2.0 asks what an unknown depends on directly. */
-static void write_unknowns(const char *section, bool outputs, bool derivatives, bool with_dependencies)
+/* One section of ModelStructure. An element depends on the same element of other arrays, and on scalars. */
+static void write_unknowns(const char *section, bool outputs, bool derivatives, bool is_initial)
 {
     printf("    <%s>\n", section);
     for (size_t i = 0; i < VARIABLE_COUNT; i++) {
@@ -182,20 +189,15 @@ static void write_unknowns(const char *section, bool outputs, bool derivatives, 
             continue;
         }
         for (size_t element = 0; element < variable_size(v, COILS); element++) {
-            printf("      <Unknown index=\"%zu\"", first_index(i) + element);
-            if (with_dependencies) {
-                printf(" dependencies=\"");
-                const char *separator = "";
-                for (size_t j = 0; j < VARIABLE_COUNT; j++) {
-                    if (holds(v->depends, model_variables[j].name)) {
-                        const size_t same = model_variables[j].extent == PER_COIL ? element : 0;
-                        printf("%s%zu", separator, first_index(j) + same);
-                        separator = " ";
-                    }
+            printf("      <Unknown index=\"%zu\" dependencies=\"", first_index(i) + element);
+            const char *separator = "";
+            for (size_t j = 0; j < VARIABLE_COUNT; j++) {
+                if (depends_on(i, j, is_initial)) {
+                    printf("%s%zu", separator, first_index(j) + (model_variables[j].extent == PER_COIL ? element : 0));
+                    separator = " ";
                 }
-                printf("\"");
             }
-            printf("/>\n");
+            printf("\"/>\n");
         }
     }
     printf("    </%s>\n", section);
@@ -216,8 +218,8 @@ void write_variables_fmi2(void)
         rank += role == ROLE_DERIVATIVE;
     }
     printf("  </ModelVariables>\n  <ModelStructure>\n");
-    write_unknowns("Outputs", true, false, true);
-    write_unknowns("Derivatives", false, true, true);
-    write_unknowns("InitialUnknowns", true, true, false);
+    write_unknowns("Outputs", true, false, false);
+    write_unknowns("Derivatives", false, true, false);
+    write_unknowns("InitialUnknowns", true, true, true);
     printf("  </ModelStructure>\n");
 }
