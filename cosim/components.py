@@ -19,6 +19,8 @@ Scalar = Annotated[StrictBool | AnyQuantity | StrictStr, Field(union_mode="left_
 ParameterValue = Annotated[
     Scalar | list[Scalar] | list[list[Scalar]] | list[list[list[Scalar]]], Field(union_mode="left_to_right")
 ]
+#: A parameter of our own units.
+NumberValue = StrictBool | AnyQuantity | list[AnyQuantity]
 
 
 class Strict(BaseModel):
@@ -164,7 +166,7 @@ class FabricComponent(Strict):
     tether: Tether
     solver: Solver = Solver()
     parameter_set: str | None = None
-    parameters: dict[str, ParameterValue] = {}
+    parameters: dict[str, NumberValue] = {}
     start: dict[str, AnyQuantity] = {}
 
 

@@ -63,7 +63,7 @@ _Tolerance = Annotated[PhysicalValue, In("1", minimum=0.0, is_exclusive=True)]
 class GaussSeidel(Strict):
     """Units step one after the other, each with the newest outputs."""
 
-    kind: Literal["gauss_seidel"] = "gauss_seidel"
+    kind: Literal["gauss_seidel"]
     order: _Order = None
     on_event: _OnEvent = "continue"
 
@@ -118,7 +118,7 @@ class Scenario(Strict):
     title: str
     description: str = ""
     time: TimeSettings
-    algorithm: Algorithm = GaussSeidel()
+    algorithm: Algorithm = GaussSeidel(kind="gauss_seidel")
     components: dict[Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")], Component] = Field(min_length=1)
     connections: list[Annotated[str, Field(pattern=CONNECTION)] | ScaledConnection] = []
     path: Path | None = Field(default=None, exclude=True, description="File that it was read from.")

@@ -14,7 +14,8 @@ from cosim.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
 _MEMBER = re.compile(r"^(bool|function-plain\[.*|list\[.*|float|int|str)$")
-_KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass")
+_KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass",
+          "gauss_seidel", "jacobi", "iterated", "step_doubling")  # fmt: skip
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):
@@ -78,8 +79,10 @@ def input_error(source: Path, error: pydantic.ValidationError, remedy: str) -> I
 
 def _key(place: Sequence[int | str]) -> str:
     """Keys of the file that lead to a fault, for example `components.fabric.rows`."""
-    # The third part below a component is its kind, which pydantic inserts; no key of the file stands there.
-    parts = [p for i, p in enumerate(place) if not (i == 2 and place[0] == "components" and p in _KINDS)]
+    # The third part below a component, and the second below the algorithm, is its kind, which pydantic inserts; no key
+    # of the file stands there.
+    inserted = {"components": 2, "algorithm": 1}.get(str(place[0])) if place else None
+    parts = [p for i, p in enumerate(place) if not (i == inserted and p in _KINDS)]
     return ".".join(str(p) for p in parts if not (isinstance(p, str) and _MEMBER.match(p)))
 
 
@@ -88,8 +91,10 @@ def _message(fault: Any) -> str:
         return "there is no such key here"
     if fault["type"] == "string_pattern_mismatch" and fault["loc"][0] == "connections":
         return f"`{fault['input']}` is no connection; write `component.output -> component.input`"
-    if fault["type"] in ("union_tag_invalid", "union_tag_not_found"):
-        return f"`kind` must be one of: {', '.join(_KINDS)}"
+    if fault["type"] == "union_tag_invalid":
+        return f"`kind` must be one of: {fault['ctx']['expected_tags'].replace(chr(39), '')}"
+    if fault["type"] == "union_tag_not_found":
+        return "the key `kind` is missing"
     if fault["type"] == "missing":
         return "this key is missing"
     return str(fault["msg"]).removeprefix("Value error, ")

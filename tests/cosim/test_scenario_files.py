@@ -70,7 +70,12 @@ WRONG = [
     (("time", "stop"), None, "time.stop", "this key is missing"),
     ((*FABRIC, "rows"), 1, "components.fabric", "greater than or equal to"),
     ((*FABRIC, "tether", "kind"), "nailed", "components.fabric", "'cantilever' or 'hanging'"),
-    ((*FABRIC, "kind"), "cloth", "components.fabric", "`kind` must be one of: programme, ngspice, fmu, bullet_fabric"),
+    (
+        (*FABRIC, "kind"),
+        "cloth",
+        "components.fabric",
+        "`kind` must be one of: programme, ngspice, fmu, actuator, bullet_fabric",
+    ),
     ((*FABRIC, "solver"), {"micro_step": "0.3 ms"}, "components.fabric.solver.micro_step", "whole number of steps"),
     ((*FABRIC, "solver"), {"iterations": 0}, "iterations", "greater than or equal to 1"),
     (
