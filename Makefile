@@ -56,7 +56,8 @@ $(VENV)/bin/python:
 	@command -v gcc >/dev/null || { echo "gcc is needed to build the FMUs: install gcc (Debian, Ubuntu: build-essential)"; exit 1; }
 	"$(PYTHON311)" -m venv $(VENV)
 
-$(VENV)/.installed: requirements.lock pyproject.toml tools/install_ngspice.sh | $(VENV)/bin/python
+$(VENV)/.installed: requirements.lock pyproject.toml tools/install_ngspice.sh $(wildcard cosim/native/*.[ch]) \
+  | $(VENV)/bin/python
 	tools/install_ngspice.sh $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
@@ -75,4 +76,4 @@ clean:  ## remove what is built; runs and the virtual environment stay
 	find . -name __pycache__ -not -path "./$(VENV)/*" -prune -exec rm -rf {} +
 
 distclean: clean  ## remove the virtual environment too
-	rm -rf $(VENV) *.egg-info
+	rm -rf $(VENV) *.egg-info cosim/native/_stepper*.so
