@@ -10,17 +10,12 @@ import pint
 import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
-from fmu_runs import STEP, advance
+from fmu_runs import STEP, advance, every_fmu
 
 from cosim.paper.laws import Coil
 
 REFERENCE = Path(__file__).resolve().parents[2] / "fmus" / "thermal_stiffness" / "reference.csv"
 POWER = 1.0 / 2.2
-
-every_fmu = pytest.mark.parametrize(
-    ("model", "version"),
-    [(model, version) for model in ("thermal_stiffness", "instant_stiffness") for version in (3, 2)],
-)
 
 
 @every_fmu

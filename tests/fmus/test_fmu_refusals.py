@@ -4,30 +4,32 @@ import ctypes
 
 import numpy as np
 import pytest
+from fmu_runs import drive_of, every_model
 
 from cosim.errors import InputError
 from cosim.unit import UnitError
 
 both_versions = pytest.mark.parametrize("version", [3, 2])
-both_models = pytest.mark.parametrize("model", ["thermal_stiffness", "instant_stiffness"])
 
 
-@both_models
+@every_model
 @both_versions
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_an_input_that_is_no_number_is_refused_by_name_and_index(make_unit, model, version, bad):
     unit = make_unit(model, version)
     unit.initialise(0)
-    unit.set("power", np.full(36, 0.4))
-    unit._buffers["power"][4] = bad  # past the check of the unit itself
-    with pytest.raises(UnitError, match=r"power\[5\] = -?(nan|inf) W: it must be a finite number"):
-        unit._writers["power"]()
-    unit._buffers["power"][4] = 0.4
+    drive = drive_of(unit)
+    unit.set(drive, np.full(36, 0.4))
+    unit._buffers[drive][4] = bad  # past the check of the unit itself
+    with pytest.raises(UnitError, match=rf"{drive}\[5\] = -?(nan|inf) [WV]: it must be a finite number"):
+        unit._writers[drive]()
+    unit._buffers[drive][4] = 0.4
     unit.do_step(0, 10**9)
-    assert np.ptp(unit.get("stiffness")) == 0.0  # the refused values were not taken
+    for name in ("stiffness", "rest_length", "stored_energy", "convected_energy"):
+        assert np.ptp(unit.get(name)) == 0.0, name  # the refused values were not taken
 
 
-@both_models
+@every_model
 @both_versions
 def test_an_ambient_temperature_below_absolute_zero_is_refused(make_unit, model, version):
     unit = make_unit(model, version)
@@ -97,7 +99,7 @@ def test_the_size_of_an_fmi_2_fmu_is_compared_with_the_scenario(fmu_file):
     archive.remove()
 
 
-@both_models
+@every_model
 @both_versions
 def test_calls_out_of_order_are_refused(make_unit, model, version):
     unit = make_unit(model, version)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fmu_runs import STEP, advance
+from fmu_runs import MODELS, STEP, advance
 
 from cosim.unit import UnitError
 
@@ -13,7 +13,7 @@ kinds = pytest.mark.parametrize(
     ("model", "version", "interface"),
     [
         (model, version, interface)
-        for model in ("thermal_stiffness", "instant_stiffness")
+        for model in MODELS
         for version in (3, 2)
         for interface in ("co_simulation", "model_exchange")
     ],
@@ -26,7 +26,8 @@ def programme(seed):
 
 
 def run(unit, seed, begin=0):
-    return advance(unit, programme(seed), OUTPUTS, size=10 * STEP, begin=begin * 10 * STEP)
+    tensions = np.full((COUNT, 36), 3.0 + seed)
+    return advance(unit, programme(seed), OUTPUTS, size=10 * STEP, begin=begin * 10 * STEP, tensions=tensions)
 
 
 def started(make_unit, *kind, **given):
@@ -71,10 +72,17 @@ def test_saving_a_state_does_not_change_the_run(make_unit, model, version, inter
     quiet, watched = (started(make_unit, model, version, interface) for _ in range(2))
     expected = run(quiet, 3)
     record = []
-    for index, power in enumerate(programme(3)):
+    for index, value in enumerate(programme(3)):
         watched.binding.serialise()
-        record.append(advance(watched, power[None], OUTPUTS, size=10 * STEP, begin=index * 10 * STEP)[0])
+        tension = np.full((1, 36), 6.0)
+        record.append(
+            advance(watched, value[None], OUTPUTS, size=10 * STEP, begin=index * 10 * STEP, tensions=tension)[0]
+        )
     np.testing.assert_array_equal(np.array(record), expected)
+
+
+def _parameter(unit, name):
+    return next(v.start for v in unit.archive.description.modelVariables if v.name == name)
 
 
 @kinds
@@ -84,7 +92,11 @@ def test_a_state_includes_the_parameters(make_unit, model, version, interface):
     other = make_unit(model, version, interface)
     other.resume(unit.checkpoint(), 0)
     np.testing.assert_array_equal(other.get("resistance"), given["reference_resistance"])
-    np.testing.assert_array_equal(other.get("rest_length"), 0.012)
+    np.testing.assert_array_equal(other.get("rest_length"), unit.get("rest_length"))
+    default = started(make_unit, model, version, interface)
+    # Lengths add up in every model; the sum is right to rounding.
+    change = 0.012 - float(_parameter(default, "coil_rest_length"))
+    np.testing.assert_allclose(unit.get("rest_length") - default.get("rest_length"), change, rtol=1e-12)
 
 
 @pytest.mark.parametrize("version", [3, 2])
