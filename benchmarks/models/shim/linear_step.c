@@ -1,3 +1,4 @@
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +27,7 @@ void linear_step(int n, const double A[], double size, double x[])
         double term[LARGEST], next[LARGEST];
         memcpy(term, x, (size_t)n * sizeof *x);
         for (int k = 1; k <= 20; k++) {
-            double change = 0.0;
+            double change = 0.0, whole = 0.0;
             for (int i = 0; i < n; i++) {
                 next[i] = 0.0;
                 for (int j = 0; j < n; j++)
@@ -34,9 +35,10 @@ void linear_step(int n, const double A[], double size, double x[])
                 next[i] *= h / k;
                 x[i] += next[i];
                 change += fabs(next[i]);
+                whole += fabs(x[i]);
             }
             memcpy(term, next, (size_t)n * sizeof *term);
-            if (change == 0.0)
+            if (change <= 1e-2 * DBL_EPSILON * whole)
                 break;
         }
     }
