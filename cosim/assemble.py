@@ -151,17 +151,7 @@ def _parameters(name: str, component: Component, source: Path) -> Resolved:
     try:
         return resolve(component.parameter_set, component.parameters, source)
     except InputError as error:
-        raise _within(name, source, error) from error
-
-
-def _within(name: str, source: Path, error: InputError) -> InputError:
-    """The error with the scenario as its file and the key inside it; one in another file keeps that file's name."""
-    key = error.key.removeprefix(f"{name}.")
-    if error.source == str(source) or key != error.key:
-        key = f"components.{name}.{key}" if key else f"components.{name}"
-        return InputError(source, key, error.problem, error.remedy or "correct this component")
-    problem = f"{error.problem} (needed by components.{name} of {source})"
-    return InputError(error.source, error.key, problem, error.remedy)
+        raise error.within(name, source) from error
 
 
 def _build(name: str, component: Component, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
@@ -176,7 +166,7 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
             return _fabric(name, component, parameters)
         return build_fmu(name, component, parameters, source)
     except InputError as error:
-        raise _within(name, source, error) from error
+        raise error.within(name, source) from error
     except UnitError as error:  # libngspice is missing
         raise InputError(source, f"components.{name}", error.what, error.remedy or "correct this component") from error
     except ValueError as error:

@@ -12,7 +12,7 @@ from cosim.quantity import conversion
 from cosim.unit import Causality, Variable
 
 #: Where a user reads on.
-PAGE = "docs/write-your-own-actuator.md"
+PAGE = "docs/actuators/interface.md"
 
 
 @dataclass(frozen=True)

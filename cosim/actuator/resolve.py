@@ -19,16 +19,16 @@ from cosim.unit import Causality, Unit, Variable
 PARAMETER_SETS = {"thermal_stiffness": "niti_paper", "instant_stiffness": "niti_instant"}
 
 #: For each neighbour: (its output, the actuator's input) and (the actuator's output, its input).
-_FROM = {
+_FROM: Mapping[str, tuple[tuple[str, str], ...]] = {
     "electrical": (("power", "power"), ("voltage", "voltage")),
     "ambient": (("temperature", "ambient_temperature"),),
     "mechanical": (("extension", "extension"), ("tension", "tension")),
 }
-_TO = {
+_TO: Mapping[str, tuple[tuple[str, str], ...]] = {
     "electrical": (("resistance", "resistance"),),
     "ambient": (),
     "mechanical": (("stiffness", "stiffness"), ("rest_length", "rest_length")),
-}  # type: Mapping[str, tuple[tuple[str, str], ...]]
+}
 _CONNECTION = re.compile(CONNECTION)
 
 
@@ -48,12 +48,14 @@ def resolve_actuators(scenario: Scenario, units: Mapping[str, Unit], source: Pat
     for name, component in scenario.components.items():
         if not isinstance(component, ActuatorComponent):
             continue
-        neighbours = _neighbours(name, component, units, source)
-        components[name], variables = _plain(name, component, neighbours, source)
         taken = _targets([c if isinstance(c, str) else c.connect for c in connections])
-        connections += [
-            text for target, text in _connections(name, variables, neighbours, source) if target not in taken
-        ]
+        try:
+            neighbours = _neighbours(component, units, source)
+            components[name], variables = _plain(name, component, neighbours, source)
+            made = _connections(name, variables, neighbours, source)
+        except InputError as error:
+            raise error.within(name, source) from error
+        connections += [text for target, text in made if target not in taken]
     return scenario.model_copy(update={"components": components, "connections": connections})
 
 
@@ -65,16 +67,14 @@ def default_parameter_set(component: FmuComponent) -> str | None:
     return name if (scenario_folder() / "parameter_sets" / f"{name}.yaml").is_file() else None
 
 
-def _neighbours(
-    name: str, component: ActuatorComponent, units: Mapping[str, Unit], source: Path
-) -> dict[str, tuple[str, Unit]]:
+def _neighbours(component: ActuatorComponent, units: Mapping[str, Unit], source: Path) -> dict[str, tuple[str, Unit]]:
     found = {}
     for role in _FROM:
         neighbour = getattr(component, role)
         if neighbour is None:
             continue
         if neighbour not in units:
-            raise InputError(source, f"components.{name}.{role}", f"there is no component `{neighbour}` to connect to",
+            raise InputError(source, role, f"there is no component `{neighbour}` to connect to",
                              f"name one of: {', '.join(units)}")  # fmt: skip
         found[role] = neighbour, units[neighbour]
     return found
@@ -84,53 +84,50 @@ def _plain(
     name: str, component: ActuatorComponent, neighbours: Mapping[str, tuple[str, Unit]], source: Path
 ) -> tuple[FmuComponent, Mapping[str, Variable]]:
     """The component as one of kind `fmu`, and its checked variables."""
-    coils = _size(name, component, neighbours, source)
-    wanted = component.structure if coils is None else {**component.structure, "coils": coils}
-    where = f"components.{name}.fmu"
+    coils = _size(component, neighbours, source)
+    sized = component if coils is None else component.model_copy(
+        update={"structure": {**component.structure, "coils": coils}}
+    )  # fmt: skip
+    archive = open_fmu(find_fmu(sized, source))
     try:
-        archive = open_fmu(find_fmu(component.model_copy(update={"structure": wanted}), source))
-    except InputError as error:
-        if error.source != str(source):
-            raise
-        raise InputError(source, f"components.{name}.{error.key}", error.problem, error.remedy) from error
-    try:
-        structure = wanted if _has_size(archive) else component.structure
-        variables = {n: v.variable for n, v in fmu_variables(archive.description, structure).items()}
-    except ValueError as error:
-        raise InputError(source, where, f"{archive.path.name}: {error}", "correct `structure`") from error
+        structure, variables = _variables(archive, sized, source)
     finally:
         archive.remove()
-    check_actuator(archive.path.name, variables, source, where)
+    check_actuator(archive.path.name, variables, source)
     own = coils_of(variables)
     if coils not in (None, own):
-        raise InputError(source, where, f"{archive.path.name} is built for {own} coils, its neighbours have {coils}",
+        raise InputError(source, "fmu", f"{archive.path.name} is built for {own} coils, its neighbours have {coils}",
                          f"build it for them: `cosim fmu build ... --coils {coils}`")  # fmt: skip
     fields = {key: getattr(component, key) for key in FmuComponent.model_fields if key in component.model_fields_set}
     fields |= {"kind": "fmu", "structure": structure, "parameter_set": default_parameter_set(component)}
     return FmuComponent(**fields), variables
 
 
-def check_actuator(what: str, variables: Mapping[str, Variable], source: object, key: str) -> None:
+def _variables(
+    archive: FmuArchive, component: FmuComponent, source: Path
+) -> tuple[dict[str, int], dict[str, Variable]]:
+    """Structure of the component, and the FMU's variables; an FMU without the parameter `coils` has its own size."""
+    structural = {v.name for v in archive.description.modelVariables if v.causality == "structuralParameter"}
+    structure = {k: v for k, v in component.structure.items() if k != "coils" or k in structural}
+    try:
+        found = fmu_variables(archive.description, structure)
+    except ValueError as error:
+        raise InputError(source, "structure", str(error), "correct `structure`") from error
+    is_fmi2 = archive.description.fmiVersion.startswith("2")  # there `coils` chooses the file
+    return dict(component.structure) if is_fmi2 else structure, {n: v.variable for n, v in found.items()}
+
+
+def check_actuator(what: str, variables: Mapping[str, Variable], source: object) -> None:
     """Raise InputError with every fault where an FMU does not have the interface of an actuator."""
     found = faults(variables)
     if found:
         raise InputError(
-            source, key, f"{what} is no actuator: " + "; ".join(found),
+            source, "fmu", f"{what} is no actuator: " + "; ".join(found),
             f"see {PAGE}, or use `kind: fmu` and connect its variables yourself",
         )  # fmt: skip
 
 
-def _has_size(archive: FmuArchive) -> bool:
-    """Whether the number of coils can be given (FMI 3.0) or is compared with that of the FMU (FMI 2.0)."""
-    description = archive.description
-    return description.fmiVersion.startswith("2") or any(
-        v.name == "coils" and v.causality == "structuralParameter" for v in description.modelVariables
-    )
-
-
-def _size(
-    name: str, component: ActuatorComponent, neighbours: Mapping[str, tuple[str, Unit]], source: Path
-) -> int | None:
+def _size(component: ActuatorComponent, neighbours: Mapping[str, tuple[str, Unit]], source: Path) -> int | None:
     """Number of coils that the scenario or the neighbours give; None where they leave it open."""
     given = {}
     if "coils" in component.structure:
@@ -142,7 +139,7 @@ def _size(
             given[f"{role} ({neighbour})"] = sizes[0]
     if len(set(given.values())) > 1:
         said = ", ".join(f"{who}: {coils}" for who, coils in given.items())
-        raise InputError(source, f"components.{name}", f"its neighbours have different numbers of coils: {said}",
+        raise InputError(source, "", f"its neighbours have different numbers of coils: {said}",
                          "make them equal, for example `strings` of the circuit")  # fmt: skip
     return next(iter(given.values()), None)
 
@@ -168,11 +165,11 @@ def _connections(
         if not into and role != "mechanical":
             takes = " or ".join(f"`{own}`" for _, own in _FROM[role] if own in variables)
             gives = ", ".join(sorted(outputs)) or "nothing"
-            raise InputError(source, f"components.{name}.{role}",
+            raise InputError(source, role,
                              f"`{neighbour}` gives no {takes} to this actuator; it gives: {gives}",
                              "name another component, or connect them under `connections`")  # fmt: skip
         if not out and role == "mechanical":
-            raise InputError(source, f"components.{name}.{role}",
+            raise InputError(source, role,
                              f"`{neighbour}` takes no stiffness; its inputs: {', '.join(sorted(inputs)) or 'none'}",
                              "name the fabric or the load")  # fmt: skip
         made += into + out

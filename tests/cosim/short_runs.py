@@ -51,6 +51,7 @@ def without_fabric(name: str) -> Scenario:
     """Circuit and actuator alone, over the whole time of the scenario: nothing feeds back from the fabric."""
     scenario = load_scenario(name)
     components = {n: c for n, c in scenario.components.items() if n != "fabric"}
+    components["actuator"] = components["actuator"].model_copy(update={"mechanical": None})
     algorithm = scenario.algorithm.model_copy(update={"order": list(components)})
     connections = [c for c in scenario.connections if "fabric." not in c]
     return scenario.model_copy(update={"components": components, "algorithm": algorithm, "connections": connections})
