@@ -1,0 +1,1 @@
+"""A unit in a process of its own: its crash, endless step or leak becomes an error of this unit alone."""
