@@ -253,6 +253,7 @@ static double integrate_heat(const Model *model, size_t i, double step)
 /* What came in and was not stored has left: the balance of energy holds to rounding, whatever the error of H is. */
 void model_step(Model *model, double step)
 {
+    model_accept(model); /* a new tension has moved the coil already; from there on it goes one way */
     for (size_t i = 0; i < model->coils; i++) {
         const double heat = integrate_heat(model, i, step);
         ARRAY(convected_energy)[i] += ARRAY(power)[i] * step - (heat - ARRAY(stored_energy)[i]);
