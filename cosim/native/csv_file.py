@@ -7,7 +7,7 @@ does that about ten times faster; without it the same bytes are written in Pytho
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -122,7 +122,7 @@ class _ColumnLayout(ctypes.Structure):
 class _NativeColumns:
     """The columns as the library sees them."""
 
-    def __init__(self, format_rows: ctypes._CFuncPtr, columns: Sequence[CsvColumn]) -> None:
+    def __init__(self, format_rows: Callable[..., int], columns: Sequence[CsvColumn]) -> None:
         self._format = format_rows
         self._columns = columns  # kept: their addresses are used
         sizes = [int(np.prod(c.values.shape[1:])) for c in columns]

@@ -25,7 +25,7 @@ def powers_of_ten() -> npt.NDArray[np.uint64]:
 
 
 def _leading_bits(exponent: int) -> int:
-    power = 10 ** abs(exponent)
+    power: int = 10 ** abs(exponent)
     if exponent >= 0:
         excess = power.bit_length() - 128
         return power << -excess if excess <= 0 else -(-power >> excess)

@@ -1,0 +1,136 @@
+"""From a system and its algorithm to the actions of one macro-step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, TypeGuard
+
+from cosim.connection import Transfer
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.fmu.unit import FmuUnit
+from cosim.native.action import Action, Call
+from cosim.native.copies import copy_operation
+from cosim.native.courses import course_call
+from cosim.native.fmu_calls import is_carried, read_calls, step_call, write_calls
+from cosim.programme import ProgrammeUnit
+from cosim.system import System
+from cosim.unit import AnyArray, StepOutcome, Unit
+
+Kind = Literal["jacobi", "gauss_seidel"]
+
+
+class Composer:
+    """Translates what an algorithm does in one macro-step; what has no translation stays with Python.
+
+    Args:
+        system: Initialised units and their connections.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._index: Mapping[str, int] = {name: i for i, name in enumerate(system.units)}
+        #: Number of the wall time that belongs to no unit.
+        self.own = len(system.units)
+        #: Arrays whose addresses the operations hold.
+        self.kept: list[AnyArray] = []
+
+    def macro_step(self, kind: Kind) -> list[Action]:
+        """What `cosim.algorithms.jacobi` and `cosim.algorithms.gauss_seidel` do, in their order."""
+        system = self._system
+        actions = [self._step(name) for name in system.sources]
+        actions += self.propagation()
+        movers = [name for name in system.units if name not in system.sources]
+        if kind == "jacobi":
+            actions += [self._transfer(t) for name in movers for t in system.transfers[name]]
+            return actions + [self._step(name) for name in movers]
+        for name in movers:
+            actions += [self._transfer(t) for t in system.transfers[name]]
+            actions.append(self._step(name))
+        return actions
+
+    def propagation(self) -> list[Action]:
+        """What `System.propagate` does."""
+        return list(self._propagation())
+
+    def live(self, unit: Unit, variable: str) -> AnyArray | None:
+        """The array that always holds a variable's present value; None where there is none to be read by address."""
+        if not isinstance(unit, CoSimulationUnit | ProgrammeUnit):
+            return None
+        array = unit.get(variable)
+        return array if is_carried(array) else None
+
+    def _propagation(self) -> Iterator[Action]:
+        for action in self._system._propagation._actions:
+            owner: Any = getattr(action, "__self__", None)
+            if isinstance(owner, Transfer):
+                yield self._transfer(owner)
+            elif isinstance(owner, CoSimulationUnit):
+                yield self._refresh(owner)
+            else:
+                yield Action(lambda _time, _size, action=action: action())  # type: ignore[misc]
+
+    def _transfer(self, transfer: Transfer) -> Action:
+        def perform(_time: int, _size: int) -> None:
+            transfer.carry_out()
+
+        return Action(perform, self._transfer_calls(transfer) or ())
+
+    def _transfer_calls(self, transfer: Transfer) -> list[Call] | None:
+        name = transfer.variable.name
+        if not _is_plain(transfer.target) or name not in transfer.target.writers:
+            return None
+        access = transfer.target.writers[name]
+        calls = write_calls(access, self.own)
+        if calls is None:
+            return None
+        copies = []
+        for part in transfer.parts:
+            source = self.live(part.source, part.connection.source[1])
+            copy = None if source is None else copy_operation(part.connection, source, access.values, self.own)
+            if copy is None:
+                return None
+            copies.append(Call(copy))
+        return copies + calls
+
+    def _step(self, name: str) -> Action:
+        unit, system = self._system.units[name], self._system
+
+        def perform(time: int, size: int) -> StepOutcome:
+            return system.step(name, time, size)
+
+        if isinstance(unit, ProgrammeUnit):
+            return Action(perform, self._courses(unit), can_be_empty=True)
+        if not _is_plain(unit):
+            return Action(perform)
+        read = self._read(unit, self._index[name])
+        return Action(perform, () if read is None else [step_call(unit, self._index[name]), *read])
+
+    def _courses(self, unit: ProgrammeUnit) -> list[Call]:
+        calls = []
+        for name, course in unit.courses.items():
+            if len(course.times) > 1:
+                call, *arrays = course_call(course, unit.get(name), self._index[unit.name])
+                self.kept += arrays
+                calls.append(call)
+        return calls
+
+    def _refresh(self, unit: CoSimulationUnit) -> Action:
+        def perform(_time: int, _size: int) -> None:
+            unit.refresh()
+
+        return Action(perform, (self._read(unit, self.own) if _is_plain(unit) else None) or ())
+
+    def _read(self, unit: CoSimulationUnit, index: int) -> list[Call] | None:
+        """Get all outputs; None where one needs Python."""
+        calls: list[Call] = []
+        for access in unit.buffers._groups:
+            found = read_calls(access, index)
+            if found is None:
+                return None
+            calls += found
+        return calls
+
+
+def _is_plain(unit: Unit) -> TypeGuard[CoSimulationUnit]:
+    """Whether setting, stepping and reading a unit is no more than its FMU's calls."""
+    return isinstance(unit, CoSimulationUnit) and type(unit)._pass_on is FmuUnit._pass_on

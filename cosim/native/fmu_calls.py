@@ -1,0 +1,95 @@
+"""Calls of a Co-Simulation FMU as operations."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+from cosim.fmu.access import Access
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.native.action import Call
+from cosim.native.layout import ELEMENT_TYPES, Code, Operation
+from cosim.unit import AnyArray
+
+
+def write_calls(access: Access, unit: int) -> list[Call] | None:
+    """Set one input; None where Python has to translate its values (text, binary data)."""
+    if not _is_carried(access):
+        return None
+    call = _access_call(access, Code.WRITE_FMI3 if _is_fmi3(access) else Code.WRITE_FMI2, unit)
+    return [call] if access.is_direct else [_conversion(access.values, access.buffer, unit), call]
+
+
+def read_calls(access: Access, unit: int) -> list[Call] | None:
+    """Get one or more outputs; None where Python has to translate their values."""
+    if not _is_carried(access):
+        return None
+    call = _access_call(access, Code.READ_FMI3 if _is_fmi3(access) else Code.READ_FMI2, unit)
+    return [call] if access.is_direct else [call, _conversion(access.buffer, access.values, unit)]
+
+
+def step_call(unit: CoSimulationUnit, index: int) -> Call:
+    """fmi2DoStep or fmi3DoStep."""
+    binding: Any = unit.binding
+    is_fmi3 = binding.prefix == "fmi3"
+    operation = Operation(
+        code=Code.STEP_FMI3 if is_fmi3 else Code.STEP_FMI2,
+        unit=index,
+        function=_address(binding._do_step),
+        component=binding.fmu.component,
+    )
+    if is_fmi3:
+        *flags, reached = binding._results
+        operation.flags[:] = flags
+        operation.reached = reached
+    return Call(operation, binding, "_do_step")
+
+
+def is_carried(array: AnyArray) -> bool:
+    """Whether the library can read and write an array by its address."""
+    return array.dtype.name in ELEMENT_TYPES and bool(array.flags["C_CONTIGUOUS"])
+
+
+def _is_carried(access: Access) -> bool:
+    return is_carried(access.values) and is_carried(access.buffer)
+
+
+def _is_fmi3(access: Access) -> bool:
+    return access.function.startswith("fmi3")
+
+
+def _address(function: Any) -> int:
+    value = ctypes.cast(function, ctypes.c_void_p).value
+    assert value is not None
+    return value
+
+
+def _access_call(access: Access, code: Code, unit: int) -> Call:
+    operation = Operation(
+        code=code,
+        unit=unit,
+        target_type=ELEMENT_TYPES[access.buffer.dtype.name],
+        function=_address(access._call),
+        component=access._arguments[0],
+        references=ctypes.addressof(access.references),
+        reference_count=len(access.references),
+        target=access.buffer.ctypes.data,
+        count=access.buffer.size,
+    )
+    return Call(operation, access, "_call")
+
+
+def _conversion(source: AnyArray, target: AnyArray, unit: int) -> Call:
+    """FMI 2.0's Booleans and enumerations are C integers."""
+    operation = Operation(
+        code=Code.CONVERT,
+        unit=unit,
+        source_type=ELEMENT_TYPES[source.dtype.name],
+        target_type=ELEMENT_TYPES[target.dtype.name],
+        source=source.ctypes.data,
+        target=target.ctypes.data,
+        count=target.size,
+        source_step=1,
+        factor=1.0,
+    )
+    return Call(operation)
