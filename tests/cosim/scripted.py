@@ -63,3 +63,75 @@ class Failing(Relaxation):
 def fail(time: int, size: int) -> StepOutcome:
     """A unit that cannot go on."""
     raise UnitError("scripted", "it cannot go on", time, "script it otherwise")
+
+
+class Map(Unit):
+    """output = function(input) at the same instant: nothing but direct feedthrough."""
+
+    can_restore = True
+
+    def __init__(self, name: str, function: Callable, start=0.0, shape=()) -> None:
+        self.name, self.function = name, function
+        dims = ("cell",) if shape else ()
+        self.variables = {
+            "input": Variable("input", Causality.INPUT, shape, "1", dims, start=start),
+            "output": Variable("output", Causality.OUTPUT, shape, "1", dims),
+        }
+        self.coordinates: Mapping = {}
+        self.feedthrough = self.initial_feedthrough = {"output": frozenset({"input"})}
+        self._store = ArrayStore(name, self.variables)
+        self.set, self.get = self._store.set, self._store.get
+        self.refreshed = 0
+
+    def initialise(self, time: int) -> None:
+        self.refresh()
+
+    def refresh(self) -> None:
+        self.refreshed += 1
+        self._store.arrays["output"][...] = self.function(self.get("input"))
+
+    def do_step(self, time: int, size: int) -> StepOutcome:
+        self.refresh()
+        return StepOutcome(StepStatus.OK, time + size)
+
+    def checkpoint(self) -> dict:
+        return {n: self.get(n).copy() for n in self.variables}
+
+    def resume(self, state: Mapping, time: int) -> None:
+        for n in self.variables:
+            self._store.arrays[n][...] = state[n]
+
+    def terminate(self) -> None:
+        pass
+
+
+class Ramp(Unit):
+    """state' = slope, which becomes `after` at the instant `event` [ns]: a step that crosses it returns early there."""
+
+    can_restore = True
+
+    def __init__(self, name: str, slope: float, after: float, event: int) -> None:
+        self.name, self.slope, self.after, self.event = name, slope, after, event
+        self.variables = {"state": Variable("state", Causality.OUTPUT, (), "K")}
+        self.coordinates: Mapping = {}
+        self._store = ArrayStore(name, self.variables)
+        self.set, self.get = self._store.set, self._store.get
+
+    def initialise(self, time: int) -> None:
+        self._store.arrays["state"][...] = 0.0
+
+    def do_step(self, time: int, size: int) -> StepOutcome:
+        end = min(time + size, self.event) if time < self.event else time + size
+        self._store.arrays["state"][...] += (self.slope if time < self.event else self.after) * (end - time) * 1e-9
+        if end < time + size:
+            return StepOutcome(StepStatus.EARLY_RETURN, end, f"{self.name} returned early")
+        return StepOutcome(StepStatus.OK, end)
+
+    def checkpoint(self) -> dict:
+        return {"state": self.get("state").copy()}
+
+    def resume(self, state: Mapping, time: int) -> None:
+        self._store.arrays["state"][...] = state["state"]
+
+    def terminate(self) -> None:
+        pass
