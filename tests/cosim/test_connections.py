@@ -12,7 +12,7 @@ from .scripted import Map, Relaxation
 
 def fed(*connections, start=None, shape=(3,)):
     units = {
-        "a": Map("a", lambda u: [*u, 10.0, 20.0, 30.0], shape=(3,)),
+        "a": Map("a", lambda u: u + np.array([10.0, 20.0, 30.0]), shape=(3,)),
         "x": Relaxation("x", 1.0, 7.0, 0.0),
         "b": Relaxation("b", 1.0, 0.0, start, shape=shape),
     }
