@@ -5,19 +5,18 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
-from fmpy.model_description import ModelDescription
-
-from cosim.components import FmuComponent, ParameterValue
+from cosim.components import FmuComponent, Isolation
 from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings
+from cosim.isolation.limits import Limits
+from cosim.isolation.unit import IsolatedUnit
 from cosim.parameters import Resolved
-from cosim.quantity import PhysicalValue
 from cosim.unit import Unit
 
 
@@ -35,12 +34,19 @@ def build_fmu(name: str, component: FmuComponent, parameters: Resolved, source: 
     """
     archive = open_fmu(find_fmu(component, source))
     try:
-        values = {k: _in_fmu_unit(k, v, archive.description, source) for k, v in parameters.values.items()}
-        settings = FmuSettings(component.structure, values)
+        tolerance = component.tolerance.to("1") if component.tolerance is not None else None
+        settings = FmuSettings(
+            component.structure, parameters.values, component.start, tuple(component.record), tolerance
+        )
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
+        build = partial(kind, name, archive, settings)
+        isolation = Isolation() if component.isolation == "process" else component.isolation
+        if not isinstance(isolation, str):
+            limits = Limits(isolation.step_limit.to("s"), round(isolation.memory_limit.to("byte")))
+            return IsolatedUnit(name, build, limits, archive)
         # fmpy changes the working folder while it loads a library, and stays there if that fails.
         with contextlib.chdir(Path.cwd()):
-            return kind(name, archive, settings)
+            return build()
     except BaseException:
         archive.remove()
         raise
@@ -60,21 +66,3 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
         raise InputError(source, "fmu", f"there is no FMU `{path.stem}` (there: {there})",
                          f"build it with `{how}`, or give the path of a .fmu file")  # fmt: skip
     return path
-
-
-def _in_fmu_unit(key: str, value: ParameterValue, description: ModelDescription, source: Path) -> Any:
-    found = next((v for v in description.modelVariables if v.name in (key, f"{key}[1]")), None)
-    declared = found.declaredType.unit if found is not None and found.declaredType is not None else None
-    unit = (found.unit or declared or "1") if found is not None else None
-    try:
-        return _converted(value, unit)
-    except ValueError as error:
-        raise InputError(source, f"parameters.{key}", str(error), f"give it in {unit}") from error
-
-
-def _converted(value: ParameterValue, unit: str | None) -> Any:
-    if isinstance(value, list):
-        return [_converted(element, unit) for element in value]
-    if isinstance(value, PhysicalValue):
-        return value.number if unit is None else value.to(unit)
-    return value

@@ -1,6 +1,6 @@
 """Calls into a loaded FMU, with one interface for FMI 2.0 and 3.0 and every status checked.
 
-Arrays pass through preallocated buffers and the functions of the shared library itself, because fmpy's list calls
+Values pass through preallocated buffers and the functions of the shared library itself, because fmpy's list calls
 cost several times as much (see docs/decisions/0006-fmu-calls.md); loading and rare calls go through fmpy.
 """
 
@@ -8,26 +8,70 @@ from __future__ import annotations
 
 import ctypes
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from fmpy import fmi2, fmi3
 from fmpy.fmi1 import FMICallException
 
 from cosim.errors import InputError
+from cosim.fmu.access import (
+    Access,
+    BinaryReader,
+    BinaryWriter,
+    ConvertingReader,
+    ConvertingWriter,
+    TextReader,
+    TextWriter,
+)
 from cosim.fmu.archive import FmuArchive
+from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import Array, UnitError
+from cosim.unit import AnyArray, UnitError, VariableType
 
 Interface = Literal["co_simulation", "model_exchange"]
 
 _STATUS = {1: "warning", 2: "discard", 3: "error", 4: "fatal", 5: "pending"}
-_OK, _WARNING, _DISCARD = 0, 1, 2
+WARNING, DISCARD, FATAL = 1, 2, 4
 
 
-class DoStepDiscarded(Exception):
-    """The FMU discarded the step (fmi2Discard, fmi3Discard)."""
+@dataclass(frozen=True)
+class StepResult:
+    """What a Co-Simulation step ended with.
+
+    Args:
+        reached: Time reached [s].
+        event: Whether the FMU asks for Event Mode.
+        early: Whether it returned before the end of the step.
+        discarded: Whether it refused the step (fmi2Discard, fmi3Discard).
+        terminate: Whether it asks to end the simulation.
+    """
+
+    reached: float
+    event: bool = False
+    early: bool = False
+    discarded: bool = False
+    terminate: bool = False
+
+
+@dataclass(frozen=True)
+class DiscreteStates:
+    """Result of fmi3UpdateDiscreteStates or fmi2NewDiscreteStates.
+
+    Args:
+        again: Whether the FMU wants another iteration.
+        terminate: Whether it asks to end the simulation.
+        nominals_changed: Whether nominal values of the continuous states are new.
+        states_changed: Whether values of the continuous states are new.
+        next_event: Time of the next time event [s]; None: there is none.
+    """
+
+    again: bool
+    terminate: bool
+    nominals_changed: bool
+    states_changed: bool
+    next_event: float | None
 
 
 class Binding(ABC):
@@ -37,11 +81,14 @@ class Binding(ABC):
         archive: The opened FMU.
         interface: Co-Simulation or Model Exchange.
         name: Instance name, used in messages.
+
+    Raises:
+        InputError: The FMU does not offer the interface, or its binary cannot be loaded.
     """
 
-    #: Functions of the shared library that set and get doubles.
-    setter: str
-    getter: str
+    #: Begin of the names of all functions, `fmi2` or `fmi3`.
+    prefix: str
+    c_types: dict[VariableType, CType]
 
     def __init__(self, archive: FmuArchive, interface: Interface, name: str) -> None:
         self.archive, self.interface, self.name = archive, interface, name
@@ -59,21 +106,24 @@ class Binding(ABC):
         except InputError:
             raise
         except Exception as error:  # fmpy raises bare Exception
+            said = "".join(f"; it says: {m}" for m in self.messages[-3:])
             raise InputError(
                 archive.path,
                 f"binaries/.../{kind.modelIdentifier}",
-                f"its binary cannot be loaded: {error}",
+                f"its binary cannot be loaded: {error}{said}",
                 "the binary may need libraries that are not installed here (see `ldd`)",
             ) from error
         self.is_alive = True
+        self.is_fatal = False
 
     @abstractmethod
     def _load(self, identifier: str) -> Any: ...
 
     def check(self, function: str, status: int) -> None:
         """Raise UnitError with the FMU's own message if a status is not OK or Warning."""
-        if status in (_OK, _WARNING):
+        if status <= WARNING:
             return
+        self.is_fatal = self.is_fatal or status == FATAL
         said = "; ".join(self.messages[-3:])
         self.messages.clear()
         raise UnitError(self.name, f"{function} returned {_STATUS.get(status, status)}" + (f": {said}" if said else ""))
@@ -86,55 +136,87 @@ class Binding(ABC):
             self.check(error.function, int(error.status))
             raise UnitError(self.name, str(error)) from error
 
+    def function(self, name: str, *argtypes: Any) -> Callable[..., int]:
+        """The library's function `fmi2<name>` or `fmi3<name>`, unchecked; addresses are passed as integers."""
+        found = self.fmu.dll[self.prefix + name]  # an object of its own: fmpy's argument types stay as they are
+        found.argtypes, found.restype = [ctypes.c_void_p, *argtypes], ctypes.c_int
+        return found  # type: ignore[no-any-return]
+
+    def checked(self, name: str, *argtypes: Any) -> Callable[..., None]:
+        """The library's function with the component bound and its status checked."""
+        call, component, label = self.function(name, *argtypes), self.fmu.component, self.prefix + name
+
+        def checked_call(*arguments: Any) -> None:
+            status = call(component, *arguments)
+            if status > WARNING:
+                self.check(label, status)
+
+        return checked_call
+
     def _log(self, message: bytes | None) -> None:
         if message:
             self.messages.append(message.decode("utf-8", "replace").strip())
             del self.messages[:-20]
 
     @abstractmethod
-    def configure(self, variable: FmuVariable, value: int) -> None:
-        """Set a structural parameter before initialisation."""
+    def configure(self, values: Sequence[tuple[FmuVariable, int]]) -> None:
+        """Set structural parameters before initialisation."""
 
-    def set_parameter(self, variable: FmuVariable, value: Any) -> None:
-        """Set a parameter of any FMI type; arrays as numpy arrays."""
-        setter = getattr(self.fmu, f"set{variable.kind}")
-        values = [value] if variable.kind == "String" else np.ravel(value).tolist()
-        self.call(setter, list(variable.value_references), values)
+    def _access(
+        self, verb: str, kinds: tuple[type[Access], ...], variables: Sequence[FmuVariable], values: AnyArray
+    ) -> Access:
+        plain, converting, text, binary = kinds
+        vtype = variables[0].variable.type
+        c_type = self.c_types[vtype]
+        name = f"{verb}{c_type.suffix}"
+        argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
+        if vtype is VariableType.BINARY:
+            argtypes.append(ctypes.c_void_p)
+        if self.prefix == "fmi3" and vtype is not VariableType.CLOCK:
+            argtypes.append(ctypes.c_size_t)
+        kind = plain if c_type.dtype == values.dtype else converting
+        kind = {VariableType.STRING: text, VariableType.BINARY: binary}.get(vtype, kind)
+        numbers = [r for v in variables for r in v.value_references]
+        references = (ctypes.c_uint32 * len(numbers))(*numbers)
+        buffer = values if kind is plain else np.zeros(values.shape, dtype=c_type.dtype)
+        call = self.function(name, *argtypes)
+        return kind(
+            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check
+        )  # fmt: skip
+
+    def writer(self, variable: FmuVariable, values: AnyArray) -> Access:
+        """A call that copies `values` (its address is kept) to the FMU."""
+        return self._access("Set", (Access, ConvertingWriter, TextWriter, BinaryWriter), (variable,), values)
+
+    def reader(self, variable: FmuVariable, values: AnyArray) -> Access:
+        """A call that fills `values` (its address is kept) from the FMU."""
+        return self.group_reader((variable,), values)
+
+    def group_reader(self, variables: Sequence[FmuVariable], values: AnyArray) -> Access:
+        """One call that reads several variables of one type, one after the other, into `values`."""
+        return self._access("Get", (Access, ConvertingReader, TextReader, BinaryReader), variables, values)
 
     @abstractmethod
-    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
-        """Arguments after the component of the functions that set and get doubles."""
-
-    def _access(self, function: str, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        call, component = getattr(self.fmu.dll, function), self.fmu.component
-        arguments = self._arguments(variable, buffer)
-
-        def access() -> None:
-            status = call(component, *arguments)
-            if status > _WARNING:
-                self.check(f"{function}({variable.variable.name})", status)
-
-        return access
-
-    def writer(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        """A function that copies `buffer` (its address is kept) to the FMU."""
-        return self._access(self.setter, variable, buffer)
-
-    def reader(self, variable: FmuVariable, buffer: Array) -> Callable[[], None]:
-        """A function that fills `buffer` (its address is kept) from the FMU."""
-        return self._access(self.getter, variable, buffer)
-
-    @abstractmethod
-    def enter_initialisation(self, time: float) -> None:
+    def enter_initialisation(self, time: float, tolerance: float | None, stop: float | None) -> None:
         """Enter Initialization Mode at `time` [s]."""
 
-    @abstractmethod
     def exit_initialisation(self) -> None:
         """Leave Initialization Mode."""
+        self.call(self.fmu.exitInitializationMode)
 
     @abstractmethod
-    def do_step(self, time: float, size: float) -> float:
-        """Advance from `time` by `size` [s]; returns the time reached."""
+    def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:
+        """Advance from `time` by `size` [s].
+
+        Args:
+            time: Current communication point [s].
+            size: Communication step size [s].
+            is_final: Whether no earlier state will be restored (noSetFMUStatePriorToCurrentPoint).
+        """
+
+    @abstractmethod
+    def update_discrete_states(self) -> DiscreteStates:
+        """One iteration in Event Mode."""
 
     def save(self) -> Any:
         """Handle of the FMU's state; free it with `free_state`."""
@@ -151,130 +233,29 @@ class Binding(ABC):
     def serialise(self) -> np.ndarray[Any, np.dtype[np.uint8]]:
         """State as bytes, shape (size,)."""
         state = self.save()
-        data = self.call(self.fmu.serializeFMUState, state)
-        self.free_state(state)
+        try:
+            data = self.call(self.fmu.serializeFMUState, state)
+        finally:
+            self.free_state(state)
         return np.frombuffer(data, dtype=np.uint8).copy()
 
     def deserialise(self, data: np.ndarray[Any, Any]) -> None:
         """Restore a serialised state."""
         state = self.call(self.fmu.deserializeFMUState, data.astype(np.uint8).tobytes())
-        self.restore(state)
-        self.free_state(state)
+        try:
+            self.restore(state)
+        finally:
+            self.free_state(state)
 
     def free(self) -> None:
-        """Terminate and unload; safe to call twice, and after an error."""
+        """Terminate and unload; safe to call twice, and after an error (after fatal nothing may be called)."""
         if not self.is_alive:
             return
         self.is_alive = False
+        if self.is_fatal:
+            return
         try:
             self.fmu.terminate()
         except Exception:  # after an error the FMU may refuse to terminate; it is freed all the same
             self.messages.clear()
         self.fmu.freeInstance()
-
-
-def _pointer(buffer: Array) -> Any:
-    if buffer.dtype != np.float64 or not buffer.flags["C_CONTIGUOUS"]:
-        raise ValueError("a buffer must be contiguous float64: its address is kept")
-    return buffer.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
-
-
-class Fmi3Binding(Binding):
-    """FMI 3.0."""
-
-    setter, getter = "fmi3SetFloat64", "fmi3GetFloat64"
-
-    def _load(self, identifier: str) -> Any:
-        kind = fmi3.FMU3Slave if self.interface == "co_simulation" else fmi3.FMU3Model
-        fmu = kind(
-            guid=self.archive.description.instantiationToken, modelIdentifier=identifier,
-            unzipDirectory=str(self.archive.directory), instanceName=self.name,
-        )  # fmt: skip
-        self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
-        self._reached = ctypes.c_double()
-        self._results = tuple(ctypes.byref(x) for x in (self._event, self._terminate, self._early, self._reached))
-        fmu.instantiate(loggingOn=True, logMessage=lambda _env, _status, _category, message: self._log(message))
-        return fmu
-
-    def configure(self, variable: FmuVariable, value: int) -> None:
-        self.call(self.fmu.enterConfigurationMode)
-        self.set_parameter(variable, value)
-        self.call(self.fmu.exitConfigurationMode)
-
-    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
-        references = (ctypes.c_uint32 * 1)(*variable.value_references)
-        return references, 1, _pointer(buffer), buffer.size
-
-    def enter_initialisation(self, time: float) -> None:
-        self.call(lambda: self.fmu.enterInitializationMode(startTime=time))
-
-    def exit_initialisation(self) -> None:
-        self.call(self.fmu.exitInitializationMode)
-
-    def do_step(self, time: float, size: float) -> float:
-        status = self.fmu.dll.fmi3DoStep(self.fmu.component, time, size, True, *self._results)
-        if status == _DISCARD:
-            raise DoStepDiscarded
-        if status > _WARNING:
-            self.check("fmi3DoStep", status)
-        if self._terminate.value:
-            raise UnitError(self.name, "the FMU asks to terminate the simulation")
-        return self._reached.value if self._early.value else time + size
-
-
-class Fmi2Binding(Binding):
-    """FMI 2.0."""
-
-    setter, getter = "fmi2SetReal", "fmi2GetReal"
-
-    def _load(self, identifier: str) -> Any:
-        kind = fmi2.FMU2Slave if self.interface == "co_simulation" else fmi2.FMU2Model
-        fmu = kind(
-            guid=self.archive.description.guid, modelIdentifier=identifier,
-            unzipDirectory=str(self.archive.directory), instanceName=self.name,
-        )  # fmt: skip
-        callbacks = fmi2.fmi2CallbackFunctions()
-        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda _env, _name, _status, _cat, message: self._log(message))
-        callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
-        callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
-        self._callbacks = callbacks  # kept: the FMU holds its address
-        fmu.instantiate(callbacks=callbacks, loggingOn=True)
-        return fmu
-
-    def configure(self, variable: FmuVariable, value: int) -> None:
-        raise InputError(self.archive.path, variable.variable.name, "FMI 2.0 has no structural parameters",
-                         "build the FMU for this size, or use FMI 3.0")  # fmt: skip
-
-    def _arguments(self, variable: FmuVariable, buffer: Array) -> tuple[Any, ...]:
-        count = len(variable.value_references)
-        references = (ctypes.c_uint * count)(*variable.value_references)
-        return references, count, _pointer(buffer)
-
-    def enter_initialisation(self, time: float) -> None:
-        self.call(lambda: self.fmu.setupExperiment(startTime=time))
-        self.call(self.fmu.enterInitializationMode)
-
-    def exit_initialisation(self) -> None:
-        self.call(self.fmu.exitInitializationMode)
-
-    def do_step(self, time: float, size: float) -> float:
-        status = self.fmu.dll.fmi2DoStep(self.fmu.component, time, size, 1)
-        if status == _DISCARD:
-            raise DoStepDiscarded
-        if status > _WARNING:
-            self.check("fmi2DoStep", status)
-        return time + size
-
-
-def bind(archive: FmuArchive, interface: Interface, name: str) -> Binding:
-    """Load an FMU with the binding of its FMI version.
-
-    Raises:
-        InputError: FMI 1.0, or the interface is not offered, or the binary cannot be loaded.
-    """
-    version = archive.description.fmiVersion
-    if version.startswith("3"):
-        return Fmi3Binding(archive, interface, name)
-    if version.startswith("2"):
-        return Fmi2Binding(archive, interface, name)
-    raise InputError(archive.path, "modelDescription.xml", f"FMI {version} is not supported", "export it as FMI 2 or 3")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.binding import DoStepDiscarded
 from cosim.fmu.unit import FmuSettings, FmuUnit
-from cosim.unit import StepOutcome, StepStatus, UnitError, seconds
+from cosim.unit import NANOSECONDS, StepOutcome, StepStatus, UnitError, seconds
 
 
 class CoSimulationUnit(FmuUnit):
@@ -26,14 +27,16 @@ class CoSimulationUnit(FmuUnit):
         Raises:
             UnitError: The FMU returned an error, asked to terminate, or an output is not finite.
         """
+        self.exit_initialisation()
         end = time + size
         try:
-            reached = self.binding.do_step(seconds(time), seconds(size))
-        except DoStepDiscarded:
-            return StepOutcome(StepStatus.DISCARDED, time, f"{self.name} discarded the step")
+            result = self.binding.do_step(seconds(time), seconds(size))
         except UnitError as error:
             raise UnitError(self.name, error.what, time, error.remedy) from error
-        self._read_outputs(end)
-        if abs(reached - seconds(end)) > 0.5e-9:
-            return StepOutcome(StepStatus.EARLY_RETURN, round(reached * 1e9), f"{self.name} returned early")
+        if result.discarded:
+            return StepOutcome(StepStatus.DISCARDED, time, f"{self.name} discarded the step")
+        self.buffers.read(end)
+        if abs(result.reached - seconds(end)) > 0.5e-9:
+            reached = math.ceil(result.reached * NANOSECONDS)
+            return StepOutcome(StepStatus.EARLY_RETURN, reached, f"{self.name} returned early")
         return StepOutcome(StepStatus.OK, end)

@@ -37,17 +37,17 @@ class ModelExchangeUnit(FmuUnit):
         relative_tolerance: float = 1e-8, absolute_tolerance: float = 1e-10,
     ) -> None:  # fmt: skip
         super().__init__(name, archive, settings, "model_exchange")
+        relative_tolerance = settings.tolerance or relative_tolerance
         self._is_fmi3 = archive.description.fmiVersion.startswith("3")
         self._tolerances = relative_tolerance, absolute_tolerance
         self._count = 0
         self._solver: Any = None
 
     def initialise(self, time: int) -> None:
-        """Initialise, leave Event Mode and read the continuous states."""
-        self.binding.enter_initialisation(seconds(time))
-        for write in self._writers.values():
-            write()
-        self.binding.exit_initialisation()
+        """Initialise."""
+        super().initialise(time)
+
+    def _begin(self, time: int) -> None:
         fmu, call = self.binding.fmu, self.binding.call
         if self._is_fmi3:
             self._count = int(call(fmu.getNumberOfContinuousStates))
@@ -70,13 +70,11 @@ class ModelExchangeUnit(FmuUnit):
         # GMRES needs no Jacobian, so nothing is assumed of how the states of an FMU depend on each other. (A band of
         # width zero perturbs all states at once: a state that depends on another one gets a wrong diagonal.)
         self._options = {"rtol": rtol, "atol": atol * np.abs(nominals), "linsolver": "gmres"}
-        self._read_outputs(time)
+        super()._begin(time)
 
     def _update_discrete_states(self) -> None:
-        fmu, call = self.binding.fmu, self.binding.call
         for _ in range(100):
-            again = call(fmu.updateDiscreteStates if self._is_fmi3 else fmu.newDiscreteStates)[0]
-            if not again:
+            if not self.binding.update_discrete_states().again:
                 return
         raise UnitError(self.name, "its discrete states do not settle in 100 iterations")
 
@@ -95,6 +93,7 @@ class ModelExchangeUnit(FmuUnit):
         Raises:
             UnitError: CVODE gave up, or the FMU returned an error.
         """
+        self.exit_initialisation()
         begin, end = seconds(time), seconds(time + size)
         fmu, call = self.binding.fmu, self.binding.call
         if self._count:
@@ -114,7 +113,7 @@ class ModelExchangeUnit(FmuUnit):
             self._update_discrete_states()
             call(fmu.enterContinuousTimeMode)
             call(fmu.getContinuousStates, _pointer(self._states), self._count)
-        self._read_outputs(time + size)
+        self.buffers.read(time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
     def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:

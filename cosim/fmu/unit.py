@@ -3,154 +3,231 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
+from cosim.fmu.access import Access
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.binding import Interface, bind
-from cosim.fmu.variables import FmuVariable, fmu_variables
-from cosim.unit import Array, Causality, Coordinate, StepOutcome, Unit, UnitError, Variable, seconds
+from cosim.fmu.binding import Binding, Interface
+from cosim.fmu.buffers import Buffers, Saved, element_text
+from cosim.fmu.dependencies import dependencies
+from cosim.fmu.settings import FmuSettings, Table
+from cosim.fmu.versions import bind
+from cosim.unit import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable, VariableType, seconds
+
+__all__ = ["FmuSettings", "FmuUnit", "Mode", "SavedState"]
+
+#: An FMU whose discrete states do not settle in so many iterations at one instant is given up.
+MOST_ITERATIONS = 100
+
+
+class Mode(Enum):
+    """Where an instance is in the state machine of FMI."""
+
+    INSTANTIATED = "instantiated"
+    INITIALISATION = "Initialization Mode"
+    #: Step Mode (Co-Simulation) or Continuous-Time Mode (Model Exchange).
+    RUNNING = "running"
+    EVENT = "Event Mode"
 
 
 @dataclass(frozen=True)
-class FmuSettings:
-    """How an FMU is set up before it is initialised.
+class SavedState:
+    """What `FmuUnit.save` gives.
 
     Args:
-        structure: Structural parameters (FMI 3.0), for example `{"coils": 36}`.
-        parameters: Values in the FMU's own units; scalars fill arrays.
+        handle: The FMU's own state.
+        values: Inputs and outputs.
+        extra: What the interface keeps beside it.
     """
 
-    structure: Mapping[str, int] = field(default_factory=dict)
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+    handle: Any
+    values: Saved
+    extra: Any
 
 
 class FmuUnit(Unit):
-    """Base of both interfaces: variables as numpy buffers that the FMU reads and writes in place.
+    """Base of both interfaces.
 
     Args:
         name: Name of the component in the scenario.
         archive: The opened FMU; removed from disk by `terminate`.
-        settings: Structure and parameters.
+        settings: Structure, parameters, start values.
         interface: Which of the FMU's interfaces is used.
 
     Raises:
-        InputError: A structural or other parameter does not exist or does not fit.
+        InputError: Something in `settings` does not exist or does not fit, or the FMU cannot be loaded.
     """
 
     def __init__(self, name: str, archive: FmuArchive, settings: FmuSettings, interface: Interface) -> None:
-        self.name = name
-        self.archive = archive
+        self.name, self.archive, self.settings = name, archive, settings
         self.coordinates: Mapping[str, Coordinate] = {}
+        self.table = Table(name, archive, settings)
+        self.variables: Mapping[str, Variable] = {n: v.variable for n, v in self.table.exposed.items()}
+        found = dependencies(archive.description, self.table.exposed)
+        self.feedthrough, self.initial_feedthrough = found.feedthrough, found.initial
+        self.binding: Binding = bind(archive, interface, name)
         try:
-            self._fmu = fmu_variables(archive.description, settings.structure)
-        except ValueError as error:
-            raise InputError(archive.path, f"{name}.structure", str(error)) from error
-        self.variables: Mapping[str, Variable] = {
-            n: v.variable for n, v in self._fmu.items() if v.is_real and v.variable.causality is not Causality.PARAMETER
-        }
-        self.binding = bind(archive, interface, name)
-        self._configure(settings.structure)
-        self.set_parameters(settings.parameters)
-        self._buffers = {n: np.full(v.shape, 0.0 if v.start is None else v.start) for n, v in self.variables.items()}
-        self._writers = {
-            n: self.binding.writer(self._fmu[n], b)
-            for n, b in self._buffers.items()
-            if self.variables[n].causality is Causality.INPUT
-        }
-        readers = {n: b for n, b in self._buffers.items() if self.variables[n].causality is Causality.OUTPUT}
-        self._readers = [self.binding.reader(self._fmu[n], b) for n, b in readers.items()]
-        self._outputs = list(readers.items())
-
-    def _configure(self, structure: Mapping[str, int]) -> None:
-        for key, value in structure.items():
-            if key not in self._fmu:  # FMI 2.0: the size was compared with the FMU's own when its variables were read
-                continue
-            start = int(self._structural_start(key))
-            if value != start:
-                self.binding.configure(self._fmu[key], value)
-
-    def _structural_start(self, key: str) -> str:
-        return next(v.start or "0" for v in self.archive.description.modelVariables if v.name == key)
+            self.can_restore = bool(self.binding.capabilities.canGetAndSetFMUstate)
+            self.table.configure(self.binding)
+            self.table.set_parameters(self.binding, settings.parameters)
+            self.buffers = Buffers(self.binding, self.table.exposed)
+            #: Input to the call that sets it.
+            self.writers: Mapping[str, Access] = self.buffers.writers
+            #: One call for each variable that is read after a step.
+            self.readers: list[Access] = self.buffers.readers
+            self._mode = Mode.INSTANTIATED
+            self._is_stale = False
+            self._given: set[str] = set()
+            for key, value in self.table.start_values(self.binding).items():
+                self.buffers.values[key][...] = value
+                self._given.add(key)
+        except BaseException:
+            self.binding.free()
+            raise
 
     def set_parameters(self, parameters: Mapping[str, Any]) -> None:
         """Set parameters before initialisation; a scalar fills an array.
 
         Raises:
-            InputError: No such parameter, or its shape differs.
+            InputError: No such parameter, or a value that does not fit.
         """
-        for key, value in parameters.items():
-            variable = self._fmu.get(key)
-            if variable is None or variable.variable.causality is not Causality.PARAMETER or variable.is_structural:
-                known = [n for n, v in self._fmu.items() if v.variable.causality is Causality.PARAMETER]
-                raise InputError(
-                    self.archive.path, f"{self.name}.parameters.{key}", "the FMU has no such parameter",
-                    f"it has: {', '.join(known)}",
-                )  # fmt: skip
-            self.binding.set_parameter(variable, self._fill(variable, key, value))
+        self.table.set_parameters(self.binding, parameters)
 
-    def _fill(self, variable: FmuVariable, key: str, value: Any) -> Any:
-        if variable.kind == "String":
-            return value
-        try:
-            return np.broadcast_to(np.asarray(value), variable.variable.shape).copy()
-        except ValueError as error:
-            raise InputError(
-                self.archive.path, f"{self.name}.parameters.{key}", f"{np.shape(value)} values do not fit", str(error)
-            ) from error
-
-    def set(self, name: str, value: Array) -> None:
-        """Copy a finite value to an input of the FMU."""
-        buffer = self._buffers[name]
+    def set(self, name: str, value: AnyArray) -> None:
+        """Copy a value to an input of the FMU; it reaches the FMU at once, before initialisation at its begin."""
+        buffer = self.buffers.values[name]
         buffer[...] = value
-        if not np.isfinite(buffer).all():
-            where = [int(i) for i in np.argwhere(~np.isfinite(buffer))[0]] if buffer.ndim else ""
-            raise UnitError(self.name, f"input {name}{where} is not a finite number")
-        self._writers[name]()
+        if buffer.dtype.kind == "f" and not np.isfinite(buffer).all():
+            raise UnitError(self.name, f"input {name}{element_text(buffer)} is not a finite number")
+        if self._mode is Mode.INSTANTIATED:
+            self._given.add(name)
+        else:
+            self._pass_on(name)
+            self._is_stale = True
 
-    def get(self, name: str) -> Array:
-        """Live buffer of an input or output."""
-        return self._buffers[name]
+    def _pass_on(self, name: str) -> None:
+        """Hand an input to the FMU, which is initialised or being initialised."""
+        if name in self.writers:
+            self.writers[name]()
 
-    def _read_outputs(self, time: int) -> None:
-        for read in self._readers:
-            read()
-        for name, buffer in self._outputs:
-            if not np.isfinite(buffer).all():
-                where = [int(i) for i in np.argwhere(~np.isfinite(buffer))[0]] if buffer.ndim else ""
-                raise UnitError(self.name, f"output {name}{where} is not a finite number", time)
+    def get(self, name: str) -> AnyArray:
+        """Live buffer of an input, output or recorded variable."""
+        return self.buffers.values[name]
 
     def initialise(self, time: int) -> None:
-        """Pass through Initialization Mode with the inputs set so far."""
-        self.binding.enter_initialisation(seconds(time))
-        for write in self._writers.values():
-            write()
-        self.binding.exit_initialisation()
-        self._read_outputs(time)
+        """Enter Initialization Mode with the inputs set so far; what was not set keeps the FMU's own start value."""
+        if self._mode is not Mode.INSTANTIATED:
+            raise UnitError(self.name, "it is initialised already", time)
+        self.binding.enter_initialisation(seconds(time), self.settings.tolerance, self.settings.stop_time)
+        self._mode = Mode.INITIALISATION
+        for name, write in self.writers.items():
+            if name in self._given:
+                write()
+            else:
+                self.buffers.input_readers[name]()
+        self.buffers.read(time)
+        self._start_time = time
+
+    def exit_initialisation(self) -> None:
+        """Leave Initialization Mode; a second call does nothing."""
+        if self._mode is Mode.INITIALISATION:
+            self.binding.exit_initialisation()
+            self._begin(self._start_time)
+            self.buffers.read(self._start_time)
+            self._is_stale = False
+
+    def _begin(self, time: int) -> None:
+        """From the end of Initialization Mode to the first step."""
+        self._mode = Mode.RUNNING
+
+    def refresh(self) -> None:
+        """Read the outputs again if an input was set since."""
+        if self._is_stale:
+            self.buffers.read()
+            self._is_stale = False
 
     def do_step(self, time: int, size: int) -> StepOutcome:
         """Advance; the interface's own way."""
         raise NotImplementedError
 
+    def _extra(self) -> Any:
+        """What the interface keeps beside the FMU's own state."""
+        return None
+
+    def _take_extra(self, extra: Any, time: int) -> None:
+        """Return to what `_extra` gave."""
+
+    def save(self) -> SavedState:
+        """The FMU's state, the values of inputs and outputs, and what the interface keeps."""
+        if not self.can_restore:
+            raise UnitError(self.name, "it cannot return to a saved state (canGetAndSetFMUstate is false)",
+                            remedy="choose an algorithm that repeats no step")  # fmt: skip
+        self.exit_initialisation()
+        return SavedState(self.binding.save(), self.buffers.save(), self._extra())
+
+    def restore(self, saved: SavedState, time: int) -> None:
+        """Return to a saved state, any number of times."""
+        self.binding.restore(saved.handle)
+        self.buffers.restore(saved.values)
+        self._is_stale = False
+        self._take_extra(saved.extra, time)
+
+    def release(self, saved: SavedState) -> None:
+        """Free a saved state."""
+        if self.binding.is_alive:
+            self.binding.free_state(saved.handle)
+
     def checkpoint(self) -> dict[str, np.ndarray[Any, Any]]:
-        """The FMU's serialised state and the inputs."""
+        """The FMU's serialised state, the inputs, and what the interface keeps."""
         if not self.binding.capabilities.canSerializeFMUstate:
-            raise UnitError(self.name, "the FMU cannot serialise its state, so the run cannot be resumed from here")
-        inputs = {f"input.{n}": self._buffers[n].copy() for n in self._writers}
-        return {"state": self.binding.serialise(), **inputs}
+            has = "can get and set its state but not serialise it" if self.can_restore else "cannot save its state"
+            raise UnitError(self.name, f"the FMU {has}, so the run cannot be resumed from here",
+                            remedy="leave out checkpoints, or export the FMU with canSerializeFMUState")  # fmt: skip
+        self.exit_initialisation()
+        inputs = {f"input.{n}": _plain(self.buffers.values[n]) for n in self.writers}
+        extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}
+        return {"state": self.binding.serialise(), **inputs, **extra}
+
+    def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
+        return {}
+
+    def _resume_extra(self, extra: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
+        """Return to what `_checkpoint_extra` gave."""
 
     def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
         """Initialise, then restore the serialised state."""
-        for name in self._writers:
-            self._buffers[name][...] = state[f"input.{name}"]
+        for name in self.writers:
+            self.buffers.values[name][...] = _unplain(state[f"input.{name}"], self.variables[name].type)
+            self._given.add(name)
         self.initialise(time)
+        self.exit_initialisation()
         self.binding.deserialise(state["state"])
-        self._read_outputs(time)
+        extra = {k.removeprefix("extra."): v for k, v in state.items() if k.startswith("extra.")}
+        self._resume_extra(extra, time)
+        self.buffers.read(time)
 
     def terminate(self) -> None:
         """Free the instance and the extracted files; safe to call twice."""
         self.binding.free()
         self.archive.remove()
+
+
+def _plain(values: AnyArray) -> AnyArray:
+    """A copy that a file of arrays can hold: text as fixed-width text, binary data as hexadecimal text."""
+    if values.dtype != object:
+        return values.copy()
+    texts = [v.hex() if isinstance(v, bytes) else v for v in values.flat]
+    return np.array(texts, dtype=np.str_).reshape(values.shape)
+
+
+def _unplain(values: AnyArray, vtype: VariableType) -> AnyArray:
+    if vtype is not VariableType.BINARY:
+        return values
+    result: AnyArray = np.empty(values.shape, dtype=object)
+    for i, text in enumerate(values.flat):
+        result.flat[i] = bytes.fromhex(str(text))
+    return result

@@ -1,22 +1,22 @@
 """The variables of an FMU as named arrays.
 
-FMI 3.0 has arrays; FMI 2.0 has scalars named `power[1]`, `power[2]`, ... which are gathered here into one array, so
-that an FMI 2.0 twin has the same variables as its FMI 3.0 original.
+FMI 3.0 has arrays. FMI 2.0 has scalars named `power[1]`, `power[2]`, ... or `a[1,2]`, which `cosim.fmu.gathering`
+puts into one array, so that an FMI 2.0 twin has the same variables as its FMI 3.0 original.
 """
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
 from fmpy.model_description import ModelDescription, ModelVariable
 
-from cosim.unit import Causality, Variable
+from cosim.fmu.types import TYPES
+from cosim.fmu.units import UnitNames
+from cosim.unit import AnyArray, Causality, Variable, VariableType
 
-_ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d+)\]$")
-_REAL_TYPES = {"Real", "Float64"}
 _CAUSALITIES = {
     "input": Causality.INPUT,
     "output": Causality.OUTPUT,
@@ -27,104 +27,161 @@ _CAUSALITIES = {
 
 @dataclass(frozen=True)
 class FmuVariable:
-    """One variable, or one array gathered from the scalars of FMI 2.0.
+    """One variable, or one array gathered from scalars.
 
     Args:
-        variable: Name, shape, unit and causality as every unit declares them.
+        variable: Name, type, shape, unit and causality as every unit declares them.
         value_references: One for an FMI 3.0 array; one per element, in order, for gathered scalars.
-        kind: FMI type name (`Float64`, `Real`, `Boolean`, ...).
-        is_structural: Whether it sets the size of others (FMI 3.0 structural parameter).
+        declared: Its entries in the model description, in the same order.
     """
 
     variable: Variable
     value_references: tuple[int, ...]
-    kind: str
-    is_structural: bool = False
+    declared: tuple[ModelVariable, ...]
 
     @property
-    def is_real(self) -> bool:
-        """Whether it is a double."""
-        return self.kind in _REAL_TYPES
+    def is_structural(self) -> bool:
+        """Whether it sets the size of others (FMI 3.0 structural parameter)."""
+        return bool(self.declared[0].causality == "structuralParameter")
+
+    @property
+    def is_discrete(self) -> bool:
+        """Whether it changes at events only."""
+        return bool(self.declared[0].variability == "discrete")
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether nothing may set it."""
+        return bool(self.declared[0].variability == "constant")
+
+    @property
+    def has_start(self) -> bool:
+        """Whether its start value may be set (initial exact or approx)."""
+        return not self.is_constant and self.declared[0].initial in ("exact", "approx")
+
+    @property
+    def items(self) -> Mapping[str, int]:
+        """Names of an enumeration's items."""
+        kind = self.declared[0].declaredType
+        return {} if kind is None else {i.name: int(i.value) for i in kind.items if i.value is not None}
 
 
-def fmu_variables(description: ModelDescription, structure: Mapping[str, int]) -> dict[str, FmuVariable]:
-    """Inputs, outputs and parameters of an FMU, by name.
+class StructureFault(ValueError):
+    """A structural parameter does not exist or does not fit; the text says what."""
 
-    Args:
-        description: The model description.
-        structure: Values of structural parameters that differ from their start value. FMI 2.0 has none: there its
-            value of `coils` is compared with the size that the FMU was built for.
 
-    Returns:
-        Name to variable, with the shapes that `structure` gives.
+@dataclass(frozen=True)
+class Sizes:
+    """Values and names of the structural parameters and constants that dimensions refer to, by value reference."""
+
+    values: Mapping[int, int]
+    names: Mapping[int, str]
+
+
+def sizes(description: ModelDescription, structure: Mapping[str, int]) -> Sizes:
+    """What the dimensions of arrays refer to.
 
     Raises:
-        ValueError: `structure` names no structural parameter or another size than an FMI 2.0 FMU has, or gathered
-            scalars leave a gap in their indices.
+        StructureFault: `structure` names no structural parameter, or a value outside its declared range.
     """
     structural = {v.name: v for v in description.modelVariables if v.causality == "structuralParameter"}
-    is_fmi2 = description.fmiVersion.startswith("2")
-    unknown = set(structure) - ({"coils"} if is_fmi2 else set(structural))
+    unknown = set(structure) - set(structural)
     if unknown:
-        raise ValueError(f"no structural parameter {', '.join(sorted(unknown))}; there are: {', '.join(structural)}")
-    sizes = {v.valueReference: int(structure.get(name, v.start or 0)) for name, v in structural.items()}
-    names = {v.valueReference: name for name, v in structural.items()}
-    result: dict[str, FmuVariable] = {}
-    elements: dict[str, dict[int, ModelVariable]] = {}
-    for model_variable in description.modelVariables:
-        if model_variable.causality not in _CAUSALITIES:
-            continue
-        match = _ELEMENT.match(model_variable.name)
-        if match and not model_variable.dimensions:
-            elements.setdefault(match["name"], {})[int(match["index"])] = model_variable
-            continue
-        result[model_variable.name] = _declared(model_variable, sizes, names)
-    for name, members in elements.items():
-        result[name] = _gathered(name, members)
-        wanted = structure.get("coils", len(members)) if is_fmi2 else len(members)
-        if wanted != len(members):
-            raise ValueError(f"this FMI 2.0 FMU is built for {len(members)} coils ({name}), not for {wanted}")
-    return result
+        there = ", ".join(structural) or "none"
+        raise StructureFault(f"no structural parameter {', '.join(sorted(unknown))}; there are: {there}")
+    for name, value in structure.items():
+        low, high = structural[name].min, structural[name].max
+        if (low is not None and value < int(low)) or (high is not None and value > int(high)):
+            raise StructureFault(f"{name} = {value} is outside {low or 0} to {high or 'any'}")
+    values = {
+        v.valueReference: int(structure.get(v.name, (v.start or "0").split()[0]))
+        for v in description.modelVariables
+        if v.name in structural or (v.variability == "constant" and v.type.startswith(("UInt", "Int")))
+    }
+    return Sizes(values, {v.valueReference: v.name for v in description.modelVariables if v.valueReference in values})
 
 
-def _declared(v: ModelVariable, sizes: Mapping[int, int], names: Mapping[int, str]) -> FmuVariable:
+def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVariable:
+    """A variable as it is declared, with the shape that the structural parameters give.
+
+    Raises:
+        StructureFault: A dimension refers to something that is neither a structural parameter nor a constant.
+    """
     shape: list[int] = []
     dims: list[str] = []
     for position, dimension in enumerate(v.dimensions):
+        reference = dimension.valueReference
         if dimension.start is not None:
             shape.append(int(dimension.start))
             dims.append(f"{v.name}_{position}")
+        elif reference in given.values:
+            shape.append(given.values[reference])
+            dims.append(given.names[reference].removesuffix("s"))
         else:
-            shape.append(sizes[dimension.valueReference])
-            dims.append(names[dimension.valueReference].removesuffix("s"))
-    return FmuVariable(
-        _variable(v.name, v, tuple(shape), tuple(dims)),
-        (v.valueReference,),
-        v.type,
-        v.causality == "structuralParameter",
-    )
+            raise StructureFault(
+                f"dimension {position + 1} of {v.name} is given by value reference {reference}, which is neither a "
+                "structural parameter nor a constant"
+            )
+    dims = [d if dims.count(d) == 1 else f"{d}_{i + 1}" for i, d in enumerate(dims)]  # a square matrix
+    variable = variable_of(v.name, [v], tuple(shape), tuple(dims), units)
+    return FmuVariable(variable, (v.valueReference,), (v,))
 
 
-def _gathered(name: str, members: Mapping[int, ModelVariable]) -> FmuVariable:
-    indices = sorted(members)
-    if indices != list(range(indices[0], indices[0] + len(indices))) or indices[0] not in (0, 1):
-        raise ValueError(f"the elements of {name} are numbered {indices[:5]}...: a gap, or not from 0 or 1")
-    first = members[indices[0]]
-    references = tuple(members[i].valueReference for i in indices)
-    return FmuVariable(_variable(name, first, (len(indices),), ("coil",)), references, first.type)
+def variable_of(
+    name: str, declared: Sequence[ModelVariable], shape: tuple[int, ...], dims: tuple[str, ...], units: UnitNames,
+    first_index: int = 1,
+) -> Variable:  # fmt: skip
+    """What every unit says of a variable."""
+    v = declared[0]
+    vtype = TYPES[v.type]
+    causality = _CAUSALITIES.get(v.causality, Causality.LOCAL)
+    if v.alias is not None and causality is not Causality.PARAMETER:
+        causality = Causality.LOCAL  # the variable itself is there under its own name
+    start = start_value(declared, vtype, shape) if causality is Causality.INPUT else None
+    return Variable(
+        name, causality, shape, units.of(v) if vtype.is_float else "1", dims, v.description or "", start,
+        type=vtype, first_index=first_index,
+    )  # fmt: skip
 
 
-def _variable(name: str, v: ModelVariable, shape: tuple[int, ...], dims: tuple[str, ...]) -> Variable:
-    declared = v.declaredType
-    unit = v.unit or (declared.unit if declared is not None else None) or "1"
-    causality = _CAUSALITIES[v.causality]
-    start = _start(v) if causality is Causality.INPUT and v.type in _REAL_TYPES else None
-    return Variable(name, causality, shape, unit, dims, v.description or "", start)
-
-
-def _start(v: ModelVariable) -> float | None:
+def start_value(declared: Sequence[ModelVariable], vtype: VariableType, shape: tuple[int, ...]) -> Any:
+    """Declared start value: a scalar where all elements have the same, an array, or None where there is none."""
+    if vtype is VariableType.CLOCK:
+        return False
+    if len(declared) > 1:
+        texts = [v.start for v in declared]
+        if any(t is None for t in texts):
+            return None
+    elif declared[0].start is None:
+        return None
+    elif vtype in (VariableType.STRING, VariableType.BINARY):
+        starts = getattr(declared[0], "starts", None) or [declared[0].start]
+        texts = list(starts)
+    else:
+        texts = declared[0].start.split()
     try:
-        values = {float(text) for text in (v.start or "").split()}
+        values = [parse(t, vtype) for t in texts]
     except ValueError:
         return None
-    return values.pop() if len(values) == 1 and not any(map(math.isnan, values)) else None
+    if values and all(v == values[0] for v in values):
+        return values[0]
+    array: AnyArray = np.empty(len(values), dtype=vtype.dtype)
+    array[:] = values
+    return array.reshape(shape) if array.size == np.prod(shape, dtype=int) else None
+
+
+def parse(text: str, vtype: VariableType) -> Any:
+    """A start value as written in modelDescription.xml.
+
+    Raises:
+        ValueError: It is no value of this type.
+    """
+    if vtype is VariableType.STRING:
+        return text
+    if vtype is VariableType.BINARY:
+        return bytes.fromhex(text)
+    if vtype is VariableType.BOOLEAN:
+        if text not in ("true", "false", "1", "0"):
+            raise ValueError(f"{text} is no Boolean")
+        return text in ("true", "1")
+    return float(text) if vtype.is_float else int(text)

@@ -83,6 +83,7 @@ def test_results_have_not_drifted_from_the_reference(make_unit):
     """`UPDATE_REFERENCE=1` rewrites the file; say in the changelog why."""
     unit = make_unit(coils=3)
     unit.initialise(0)
+    unit.exit_initialisation()
     powers = np.repeat([[0.45, 0.2, 0.3], [0.0, 0.4, 0.3], [0.45, 0.0, 0.0], [0.0, 0.0, 0.3]], 10, axis=0)
     outputs = ("temperature", "stiffness", "stored_energy", "convected_energy")
     run = advance(unit, powers, outputs, size=60 * STEP)

@@ -25,6 +25,7 @@ class Bath:
     def __init__(self, unit):
         self.unit, self.time = unit, 0
         unit.initialise(0)
+        unit.exit_initialisation()
         self.start = unit.binding.save()
 
     def rewind(self):
@@ -153,6 +154,7 @@ def test_other_branches_that_never_cross_keep_their_loop_open(make_unit):
 def test_each_coil_remembers_its_own_past(make_unit):
     unit = make_unit()
     unit.initialise(0)
+    unit.exit_initialisation()
     power = np.where(np.arange(36) % 2 == 0, 0.5, 0.3)[None]
     advance(unit, power, (), size=SOAK)
     warm = unit.get("temperature").copy() - CELSIUS

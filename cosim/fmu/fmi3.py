@@ -1,0 +1,76 @@
+"""FMI 3.0 binding."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from fmpy import fmi3
+
+from cosim.fmu.binding import DISCARD, Binding, DiscreteStates, StepResult
+from cosim.fmu.types import FMI3
+from cosim.fmu.variables import FmuVariable
+
+
+class Fmi3Binding(Binding):
+    """FMI 3.0."""
+
+    prefix = "fmi3"
+    c_types = FMI3
+
+    def _load(self, identifier: str) -> Any:
+        common = {
+            "guid": self.archive.description.instantiationToken, "modelIdentifier": identifier,
+            "unzipDirectory": str(self.archive.directory), "instanceName": self.name,
+        }  # fmt: skip
+
+        def log(_environment: Any, _status: int, _category: bytes, message: bytes) -> None:
+            self._log(message)
+
+        if self.interface == "model_exchange":
+            model = fmi3.FMU3Model(**common)
+            model.instantiate(loggingOn=True, logMessage=log)
+            return model
+        capabilities = self.capabilities
+        self.uses_event_mode = capabilities.hasEventMode
+        slave = fmi3.FMU3Slave(**common)
+        slave.instantiate(
+            loggingOn=True, logMessage=log, eventModeUsed=self.uses_event_mode,
+            earlyReturnAllowed=capabilities.mightReturnEarlyFromDoStep or capabilities.hasEventMode,
+        )  # fmt: skip
+        self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
+        self._reached = ctypes.c_double()
+        self._results = tuple(ctypes.addressof(r) for r in (self._event, self._terminate, self._early, self._reached))
+        types = [ctypes.c_double, ctypes.c_double, ctypes.c_bool, *[ctypes.c_void_p] * 4]
+        self._do_step = slave.dll["fmi3DoStep"]
+        self._do_step.argtypes, self._do_step.restype = [ctypes.c_void_p, *types], ctypes.c_int
+        return slave
+
+    def configure(self, values: Sequence[tuple[FmuVariable, int]]) -> None:
+        """Set all of them in one visit to Configuration Mode."""
+        if not values:
+            return
+        self.call(self.fmu.enterConfigurationMode)
+        for variable, value in values:
+            self.writer(variable, np.full(variable.variable.shape, value, variable.variable.type.dtype))()
+        self.call(self.fmu.exitConfigurationMode)
+
+    def enter_initialisation(self, time: float, tolerance: float | None, stop: float | None) -> None:
+        """Enter Initialization Mode."""
+        self.call(lambda: self.fmu.enterInitializationMode(tolerance, time, stop))
+
+    def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:
+        """One fmi3DoStep."""
+        status = self._do_step(self.fmu.component, time, size, is_final, *self._results)
+        if status == DISCARD:
+            return StepResult(time, discarded=True)
+        self.check("fmi3DoStep", status)
+        reached = self._reached.value if self._early.value else time + size
+        return StepResult(reached, self._event.value, self._early.value, False, self._terminate.value)
+
+    def update_discrete_states(self) -> DiscreteStates:
+        """One fmi3UpdateDiscreteStates."""
+        again, terminate, nominals, states, defined, time = self.call(self.fmu.updateDiscreteStates)
+        return DiscreteStates(again, terminate, nominals, states, time if defined else None)

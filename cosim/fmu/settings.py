@@ -1,0 +1,144 @@
+"""How an FMU is set up before it is initialised."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from cosim.errors import InputError
+from cosim.fmu.archive import FmuArchive
+from cosim.fmu.binding import Binding
+from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.units import UnitNames
+from cosim.fmu.values import array_of
+from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array
+from cosim.unit import AnyArray, Causality
+
+
+@dataclass(frozen=True)
+class FmuSettings:
+    """How an FMU is set up.
+
+    Args:
+        structure: Structural parameters (FMI 3.0), for example `{"coils": 36}`.
+        parameters: Values of any type; bare numbers are in the FMU's own units, scalars fill arrays.
+        start: Start values of inputs, and of variables whose start value may be set (initial exact or approx).
+        record: Names of local variables that can be read beside the outputs.
+        tolerance: Relative tolerance of the integrator; None: the FMU's own, or 1e-8 in Model Exchange.
+        stop_time: End of the simulation [s], told to the FMU where it is known.
+        report_early_return: Whether a step of a Co-Simulation FMU ends at its first event.
+    """
+
+    structure: Mapping[str, int] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    start: Mapping[str, Any] = field(default_factory=dict)
+    record: Sequence[str] = ()
+    tolerance: float | None = None
+    stop_time: float | None = None
+    report_early_return: bool = False
+
+
+class Table:
+    """The variables of one FMU and the values that a user gives to them.
+
+    Args:
+        name: Name of the component, for error texts.
+        archive: The opened FMU.
+        settings: What the user gives.
+
+    Raises:
+        InputError: The structure does not fit.
+    """
+
+    def __init__(self, name: str, archive: FmuArchive, settings: FmuSettings) -> None:
+        self.name, self.archive, self.settings = name, archive, settings
+        self.units = UnitNames(archive.description)
+        try:
+            self.all = fmu_variables(archive.description, settings.structure, self.units)
+        except StructureFault as error:
+            raise InputError(archive.path, f"{name}.structure", str(error)) from error
+        recorded = {self._recorded(n) for n in settings.record}
+        self.exposed = {
+            n: v
+            for n, v in self.all.items()
+            if v.variable.causality in (Causality.INPUT, Causality.OUTPUT) or n in recorded
+        }
+
+    def _recorded(self, name: str) -> str:
+        if name not in self.all:
+            raise self._unknown("record", name, self.all)
+        return name
+
+    def configure(self, binding: Binding) -> None:
+        """Set the structural parameters that differ from their start values."""
+        structural = {n: v for n, v in self.all.items() if v.is_structural and n in self.settings.structure}
+        changed = [(v, self.settings.structure[n]) for n, v in structural.items()]
+        binding.configure([(v, value) for v, value in changed if value != int(v.declared[0].start or 0)])
+
+    def set_parameters(self, binding: Binding, parameters: Mapping[str, Any]) -> None:
+        """Set parameters before initialisation.
+
+        Raises:
+            InputError: No such parameter, or a value that does not fit.
+        """
+
+        def is_parameter(v: FmuVariable) -> bool:
+            return v.variable.causality is Causality.PARAMETER and not v.is_structural and not v.is_constant
+
+        for key, value in parameters.items():
+            variable = self._find("parameters", key, is_parameter)
+            binding.writer(variable, self._array("parameters", key, variable, value))()
+
+    def start_values(self, binding: Binding) -> dict[str, AnyArray]:
+        """Set start values before initialisation; those of inputs are returned, by name of the input.
+
+        Raises:
+            InputError: No such variable, its start value cannot be set, or a value that does not fit.
+        """
+        inputs: dict[str, AnyArray] = {}
+        for key, value in self.settings.start.items():
+            variable = self._find("start", key, lambda v: v.variable.causality is Causality.INPUT or v.has_start)
+            array = self._array("start", key, variable, value)
+            if key in self.exposed and variable.variable.causality is Causality.INPUT:
+                inputs[key] = array
+            else:
+                binding.writer(variable, array)()
+        return inputs
+
+    def _array(self, part: str, key: str, variable: FmuVariable, value: Any) -> AnyArray:
+        try:
+            return array_of(variable, value, self.units)
+        except ValueError as error:
+            v = variable.variable
+            what = " x ".join(map(str, v.shape)) + f" {v.type.value}" if v.shape else v.type.value
+            unit = f" in {v.unit}" if v.type.is_float and v.unit != "1" else ""
+            raise InputError(
+                self.archive.path, f"{self.name}.{part}.{key}", str(error), f"give {what}{unit}"
+            ) from error  # fmt: skip
+
+    def _find(self, part: str, key: str, is_right: Callable[[FmuVariable], bool]) -> FmuVariable:
+        """A variable, or one element of gathered scalars by its own name in the FMU."""
+        found = self.all.get(key)
+        if found is None:
+            element = next((v for v in self.archive.description.modelVariables if v.name == key), None)
+            found = None if element is None else declared_array(element, Sizes({}, {}), self.units)
+        if found is None or not is_right(found):
+            raise self._unknown(part, key, [n for n, v in self.all.items() if is_right(v)])
+        return found
+
+    def _unknown(self, part: str, key: str, names: Iterable[str]) -> InputError:
+        there = list(names)
+        what = "parameter" if part == "parameters" else "variable"
+        declared = self.all.get(key)
+        problem = f"the FMU has no such {what}"
+        if declared is not None:
+            v = declared.declared[0]
+            problem = f"this is no {what} that can be set here: its causality is {v.causality}, its initial {v.initial}"
+        close = difflib.get_close_matches(key, there, 3, 0.5)
+        listed = ", ".join(there[:20]) + (", ..." if len(there) > 20 else "")
+        remedy = f"did you mean {' or '.join(close)}? " if close else ""
+        return InputError(
+            self.archive.path, f"{self.name}.{part}.{key}", problem, f"{remedy}it has: {listed or 'none'}"
+        )
