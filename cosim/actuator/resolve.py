@@ -10,7 +10,8 @@ from cosim.actuator.interface import PAGE, coils_of, faults
 from cosim.components import ActuatorComponent, FmuComponent
 from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive, open_fmu
-from cosim.fmu.variables import fmu_variables
+from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.units import UnitNames
 from cosim.fmu_assembly import find_fmu
 from cosim.scenario import CONNECTION, Scenario, scenario_folder
 from cosim.unit import Causality, Unit, Variable
@@ -110,7 +111,7 @@ def _variables(
     structural = {v.name for v in archive.description.modelVariables if v.causality == "structuralParameter"}
     structure = {k: v for k, v in component.structure.items() if k != "coils" or k in structural}
     try:
-        found = fmu_variables(archive.description, structure)
+        found = fmu_variables(archive.description, structure, UnitNames(archive.description))
     except ValueError as error:
         raise InputError(source, "structure", str(error), "correct `structure`") from error
     is_fmi2 = archive.description.fmiVersion.startswith("2")  # there `coils` chooses the file
