@@ -15,7 +15,8 @@ from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
 from cosim.actuator.resolve import resolve_actuators
-from cosim.algorithms.choose import Step, choose
+from cosim.algorithms.algorithm import Algorithm
+from cosim.algorithms.choose import choose
 from cosim.algorithms.restoring import CannotRestore
 from cosim.components import (
     ActuatorComponent,
@@ -71,7 +72,7 @@ class Assembly:
     Args:
         scenario: The scenario with every actuator written out as an FMU with its connections.
         system: Units and connections.
-        step: The algorithm, which makes one macro-step.
+        algorithm: Makes the macro-steps.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
         versions: What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
@@ -79,7 +80,7 @@ class Assembly:
 
     scenario: Scenario
     system: System
-    step: Step
+    algorithm: Algorithm
     start: Mapping[str, Mapping[str, float]]
     parameters: Mapping[str, Resolved]
     versions: Mapping[str, str]
@@ -96,14 +97,11 @@ def assemble(scenario: Scenario) -> Assembly:
     parameters: dict[str, Resolved] = {}
     try:
         scenario = _build_all(scenario, source, units, parameters)
-        connections = [
-            _connection(text if isinstance(text, str) else text.connect, i, units, source)
-            for i, text in enumerate(scenario.connections)
-        ]
+        connections = [_connection(given, i, units, source) for i, given in enumerate(scenario.connections)]
         sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
         try:
             system = System(units, connections, sources)
-            step = choose(scenario.algorithm, system, nanoseconds(scenario.time.macro_step))
+            algorithm = choose(scenario.algorithm, system, nanoseconds(scenario.time.macro_step))
         except ConnectionFault as error:
             raise InputError(source, "connections", str(error), "correct the connection") from error
         except CannotRestore as error:
@@ -114,7 +112,7 @@ def assemble(scenario: Scenario) -> Assembly:
         for unit in units.values():
             unit.terminate()
         raise
-    return Assembly(scenario, system, step, start, parameters, _versions(units))
+    return Assembly(scenario, system, algorithm, start, parameters, _versions(units))
 
 
 def _build_all(scenario: Scenario, source: Path, units: dict[str, Unit], parameters: dict[str, Resolved]) -> Scenario:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import pydantic
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
@@ -85,7 +85,7 @@ def load_parameter_set(path: Path) -> ParameterSet:
         raise input_error(path, error, "each parameter needs value, unit and source") from error
 
 
-def resolve(set_name: str | None, overrides: Mapping[str, ParameterValue], scenario_file: Path) -> Resolved:
+def resolve(set_name: str | None, overrides: Mapping[str, Any], scenario_file: Path) -> Resolved:
     """Parameters of a component: those of its set, replaced by those the scenario gives itself."""
     values: dict[str, ParameterValue] = {}
     sources: dict[str, str] = {}

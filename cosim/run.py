@@ -183,6 +183,7 @@ def _restore(state: _Clockwork, folder: RunFolder) -> None:
     for name, unit in state.assembly.system.units.items():
         unit.resume(_part(content, f"unit/{name}/"), state.now)
         state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
+    state.assembly.algorithm.resume(_part(content, "algorithm/"))
     state.written, state.is_resumed = state.trace.count, True
 
 
@@ -195,6 +196,7 @@ def _checkpoint(state: _Clockwork, folder: RunFolder | None) -> None:
     system = state.assembly.system
     content: dict[str, np.ndarray[Any, Any]] = {"index": np.array(state.index)}
     content["energy"] = np.array([state.meter.electrical, state.meter.largest])
+    content.update({f"algorithm/{k}": v for k, v in state.assembly.algorithm.checkpoint().items()})
     for name, unit in system.units.items():
         content.update({f"unit/{name}/{k}": v for k, v in unit.checkpoint().items()})
         content[f"wall/{name}"] = np.array(system.wall_time[name])
@@ -233,7 +235,7 @@ def _step_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
 ) -> None:
     time = state.scenario.time
-    step, system = state.assembly.step, state.assembly.system
+    step, system = state.assembly.algorithm, state.assembly.system
     per_output = nanoseconds(time.output_step) // state.macro
     per_checkpoint = nanoseconds(time.checkpoint_step) // state.macro
     while state.index < state.total:
@@ -283,6 +285,7 @@ def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
         "status": reason or "complete",
         "simulated_until_s": seconds(state.now),
         "macro_steps": state.index,
+        "algorithm": {"kind": state.scenario.algorithm.kind, **state.assembly.algorithm.counts()},
         "resumed": state.is_resumed,
         "wall_time_s": {"since_start_or_resumption": clock.perf_counter() - state.begin, "units": units},
         "energy_J": None if balance is None else {

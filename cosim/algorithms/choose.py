@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TypeAlias
 
 from cosim.algorithms import gauss_seidel, jacobi
+from cosim.algorithms.algorithm import Algorithm, Plain
 from cosim.algorithms.iterated import Iterated
 from cosim.algorithms.step_doubling import ErrorControl, StepDoubling
 from cosim.algorithms.synchronised import Synchronised
 from cosim.components import nanoseconds
-from cosim.scenario import Algorithm
+from cosim.scenario import Algorithm as Settings
 from cosim.scenario import Iterated as IteratedSettings
 from cosim.scenario import StepDoubling as StepDoublingSettings
 from cosim.system import System
 from cosim.unit import StepOutcome
 
-Step: TypeAlias = Callable[[System, int, int], StepOutcome]
+PLAIN: Mapping[str, Callable[[System, int, int], StepOutcome]] = {
+    "gauss_seidel": gauss_seidel.step,
+    "jacobi": jacobi.step,
+}
 
-PLAIN: Mapping[str, Step] = {"gauss_seidel": gauss_seidel.step, "jacobi": jacobi.step}
 
-
-def choose(settings: Algorithm, system: System, size: int) -> Step:
-    """The function that makes one macro-step.
+def choose(settings: Settings, system: System, size: int) -> Algorithm:
+    """What makes the macro-steps.
 
     Args:
         settings: The scenario's `algorithm`.
@@ -40,4 +41,4 @@ def choose(settings: Algorithm, system: System, size: int) -> Step:
         )
         return StepDoubling(system, PLAIN[settings.inner], control, size)
     plain = PLAIN[settings.kind]
-    return Synchronised(system, plain) if settings.on_event == "synchronise" else plain
+    return Synchronised(system, plain) if settings.on_event == "synchronise" else Plain(plain)

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from cosim.algorithms.algorithm import Algorithm
 from cosim.algorithms.restoring import require_restoring
 from cosim.connection import Transfer
 from cosim.ordering import in_order
@@ -46,7 +47,7 @@ def groups(system: System) -> list[Group]:
     return result
 
 
-class Iterated:
+class Iterated(Algorithm):
     """Fixed-point iteration over each loop of units, with restored states.
 
     The inputs of a step are held constant. With `mean` they are the mean of their values at its begin and, as found by
@@ -72,6 +73,11 @@ class Iterated:
         self._tolerance, self._iterations, self._is_mean = relative_tolerance, iterations, is_mean
         inside = [name for group in self.groups if group.is_loop for name in group.names]
         require_restoring(system, inside, "iterated")
+        self._repetitions = 0
+
+    def counts(self) -> dict[str, int]:
+        """Steps of loops, repetitions included."""
+        return {"loop_steps": self._repetitions}
 
     def __call__(self, system: System, time: int, size: int) -> StepOutcome:
         """Advance all units by one macro-step.
@@ -123,6 +129,7 @@ class Iterated:
             for repetition in range(self._iterations):
                 if repetition:
                     system.restore(saved, when[0])
+                self._repetitions += 1
                 outcome, change, where = self._repeat(system, group, (begin, end), when)
                 if outcome.status is not StepStatus.OK or change <= self._tolerance:
                     return outcome

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
+from cosim.algorithms.algorithm import Algorithm
 from cosim.algorithms.restoring import require_restoring
 from cosim.system import System
 from cosim.unit import Array, Causality, StepOutcome, StepStatus, UnitError, seconds
@@ -32,7 +34,7 @@ class ErrorControl:
     minimum_step: int
 
 
-class StepDoubling:
+class StepDoubling(Algorithm):
     """Richardson error control around a first-order algorithm.
 
     A step of h is made whole and, after every unit was taken back, in two halves. The difference estimates the error
@@ -65,6 +67,18 @@ class StepDoubling:
             if v.causality is Causality.OUTPUT and v.type.is_float and (not connected or (name, v.name) in connected)
         ]
         self.accepted = self.rejected = 0
+
+    def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
+        """The step that it will try next [ns], and its counts."""
+        return {"memory": np.array([self._size, self.accepted, self.rejected])}
+
+    def resume(self, state: Mapping[str, npt.NDArray[np.generic]]) -> None:
+        """Go on with that step."""
+        self._size, self.accepted, self.rejected = (int(number) for number in state["memory"])
+
+    def counts(self) -> dict[str, int]:
+        """Steps accepted and rejected."""
+        return {"accepted_steps": self.accepted, "rejected_steps": self.rejected}
 
     def __call__(self, system: System, time: int, size: int) -> StepOutcome:
         """Advance all units by one macro-step, in as many steps as the tolerance asks for.

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from cosim.algorithms.algorithm import Algorithm
 from cosim.algorithms.restoring import require_restoring
 from cosim.system import System
 from cosim.unit import StepOutcome, StepStatus, UnitError
 
 
-class Synchronised:
+class Synchronised(Algorithm):
     """Makes an event of one unit a communication point of all.
 
     Args:
@@ -23,6 +24,11 @@ class Synchronised:
     def __init__(self, system: System, inner: Callable[[System, int, int], StepOutcome]) -> None:
         require_restoring(system, system.movers, "on_event: synchronise")
         self._inner = inner
+        self._events = 0
+
+    def counts(self) -> dict[str, int]:
+        """Events that became communication points."""
+        return {"events": self._events}
 
     def __call__(self, system: System, time: int, size: int) -> StepOutcome:
         """Advance all units by one macro-step, with a communication point at every event inside it.
@@ -38,8 +44,6 @@ class Synchronised:
             saved = system.save()
             try:
                 outcome = self._inner(system, now, end - now)
-                if outcome.status is StepStatus.OK:
-                    return outcome
                 if outcome.status is not StepStatus.EARLY_RETURN:
                     return outcome
                 if not now < outcome.time < end:
@@ -51,5 +55,6 @@ class Synchronised:
             repeated = self._inner(system, now, outcome.time - now)
             if repeated.status is not StepStatus.OK:
                 return repeated
+            self._events += 1
             now = outcome.time
         return StepOutcome(StepStatus.OK, end)

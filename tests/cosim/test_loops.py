@@ -92,7 +92,8 @@ def test_a_loop_of_many_unknowns_is_solved_without_a_jacobian():
 def test_a_ring_of_arrays_that_is_none_element_by_element_needs_no_solver():
     """Each element depends on its left neighbour only: repetition settles it."""
     shift = np.array([[0.0, 0.0], [1.0, 0.0]])
-    units = {"a": Map("a", lambda u: shift @ u + np.array([1.0, 0.0]), shape=(2,)), "b": Map("b", lambda u: u, shape=(2,))}
+    first = np.array([1.0, 0.0])
+    units = {"a": Map("a", lambda u: shift @ u + first, shape=(2,)), "b": Map("b", lambda u: u, shape=(2,))}
     system = System(units, [Connection(("a", "output"), ("b", "input")), Connection(("b", "output"), ("a", "input"))])
     system.initialise(0, {})
     assert units["a"].get("output").tolist() == [1.0, 1.0]
