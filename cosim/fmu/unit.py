@@ -98,19 +98,18 @@ class FmuUnit(Unit):
         self.table.set_parameters(self.binding, parameters)
 
     def set(self, name: str, value: AnyArray) -> None:
-        """Copy a value to an input of the FMU; it reaches the FMU at once, before initialisation at its begin."""
+        """Copy a value to an input of the FMU; it reaches the FMU at once."""
         buffer = self.buffers.values[name]
         buffer[...] = value
         if buffer.dtype.kind == "f" and not np.isfinite(buffer).all():
             raise UnitError(self.name, f"input {name}{element_text(buffer)} is not a finite number")
         if self._mode is Mode.INSTANTIATED:
             self._given.add(name)
-        else:
-            self._pass_on(name)
-            self._is_stale = True
+        self._pass_on(name)
+        self._is_stale = True
 
     def _pass_on(self, name: str) -> None:
-        """Hand an input to the FMU, which is initialised or being initialised."""
+        """Hand an input to the FMU."""
         if name in self.writers:
             self.writers[name]()
 
@@ -120,8 +119,6 @@ class FmuUnit(Unit):
 
     def initialise(self, time: int) -> None:
         """Enter Initialization Mode with the inputs set so far; what was not set keeps the FMU's own start value."""
-        if self._mode is not Mode.INSTANTIATED:
-            raise UnitError(self.name, "it is initialised already", time)
         self.binding.enter_initialisation(seconds(time), self.settings.tolerance, self.settings.stop_time)
         self._mode = Mode.INITIALISATION
         for name, write in self.writers.items():

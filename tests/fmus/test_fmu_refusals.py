@@ -20,10 +20,10 @@ def test_an_input_that_is_no_number_is_refused_by_name_and_index(make_unit, mode
     unit.initialise(0)
     drive = drive_of(unit)
     unit.set(drive, np.full(36, 0.4))
-    unit._buffers[drive][4] = bad  # past the check of the unit itself
+    unit.get(drive)[4] = bad  # past the check of the unit itself
     with pytest.raises(UnitError, match=rf"{drive}\[5\] = -?(nan|inf) [WV]: it must be a finite number"):
-        unit._writers[drive]()
-    unit._buffers[drive][4] = 0.4
+        unit.writers[drive]()
+    unit.get(drive)[4] = 0.4
     unit.do_step(0, 10**9)
     for name in ("stiffness", "rest_length", "stored_energy", "convected_energy"):
         assert np.ptp(unit.get(name)) == 0.0, name  # the refused values were not taken
@@ -111,8 +111,9 @@ def test_calls_out_of_order_are_refused(make_unit, model, version):
     with pytest.raises(UnitError, match="Terminate must not be called in the state Instantiated"):
         binding.call(fmu.terminate)
     with pytest.raises(UnitError, match="temperature has no value in the state Instantiated"):
-        unit._readers[list(dict(unit._outputs)).index("temperature")]()
+        next(r for r in unit.readers if r.variable.variable.name == "temperature")()
     unit.initialise(0)
+    unit.exit_initialisation()
     with pytest.raises(UnitError, match="EnterInitializationMode must not be called in the state Step Mode"):
         binding.call(fmu.enterInitializationMode)
     with pytest.raises(UnitError, match="coil_rest_length must not be set in the state Step Mode"):
@@ -133,6 +134,7 @@ def test_model_exchange_calls_out_of_order_are_refused(make_unit, version):
     with pytest.raises(UnitError, match="EnterContinuousTimeMode must not be called in the state Instantiated"):
         binding.call(fmu.enterContinuousTimeMode)
     unit.initialise(0)
+    unit.exit_initialisation()
     states = np.full(72, 300.0)
     pointer = states.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
     with pytest.raises(UnitError, match="71 values for 72 continuous states"):
@@ -150,7 +152,7 @@ def test_model_exchange_calls_out_of_order_are_refused(make_unit, version):
 def test_outputs_cannot_be_set_and_unknown_references_are_refused(make_unit, version):
     unit = make_unit("thermal_stiffness", version)
     setter = unit.binding.fmu.setFloat64 if version == 3 else unit.binding.fmu.setReal
-    stiffness = unit._fmu["stiffness"].value_references[:1]
+    stiffness = unit.table.all["stiffness"].value_references[:1]
     values = [200.0] * (36 if version == 3 else 1)
     with pytest.raises(UnitError, match="stiffness must not be set in the state Instantiated"):
         unit.binding.call(setter, stiffness, values)
@@ -161,7 +163,7 @@ def test_outputs_cannot_be_set_and_unknown_references_are_refused(make_unit, ver
 def test_an_array_of_the_wrong_length_is_refused(make_unit):
     unit = make_unit()
     with pytest.raises(UnitError, match="35 values for variables of 36 values"):
-        unit.binding.call(unit.binding.fmu.setFloat64, unit._fmu["power"].value_references, [0.1] * 35)
+        unit.binding.call(unit.binding.fmu.setFloat64, unit.table.all["power"].value_references, [0.1] * 35)
 
 
 @both_versions
@@ -174,6 +176,6 @@ def test_a_step_beyond_the_stop_time_is_refused(make_unit, version):
         binding.call(lambda: fmu.setupExperiment(startTime=0.0, stopTime=1.0))
         binding.call(fmu.enterInitializationMode)
     binding.exit_initialisation()
-    assert binding.do_step(0.0, 1.0) == 1.0
+    assert binding.do_step(0.0, 1.0).reached == 1.0
     with pytest.raises(UnitError, match=r"ends at 1\.1 s, after the stop time 1 s"):
         binding.do_step(1.0, 0.1)
