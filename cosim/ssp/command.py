@@ -1,0 +1,74 @@
+"""`cosim ssp`: import, export and validation of SSP files."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from cosim.scenario import Scenario, load_scenario
+from cosim.ssp.export import export_ssp
+from cosim.ssp.import_time import TimeRequest
+from cosim.ssp.importer import check_ssp, import_ssp
+from cosim.ssp.namespaces import Version
+
+app = typer.Typer(no_args_is_help=True, help="System Structure and Parameterization (SSP) 1.0 and 2.0.")
+
+FileArgument = Annotated[Path, typer.Argument(help="An .ssp file, or the .ssd file of an unpacked one.")]
+VariantOption = Annotated[str, typer.Option(help="Another .ssd file of the package than SystemStructure.ssd.")]
+
+
+@app.command("import")
+def import_command(
+    file: FileArgument,
+    out: Annotated[Path, typer.Option(help="Folder for scenario.yaml, FMUs and parameter sets; empty or absent.")],
+    start: Annotated[str | None, typer.Option(help="Start time, for example `0 s`.")] = None,
+    stop: Annotated[str | None, typer.Option(help="Stop time, where the SSP gives none, or instead of it.")] = None,
+    step: Annotated[str | None, typer.Option(help="Macro-step; SSP itself has no place for it.")] = None,
+    output_step: Annotated[str | None, typer.Option(help="Interval of recorded values; default: every step.")] = None,
+    algorithm: Annotated[str | None, typer.Option(help="jacobi (default), gauss_seidel, iterated, ...")] = None,
+    variant: VariantOption = "",
+) -> None:
+    """Import an SSP as a scenario that `cosim run` runs."""
+    imported = import_ssp(file, out, TimeRequest(start, stop, step, output_step, algorithm), variant)
+    _print_notes(imported.notes)
+    for path, name in imported.names.items():
+        print(f"{path} is the component {name}")
+    print(imported.scenario)
+
+
+@app.command("export")
+def export_command(
+    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    out: Annotated[Path, typer.Option(help="The .ssp file.")],
+    version: Annotated[Literal["1", "2"], typer.Option(help="Version of SSP.")] = "2",
+    only_fmus: Annotated[
+        bool, typer.Option("--only-fmus", help="Leave out what is no FMU, for tools that know FMUs alone.")
+    ] = False,
+) -> None:
+    """Export a scenario as an SSP."""
+    number: Version = "1.0" if version == "1" else "2.0"
+    _print_notes(export_ssp(load_scenario(scenario), out, number, only_fmus))
+    print(out)
+
+
+@app.command("validate")
+def validate_command(file: FileArgument, variant: VariantOption = "") -> None:
+    """Check an SSP against the schemas, and its connections and parameters against its FMUs."""
+    structure, notes = check_ssp(file, variant)
+    _print_notes(notes)
+    print(f"{file}: valid SSP {structure.version}, `{structure.name}`")
+
+
+def scenario_of(file: Path, folder: Path) -> Scenario:
+    """Scenario of an .ssp file, imported into a folder: what `cosim run FILE.ssp` runs."""
+    imported = import_ssp(file, folder)
+    _print_notes(imported.notes)
+    return load_scenario(imported.scenario)
+
+
+def _print_notes(notes: list[str] | tuple[str, ...]) -> None:
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)

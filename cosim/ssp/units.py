@@ -1,0 +1,72 @@
+"""Units by their definition: an SSP and an FMU say what a unit's name means; pint is asked where they do not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cosim.quantity import parse_unit, registry
+from cosim.ssp.model import BASE_UNITS, Unit
+
+_PINT_NAMES = ("kilogram", "meter", "second", "ampere", "kelvin", "mole", "candela", "radian")
+
+
+class UnitFault(ValueError):
+    """Two units measure different things, or a unit is not known."""
+
+
+def known_unit(name: str) -> Unit:
+    """Definition of a unit by its name.
+
+    Raises:
+        UnitFault: pint does not know it, or it has no whole exponents of the SI base units.
+
+    >>> known_unit("degC")
+    Unit(name='degC', exponents=(0, 0, 0, 0, 1, 0, 0, 0), factor=1.0, offset=273.15)
+    """
+    try:
+        unit = parse_unit(name)
+        zero = registry().Quantity(0.0, unit).to_base_units()
+        one = registry().Quantity(1.0, unit).to_base_units()
+    except ValueError as error:
+        raise UnitFault(str(error)) from error
+    powers: dict[str, Any] = dict(one.units._units)
+    exponents = tuple(powers.pop(base, 0) for base in _PINT_NAMES)
+    if powers or any(e != int(e) for e in exponents):
+        raise UnitFault(f"`{name}` has no whole exponents of {', '.join(BASE_UNITS)}")
+    offset = float(zero.magnitude)
+    factor = float(f"{float(one.magnitude) - offset:.15g}")
+    return Unit(name, tuple(int(e) for e in exponents), factor, offset)
+
+
+def convert(source: Unit, target: Unit) -> tuple[float, float]:
+    """(factor, offset) with value in target = factor * value in source + offset.
+
+    Exponents of rad are not compared: rad is 1 (BIPM SI Brochure, 9th edition, table 4); tools differ in writing it.
+
+    Raises:
+        UnitFault: They measure different things.
+    """
+    if source == target or (source.name == target.name and not (source.exponents and target.exponents)):
+        return 1.0, 0.0
+    if source.exponents[:-1] != target.exponents[:-1]:
+        raise UnitFault(f"{source.name} cannot be converted to {target.name}")
+    factor = source.factor / target.factor
+    offset = (source.offset - target.offset) / target.factor
+    return float(f"{factor:.15g}"), float(f"{offset:.15g}")
+
+
+def means_the_same(unit: Unit) -> bool:
+    """Whether the name means to pint what this definition says."""
+    try:
+        own = known_unit(unit.name)
+    except UnitFault:
+        return False
+    return (
+        own.exponents[:-1] == unit.exponents[:-1]
+        and _close(own.factor, unit.factor)
+        and _close(own.offset, unit.offset)
+    )
+
+
+def _close(a: float, b: float) -> bool:
+    return abs(a - b) <= 1e-12 * max(abs(a), abs(b))
