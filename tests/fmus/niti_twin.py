@@ -1,7 +1,7 @@
 """An independent twin of niti_kinetics: scipy integrates the temperature, where the FMU integrates the stored heat.
 
-The transformation is in the effective heat capacity, corners of the cosine law are found as events, and a sudden change of
-tension is an adiabatic balance solved by brentq. Numbers: scenarios/parameter_sets/niti_kinetics.yaml.
+The transformation is in the effective heat capacity, corners of the cosine law are found as events, and a sudden change
+of tension is an adiabatic balance solved by brentq. Numbers: scenarios/parameter_sets/niti_kinetics.yaml.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Independent twins of polypyrrole_film: its circuit by scipy's matrix exponential, its film by the diffusion equation."""
+"""Independent twins of polypyrrole_film: circuit by scipy's matrix exponential, a film by the diffusion equation."""
 
 from __future__ import annotations
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from fmu_runs import STEP, advance
+from fmu_runs import STEP, advance, drive_of, every_model
 from thermal_twin import simulate
 
-from cosim.unit import seconds
+from cosim.unit import Causality, seconds
 
 OUTPUTS = ("temperature", "stiffness", "convected_energy")
 ALL_OUTPUTS = ("temperature", "stiffness", "rest_length", "resistance", "stored_energy", "convected_energy")
@@ -19,7 +19,7 @@ def programme(steps, coils, seed=2):
     return np.repeat(power, 50, axis=0)[:steps]
 
 
-@pytest.mark.parametrize("model", ["thermal_stiffness", "instant_stiffness"])
+@every_model
 @pytest.mark.parametrize("interface", ["co_simulation", "model_exchange"])
 @pytest.mark.parametrize("coils", [1, 6, 36, 288])
 def test_fmi_2_and_fmi_3_agree_to_the_last_bit(make_unit, model, interface, coils):
@@ -27,8 +27,9 @@ def test_fmi_2_and_fmi_3_agree_to_the_last_bit(make_unit, model, interface, coil
     for version in (2, 3):
         unit = make_unit(model, version, interface, coils)
         unit.initialise(0)
-        assert unit.variables["power"].shape == (coils,)
-        runs.append(advance(unit, programme(60, coils), ALL_OUTPUTS, size=5 * STEP))
+        assert unit.variables[drive_of(unit)].shape == (coils,)
+        tensions = np.full((60, coils), 4.0)
+        runs.append(advance(unit, programme(60, coils), ALL_OUTPUTS, size=5 * STEP, tensions=tensions))
         unit.terminate()
     assert runs[0].shape == (60, 6, coils)
     np.testing.assert_array_equal(runs[0], runs[1])
@@ -64,6 +65,27 @@ def test_model_exchange_under_cvode_agrees_with_co_simulation(make_unit, version
     assert difference[2] < 4e-5
 
 
+#: Every output's part of its range by which CVODE at rtol 1e-8 may be off after 400 steps of some error each; the phase
+#: fraction has kinks in its slope (Liang and Rogers), which cost it more.
+AGREEMENT = {"niti_kinetics": 2e-4, "tcp_muscle": 1e-5, "polypyrrole_film": 1e-5}
+
+
+@pytest.mark.parametrize("model", AGREEMENT)
+@pytest.mark.parametrize("version", [3, 2])
+def test_model_exchange_agrees_for_every_model(make_unit, model, version):
+    powers, runs = 0.5 * programme(400, 12), []
+    tensions = np.broadcast_to(np.linspace(0.0, 6.0, 12), powers.shape)
+    for interface in ("co_simulation", "model_exchange"):
+        unit = make_unit(model, version, interface, coils=12)
+        if "tension" in unit.variables:
+            unit.set("tension", tensions[0])
+        unit.initialise(0)
+        runs.append(advance(unit, powers, ALL_OUTPUTS, size=5 * STEP, tensions=tensions))
+    for k, name in enumerate(ALL_OUTPUTS):
+        spread = max(np.ptp(runs[0][:, k]), 1e-6 * np.abs(runs[0][:, k]).max())
+        assert np.abs(runs[0][:, k] - runs[1][:, k]).max() < AGREEMENT[model] * spread, name
+
+
 def test_a_tighter_tolerance_brings_cvode_closer(make_unit):
     powers = programme(200, 6)
     exact = make_unit(coils=6)
@@ -95,12 +117,45 @@ def test_the_instant_model_switches_with_the_power(make_unit):
         np.testing.assert_allclose(run[-1, 5], power.sum(axis=0) * seconds(STEP), rtol=1e-7, atol=1e-15)
 
 
-def test_both_models_can_take_each_others_place(make_unit):
-    thermal, instant = make_unit("thermal_stiffness"), make_unit("instant_stiffness")
-    assert set(thermal.variables) == set(instant.variables)
-    for name, variable in thermal.variables.items():
-        other = instant.variables[name]
-        assert (variable.causality, variable.shape, variable.unit) == (other.causality, other.shape, other.unit)
+@every_model
+def test_every_model_has_the_interface_of_an_actuator(make_unit, model):
+    """Names, units and shapes of docs/actuators/interface.md."""
+    unit = make_unit(model)
+    inputs = {"power": "W", "voltage": "V", "tension": "N", "extension": "m"}
+    outputs = {
+        "stiffness": "N/m", "rest_length": "m", "temperature": "K", "resistance": "ohm", "stored_energy": "J",
+        "convected_energy": "J",
+    }  # fmt: skip
+    for name, variable in unit.variables.items():
+        if variable.causality is Causality.INPUT and name != "ambient_temperature":
+            assert (variable.unit, variable.shape) == (inputs[name], (36,))
+    assert (unit.variables["ambient_temperature"].unit, unit.variables["ambient_temperature"].shape) == ("K", ())
+    assert {"power", "voltage"} & set(unit.variables)
+    for name, kind in outputs.items():
+        variable = unit.variables[name]
+        assert (variable.causality, variable.unit, variable.shape) == (Causality.OUTPUT, kind, (36,))
+
+
+@every_model
+def test_a_passive_actuator_leaves_links_open_and_a_driven_one_closes_them(make_unit, model):
+    """Force balance of one arm without friction (docs/mechanics.md): steel 150 N/m, 58.5 mm; stops at 30 and 33 mm.
+
+    So any model may take any other's place: 1 V for a minute closes the arm, and without drive it opens again.
+    """
+    unit, lengths, time = make_unit(model, coils=1), [], 0
+    unit.initialise(0)
+    drive = drive_of(unit)
+    for voltage in (0.0, 1.0, 0.0):
+        for _ in range(600):
+            k, rest = unit.get("stiffness")[0], unit.get("rest_length")[0]
+            length = np.clip((150.0 * 0.0585 + k * rest) / (150.0 + k), 0.030, 0.033)
+            if "tension" in unit.variables:
+                unit.set("tension", np.array([k * max(length - rest, 0.0)]))
+            unit.set(drive, np.array([voltage if drive == "voltage" else voltage**2 / unit.get("resistance")[0]]))
+            unit.do_step(time, 10 * STEP)
+            time += 10 * STEP
+        lengths.append(length)
+    assert lengths == [0.033, 0.030, 0.033]
 
 
 def test_the_maximum_of_the_instant_model_is_equation_2_at_70_degrees():
