@@ -168,6 +168,7 @@ class Server:
         """Initialise at `first`."""
         self.take_inputs(request)
         self.unit.initialise(request.first)
+        self.put_inputs()  # what was not set is the FMU's own start value
         return self.done()
 
     def exit_initialisation(self, request: Frame) -> Frame:

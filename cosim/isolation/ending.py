@@ -27,7 +27,7 @@ class Ending:
     Args:
         status: As `os.waitpid` gives it; None: somebody else has waited for it.
         function: FMI function that was being called; empty: none, or not known.
-        doing: What the unit was asked to do, for example `stepping`.
+        doing: What the unit was asked to do, for example `its step`.
         memory: Largest memory that was seen [byte].
         said: Last bytes of its standard output and error.
     """
@@ -40,7 +40,7 @@ class Ending:
 
     def text(self, limits: Limits) -> str:
         """What happened, where, with which memory, and what it printed last."""
-        where = f"in {self.function}" if self.function else f"while {self.doing}"
+        where = f"in {self.function}" if self.function else f"during {self.doing}"
         return (
             f"its process {self._how()} {where}{memory_used(self.memory, limits, always=True)}{last_lines(self.said)}"
         )

@@ -78,19 +78,21 @@ class Channel:
         read: Descriptor of the pipe that is read.
         write: Descriptor of the pipe that is written.
         output: Descriptor of a pipe whose content is kept as `said` while waiting; None: there is none.
+        ended: Descriptor that becomes readable when the other process ends; None: only the closed pipe tells, which a
+            process that the other one has started may keep open.
     """
 
     #: Bytes of `output` that are kept: its last lines.
     KEPT = 8192
 
-    def __init__(self, read: int, write: int, output: int | None = None) -> None:
-        self._read, self._write, self._output = read, write, output
+    def __init__(self, read: int, write: int, output: int | None = None, ended: int | None = None) -> None:
+        self._read, self._write, self._output, self._ended = read, write, output, ended
         self.said = b""
         self._poll = select.poll()
-        for descriptor in (read, *([output] if output is not None else [])):
-            os.set_blocking(descriptor, False)
+        for descriptor in _present(read, output, ended):
             self._poll.register(descriptor, select.POLLIN)
-        os.set_blocking(write, False)
+        for descriptor in _present(read, write, output):
+            os.set_blocking(descriptor, False)
         self._writable = select.poll()
         self._writable.register(write, select.POLLOUT)
 
@@ -131,7 +133,9 @@ class Channel:
         return Frame(Kind(kind), first, second, pickle.loads(b"".join(parts)[_HEADER.size :]))
 
     def _read_some(self, deadline: float | None) -> bytes:
-        while self._read not in [descriptor for descriptor, _ in self._wait(deadline)]:
+        while self._read not in (ready := [descriptor for descriptor, _ in self._wait(deadline)]):
+            if self._ended in ready:
+                raise Closed
             self.keep_output()
         data = os.read(self._read, _CHUNK)
         if not data:
@@ -168,9 +172,13 @@ class Channel:
 
     def close(self) -> None:
         """Close all descriptors."""
-        for descriptor in (self._read, self._write, *([self._output] if self._output is not None else [])):
+        for descriptor in _present(self._read, self._write, self._output, self._ended):
             os.close(descriptor)
-        self._output = None
+        self._output = self._ended = None
+
+
+def _present(*descriptors: int | None) -> list[int]:
+    return [d for d in descriptors if d is not None]
 
 
 def failure(error: Exception) -> dict[str, Any]:

@@ -47,10 +47,10 @@ class IsolatedProcess:
         self.failure = ""
         self._status: int | None = None
         self._is_reaped = False
-        self._largest = 0
+        self._largest, self._first_largest = 0, sys.maxsize
         self._start("" if folder is None else str(folder.resolve()))
         try:
-            ready = self._receive("starting", None, START_LIMIT)
+            ready = self._receive("its start", None, START_LIMIT)
         except BaseException:
             self.end()
             raise
@@ -83,7 +83,8 @@ class IsolatedProcess:
             raise UnitError(self.unit, f"its process cannot be started: {error}") from error
         for descriptor in (requests[0], replies[1], output[1]):
             os.close(descriptor)
-        self._channel = Channel(replies[0], requests[1], output[0])
+        ended = os.pidfd_open(self._process.pid) if hasattr(os, "pidfd_open") else None
+        self._channel = Channel(replies[0], requests[1], output[0], ended)
 
     def send(self, frame: Frame, doing: str, time: int | None) -> None:
         """Send a request; see `ask`."""
@@ -142,8 +143,7 @@ class IsolatedProcess:
         function = self.header.function
         self._wait_until_dead()
         self.end()
-        memory = max(self.header.memory, self._largest)
-        self.failure = Ending(self._status, function, doing, memory, self._channel.said).text(self.limits)
+        self.failure = Ending(self._status, function, doing, self._largest, self._channel.said).text(self.limits)
         return UnitError(self.unit, self.failure, time)
 
     def _timed_out(self, doing: str, time: int | None, limit: float) -> UnitError:
@@ -172,19 +172,22 @@ class IsolatedProcess:
         if self._is_reaped:
             return
         self._is_reaped = True
+        self._largest = self.header.memory
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)
         try:
             _, self._status, usage = os.wait4(self._process.pid, 0)
             largest = usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
-            # The figure begins with the size of the simulation itself, of which the process was once a copy.
-            self._largest = largest if largest > getattr(self, "_first_largest", largest) else 0
+            # This figure begins with the size of the simulation itself, of which the process was once a copy.
+            if largest > self._first_largest:
+                self._largest = max(self._largest, largest)
         except ChildProcessError:  # a signal handler of somebody else has waited for it
             self._status = None
         self._process.returncode = 0 if self._status is None else os.waitstatus_to_exitcode(self._status)
         while self._channel.keep_output():
             pass
         self._channel.close()
+        self.header.close()
         os.close(self.memory)
 
 

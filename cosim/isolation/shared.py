@@ -58,6 +58,10 @@ class Header:
     def memory(self, size: int) -> None:
         self.map[_MEMORY] = size.to_bytes(8, "little")
 
+    def close(self) -> None:
+        """Unmap it."""
+        self.map.close()
+
 
 def function_label(name: str) -> bytes:
     """What to write to the begin of the header while the function is called."""

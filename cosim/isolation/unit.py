@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
+from cosim.fmu.buffers import element_text
 from cosim.isolation.limits import Limits
 from cosim.isolation.message import STATUSES, Frame, Kind
 from cosim.isolation.process import IsolatedProcess
@@ -47,7 +48,7 @@ class IsolatedUnit(Unit):
         self._is_stepping = False
         try:
             request = Frame(Kind.CONSTRUCT, payload=(build, limits.memory_limit))
-            facts = self._process.ask(request, "it was loaded", None).payload
+            facts = self._process.ask(request, "its construction", None).payload
         except BaseException:
             self._process.end()
             raise
@@ -88,8 +89,7 @@ class IsolatedUnit(Unit):
         array = self._arrays[name]
         array[...] = value
         if name in self._floats and not np.isfinite(array).all():
-            where = _element(array, self.variables[name].first_index)
-            raise UnitError(self.name, f"input {name}{where} is not a finite number")
+            raise UnitError(self.name, f"input {name}{element_text(array)} is not a finite number")
         if name in self._shared.texts:
             self._texts[name] = array.copy()
         self._shared.changed[self._indices[name]] = 1
@@ -97,28 +97,28 @@ class IsolatedUnit(Unit):
     def get(self, name: str) -> AnyArray:
         """Live array of a variable."""
         if name not in self._kept:
-            self._ask(Kind.FETCH, f"{name} was read", rest=name)
+            self._ask(Kind.FETCH, f"the reading of {name}", rest=name)
             self._kept.add(name)
         return self._arrays[name]
 
     def initialise(self, time: int) -> None:
         """Initialise at `time` [ns]."""
         self._time = time
-        self._ask(Kind.INITIALISE, "it was initialised", time)
+        self._ask(Kind.INITIALISE, "its initialisation", time)
 
     def exit_initialisation(self) -> None:
         """All start values have been exchanged."""
-        self._ask(Kind.EXIT_INITIALISATION, "it left initialisation")
+        self._ask(Kind.EXIT_INITIALISATION, "the end of its initialisation")
 
     def refresh(self) -> None:
         """Outputs follow inputs; nothing is asked where no output depends directly on an input."""
         if self.feedthrough or self.initial_feedthrough:
-            self._ask(Kind.REFRESH, "its outputs were updated")
+            self._ask(Kind.REFRESH, "the update of its outputs")
 
     def begin_step(self, time: int, size: int) -> None:
         """Let it step, and do not wait: `finish_step` is the next call."""
         self._time = time
-        self._send(Kind.DO_STEP, "it stepped", time, size)
+        self._send(Kind.DO_STEP, "its step", time, size)
         self._is_stepping = True
 
     def finish_step(self) -> StepOutcome:
@@ -128,7 +128,7 @@ class IsolatedUnit(Unit):
             UnitError: It cannot go on, crashed or did not return in time.
         """
         self._is_stepping = False
-        reply, message = self._receive("it stepped")
+        reply, message = self._receive("its step")
         self._time = reply.second
         return StepOutcome(STATUSES[reply.first], reply.second, message or "")
 
@@ -139,28 +139,28 @@ class IsolatedUnit(Unit):
 
     def save(self) -> int:
         """A number under which the other process keeps the state."""
-        return self._ask(Kind.SAVE, "its state was saved")[0].first
+        return self._ask(Kind.SAVE, "the saving of its state")[0].first
 
     def restore(self, saved: int, time: int) -> None:
         """Return to a saved state; the values last set are gone."""
         self._texts = {}
         self._time = time
-        self._ask(Kind.RESTORE, "its state was restored", time, saved)
+        self._ask(Kind.RESTORE, "the return to a saved state", time, saved)
 
     def release(self, saved: int) -> None:
         """Let the other process free the state; nothing where that process has ended."""
         if not self._process.failure:
-            self._ask(Kind.RELEASE, "its state was freed", 0, saved)
+            self._ask(Kind.RELEASE, "the release of a saved state", 0, saved)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
         """The unit's own checkpoint."""
-        state: dict[str, npt.NDArray[np.generic]] = self._ask(Kind.CHECKPOINT, "its checkpoint was made")[1]
+        state: dict[str, npt.NDArray[np.generic]] = self._ask(Kind.CHECKPOINT, "its checkpoint")[1]
         return state
 
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
         """Continue from the unit's own checkpoint."""
         self._time = time
-        self._ask(Kind.RESUME, "it was resumed", time, rest=dict(state))
+        self._ask(Kind.RESUME, "its resumption", time, rest=dict(state))
 
     def terminate(self) -> None:
         """End the process and remove the extracted files; safe to call twice.
@@ -171,7 +171,7 @@ class IsolatedUnit(Unit):
             try:
                 if self._is_stepping:
                     self.finish_step()
-                self._ask(Kind.TERMINATE, "it was terminated")
+                self._ask(Kind.TERMINATE, "its termination")
                 self._process.finish()
             except (UnitError, InputError) as error:
                 _LOG.warning("warning: %s; the results are not affected", error)
@@ -179,9 +179,3 @@ class IsolatedUnit(Unit):
                 self._process.end()
         if self.archive is not None:
             self.archive.remove()
-
-
-def _element(array: AnyArray, first: int) -> str:
-    if not array.ndim:
-        return ""
-    return str([int(i) + first for i in np.argwhere(~np.isfinite(array))[0]])

@@ -1,0 +1,1 @@
+"""Units in processes of their own."""
