@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from cosim.commands import fmu
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
@@ -25,6 +26,8 @@ app = typer.Typer(
     help="Co-simulation of active chainmail: ngspice, actuator FMUs and Bullet behind one algorithm.",
     epilog="Begin with `cosim list`, then `cosim run single_coil_heating`. See docs/ for the file formats.",
 )
+
+app.add_typer(fmu.app, name="fmu")
 
 ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
 

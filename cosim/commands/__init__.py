@@ -1,0 +1,1 @@
+"""Groups of sub-commands of the command line."""

@@ -1,0 +1,69 @@
+"""`cosim fmu build` and `cosim fmu export`."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+from cosim.errors import InputError
+from cosim.fmu_assembly import fmu_folder
+from cosim.fmu_tools.build_c import build_c, model_identifier
+from cosim.fmu_tools.build_python import build_python, class_name
+from cosim.fmu_tools.sources import Language, find_source, language_of, shipped_actuators
+
+#: The size for which `make fmus` builds, and which file names leave out.
+DEFAULT_COILS = 36
+
+
+def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path, list[str]]:
+    """Build the FMU of a shipped actuator or of a folder.
+
+    Args:
+        given: Name of a shipped actuator, or a folder.
+        version: FMI version, 2 or 3.
+        coils: Number of coils.
+        out: A folder, or a file that ends in .fmu; default: where scenarios find shipped actuators by name, or the
+            folder itself.
+
+    Returns:
+        The file and the compiler's warnings.
+
+    Raises:
+        InputError: It cannot be built.
+    """
+    folder = find_source(given)
+    language = language_of(folder)
+    if language is Language.PYTHON:
+        target = _target(class_name(folder), version, coils, out or folder)
+        return target, build_python(folder, version, coils, target)
+    name = model_identifier(folder)
+    target = _target(name, version, coils, out or _default_folder(folder))
+    return target, build_c(folder, version, coils, target)
+
+
+def export(name: str, version: int, coils: int, out: Path) -> Path:
+    """The FMU of a shipped actuator for other tools, with its sources and licence inside.
+
+    Raises:
+        InputError: There is no such actuator, or it cannot be built.
+    """
+    if name not in shipped_actuators():
+        raise InputError(name, "", "there is no such actuator", f"one of: {', '.join(shipped_actuators())}")
+    target, _ = build(name, version, coils, out)
+    with zipfile.ZipFile(target) as archive:
+        wanted = {"sources/model.c", "documentation/licenses/license.txt", "documentation/index.html"}
+        missing = wanted - set(archive.namelist())
+    if missing:
+        raise InputError(target, "", f"it lacks {', '.join(sorted(missing))}", "repair the actuator's folder in fmus/")
+    return target
+
+
+def _default_folder(folder: Path) -> Path:
+    return fmu_folder() if folder.resolve() in {f.resolve() for f in shipped_actuators().values()} else folder
+
+
+def _target(name: str, version: int, coils: int, out: Path) -> Path:
+    """As fmus/Makefile names them: an FMI 3.0 FMU takes any size, so the size is no part of its name by default."""
+    if out.suffix == ".fmu":
+        return out
+    return out / f"{name}_fmi{version}{'' if coils == DEFAULT_COILS else f'_n{coils}'}.fmu"

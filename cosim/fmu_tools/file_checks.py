@@ -1,0 +1,108 @@
+"""Checks of an FMU that execute nothing in it: description, binary, symbols, libraries, interface."""
+
+from __future__ import annotations
+
+import platform
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import fmpy
+from fmpy.validation import validate_fmu
+
+from cosim.actuator.interface import faults
+from cosim.fmu.archive import FmuArchive, open_fmu
+from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.units import UnitNames
+from cosim.fmu_tools.info import looks_like_actuator
+from cosim.fmu_tools.isolated import Skipped
+
+
+def description(path: Path) -> str:
+    """modelDescription.xml passes fmpy's validation (schema, references, units, start values)."""
+    problems = validate_fmu(str(path))
+    if problems:
+        raise ValueError("; ".join(" ".join(p.split()) for p in problems[:3]))
+    return "fmpy finds no problems"
+
+
+def _binary(archive: FmuArchive) -> Path:
+    d = archive.description
+    kind = d.coSimulation or d.modelExchange
+    for folder in (fmpy.platform_tuple, fmpy.platform):
+        file: Path = archive.directory / "binaries" / folder / f"{kind.modelIdentifier}{fmpy.sharedLibraryExtension}"
+        if file.is_file():
+            return file
+    raise ValueError(f"no {kind.modelIdentifier}{fmpy.sharedLibraryExtension} for {fmpy.platform_tuple}")
+
+
+def binary(path: Path) -> str:
+    """There is a shared library for this platform, named after the model identifier."""
+    archive = open_fmu(path)
+    try:
+        return str(_binary(archive).relative_to(archive.directory))
+    finally:
+        archive.remove()
+
+
+def symbols(path: Path) -> str:
+    """The library exports the functions of its FMI version."""
+    if shutil.which("nm") is None or platform.system() != "Linux":
+        raise Skipped("needs nm on Linux")
+    archive = open_fmu(path)
+    try:
+        listing = subprocess.run(["nm", "-D", "--defined-only", _binary(archive)], capture_output=True, text=True,
+                                 check=True).stdout  # fmt: skip
+    finally:
+        archive.remove()
+    exported = {line.split()[-1] for line in listing.splitlines() if line}
+    version = archive.description.fmiVersion[0]
+    header = (Path(fmpy.__file__).parent / "c-code" / f"fmi{version}Functions.h").read_text()
+    wanted = set(re.findall(rf"#define (fmi{version}\w+)\s+fmi{version}FullName\(fmi{version}\w+\)", header))
+    missing = sorted(wanted - exported)
+    if missing:
+        raise ValueError(f"{len(missing)} of {len(wanted)} functions are missing: {', '.join(missing[:4])}")
+    others = len(exported - wanted)
+    return f"all {len(wanted)} functions of FMI {version}" + (f", and {others} other symbols" if others else "")
+
+
+def libraries(path: Path) -> str:
+    """Every library that the binary needs is found."""
+    if shutil.which("ldd") is None:
+        raise Skipped("needs ldd")
+    archive = open_fmu(path)
+    try:
+        done = subprocess.run(["ldd", _binary(archive)], capture_output=True, text=True, check=False)
+    finally:
+        archive.remove()
+    missing = [line.split()[0] for line in done.stdout.splitlines() if "not found" in line]
+    if missing:
+        raise ValueError(f"not found: {', '.join(missing)}")
+    needed = [line.split()[0] for line in done.stdout.splitlines() if "=>" in line]
+    return "needs " + (", ".join(needed) or "nothing")
+
+
+def is_actuator(path: Path) -> bool:
+    """Whether its outputs say that it is meant to be an actuator."""
+    archive = open_fmu(path)
+    try:
+        found = fmu_variables(archive.description, {}, UnitNames(archive.description))
+    finally:
+        archive.remove()
+    return looks_like_actuator(set(found))
+
+
+def interface(path: Path) -> str:
+    """It has the interface of an actuator."""
+    if not is_actuator(path):
+        raise Skipped("no actuator: it has none of the outputs stiffness, rest_length, resistance")
+    archive = open_fmu(path)
+    try:
+        found = fmu_variables(archive.description, {}, UnitNames(archive.description))
+    finally:
+        archive.remove()
+    wrong = faults({n: v.variable for n, v in found.items()})
+    if wrong:
+        raise ValueError("; ".join(wrong))
+    return "interchangeable with the shipped actuators"
