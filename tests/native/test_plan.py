@@ -1,0 +1,281 @@
+"""The native loop and the loop in Python do the same, to the last bit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from cosim.connection import Connection
+from cosim.native.plan import Grid
+from cosim.native.planning import NoPlan, Watch, native_plan
+from cosim.observers.trace import Trace
+from cosim.programme import Course as ProgrammeCourse
+from cosim.programme import ProgrammeUnit
+from cosim.system import System
+from cosim.unit import StepStatus
+from tests.cosim.scripted import Relaxation
+from tests.native.both_loops import Course, fmu, run
+from tests.native.scripted_fmu import Fault
+
+BOTH_VERSIONS = pytest.mark.parametrize("version", [2, 3])
+BOTH_KINDS = pytest.mark.parametrize("kind", ["jacobi", "gauss_seidel"])
+MS = 1_000_000
+
+
+def compare(make, course, hand_over=0):
+    """Run both loops; returns the native result."""
+    native = run(make, course, is_native=True, hand_over=hand_over)
+    native.check_equals(run(make, course, is_native=False))
+    return native
+
+
+def loop_of_two(scripted, version, **fault):
+    """Two FMUs that feed each other with every type, scaled, by whole arrays and by elements."""
+
+    def make():
+        first = fmu("first", scripted[version], rate=3.0, gain=0.5)
+        second = fmu("second", scripted[version], rate=7.0, **fault)
+        return System(
+            {"first": first, "second": second},
+            [
+                Connection(("first", "y"), ("second", "u"), 1.7, 0.3),
+                Connection(("second", "y"), ("first", "u")),
+                Connection(("first", "ya"), ("second", "ua"), -0.9, 0.1),
+                Connection(("second", "ya"), ("first", "ua"), source_element=(2,), target_element=(0,)),
+                Connection(("second", "y"), ("first", "ua"), 2.0, 0.0, target_element=(1,)),
+                Connection(("second", "z"), ("first", "ua"), target_element=(2,)),
+                Connection(("first", "yf"), ("second", "uf"), 0.25, 0.125),
+                Connection(("second", "yf"), ("first", "uf")),
+                Connection(("first", "yi"), ("second", "ui")),
+                Connection(("second", "yb"), ("first", "ub")),
+                Connection(("first", "yb"), ("second", "ub")),
+            ],
+        )
+
+    return make
+
+
+@BOTH_VERSIONS
+@BOTH_KINDS
+@pytest.mark.parametrize("per_record", [1, 7])
+def test_all_types_scaled_and_by_element(scripted, version, kind, per_record):
+    native = compare(loop_of_two(scripted, version), Course(kind, steps=84, per_record=per_record))
+    assert native.native_share == 1.0
+    assert native.index == 84
+    assert len(native.rows["first.y"]) == 84 // per_record + 1
+    assert native.rows["second.yi"].max() > 0
+    assert 0.05 < native.rows["first.y"][-1] < 1.0
+
+
+@BOTH_VERSIONS
+@BOTH_KINDS
+@pytest.mark.parametrize("fault", [f for f in Fault if f not in (Fault.NONE, Fault.WARNING)])
+def test_every_fault_ends_the_run_with_the_same_text_at_the_same_step(scripted, version, kind, fault):
+    if version == 2 and fault is Fault.EARLY:
+        pytest.skip("FMI 2.0 has no early return")
+    native = compare(loop_of_two(scripted, version, moment=0.155, kind=float(fault)), Course(kind, steps=40))
+    assert native.index in (15, 16)
+    assert "second" in native.ending
+
+
+@BOTH_VERSIONS
+def test_what_an_error_says(scripted, version):
+    cases = {
+        Fault.STEP_ERROR: f"second at t = 0.16 s: fmi{version}DoStep returned error: the step fails on command",
+        Fault.NAN_ELEMENT: "second at t = 0.16 s: output ya[2] is not a finite number",
+        Fault.SET_ERROR: "ua) returned error: refused on command, through first.ya -> second.ua",
+    }
+    for fault, text in cases.items():
+        native = compare(loop_of_two(scripted, version, moment=0.155, kind=float(fault)), Course(steps=40))
+        assert text in native.ending
+
+
+@BOTH_VERSIONS
+def test_a_warning_does_not_stop_the_run(scripted, version):
+    native = compare(loop_of_two(scripted, version, moment=0.1, kind=float(Fault.WARNING)), Course(steps=40))
+    assert (native.index, native.ending, native.native_share) == (40, "", 1.0)
+
+
+@BOTH_VERSIONS
+def test_an_infinite_input_is_named_with_its_connection(scripted, version):
+    def make():
+        source = ProgrammeUnit("big", {"y": held([0, 50 * MS], [1.0, np.inf])})
+        units = {"big": source, "first": fmu("first", scripted[version])}
+        return System(units, [Connection(("big", "y"), ("first", "u"))], frozenset({"big"}))
+
+    native = compare(make, Course(steps=20))
+    assert native.index == 5
+    assert "first: input u is not a finite number, through big.y -> first.u" in native.ending
+
+
+@BOTH_VERSIONS
+@BOTH_KINDS
+@pytest.mark.parametrize("hand_over", [1, 2, 5])
+def test_python_can_go_on_after_any_step_and_hand_back(scripted, version, kind, hand_over):
+    native = compare(loop_of_two(scripted, version), Course(kind, steps=30), hand_over)
+    assert native.index == 30
+
+
+def held(times, values):
+    return ProgrammeCourse(tuple(times), np.array(values, dtype=float), "1", None, is_linear=False)
+
+
+def linear(times, values):
+    return ProgrammeCourse(tuple(times), np.array(values, dtype=float), "1", None, is_linear=True)
+
+
+@BOTH_KINDS
+def test_programmes_held_and_linear(scripted, kind):
+    def make():
+        three = ProgrammeCourse((0, 30 * MS), np.array([[1.0, 2.0, 3.0], [0.1, -0.7, 1e-3]]), "1", "coil", True)
+        courses = {"step": held([0, 20 * MS, 70 * MS], [0.0, 1.0, 0.3]), "constant": held([0], [4.0]),
+                   "ramp": linear([-5 * MS, 33 * MS, 34 * MS, 90 * MS], [0.1, 1.7, -0.3, 0.7]),
+                   "three": three}  # fmt: skip
+        units = {"given": ProgrammeUnit("given", courses), "first": fmu("first", scripted[3])}
+        wires = [Connection(("given", "step"), ("first", "u")), Connection(("given", "three"), ("first", "ua"))]
+        return System(units, wires, frozenset({"given"}))
+
+    native = compare(make, Course(kind, start=-20 * MS, size=3 * MS, steps=50))
+    assert native.native_share == 1.0
+    assert native.rows["given.step"][[14, 15, 31]].tolist() == [0.0, 1.0, 0.3]
+    # the middle of the step from -20 ms to -17 ms lies before the first point, that of the last after the last
+    assert (native.rows["given.ramp"][1], native.rows["given.ramp"][-1]) == (0.1, 0.7)
+    assert native.rows["given.constant"][-1] == 4.0
+
+
+@given(
+    points=st.lists(
+        st.tuples(st.integers(-(2**40), 2**40), st.floats(-1e9, 1e9)), min_size=2, max_size=6, unique_by=lambda p: p[0]
+    ),
+    size=st.integers(1, 2**36),
+    start=st.integers(-(2**40), 2**40),
+)
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_linear_course_has_the_bits_of_numpy(scripted, points, size, start):
+    times, values = zip(*sorted(points))
+
+    def make():
+        units = {"given": ProgrammeUnit("given", {"y": linear(times, values)}), "first": fmu("first", scripted[2])}
+        return System(units, [Connection(("given", "y"), ("first", "u"))], frozenset({"given"}))
+
+    native = compare(make, Course("gauss_seidel", start, size, steps=12))
+    assert native.index == 12
+
+
+ENDS = ["u", "ua", "ua[0]", "ua[2]", "uf", "ui", "ub"]
+WIRES = st.tuples(
+    st.sampled_from(["y", "z", "ya", "ya[1]", "yf", "yi", "yb"]),
+    st.sampled_from(ENDS),
+    st.integers(0, 3),
+    st.integers(0, 3),
+    st.sampled_from([(1.0, 0.0), (0.5, 0.0), (-0.7, 0.3), (1.0, 1e-3)]),
+)
+
+
+def _end(text):
+    name, _, rest = text.partition("[")
+    return name, (int(rest[:-1]),) if rest else None
+
+
+def _wires(system_units, drawn):
+    """The drawn connections that fit the system, one into each input."""
+    wires, taken = [], set()
+    for output, target, source, into, (factor, offset) in drawn:
+        names = list(system_units)
+        source_name, into_name = names[source % len(names)], names[into % len(names)]
+        (left, left_element), (right, right_element) = _end(output), _end(target)
+        if source_name == into_name or (into_name, right) in taken:
+            continue
+        wire = Connection((source_name, left), (into_name, right), factor, offset, left_element, right_element)
+        try:
+            System(system_units, [*wires, wire])
+        except ValueError:  # types or shapes do not fit, or an algebraic loop of values that cannot be solved for
+            continue
+        wires.append(wire)
+        taken.add((into_name, right))
+    return wires
+
+
+@given(
+    versions=st.lists(st.sampled_from([2, 3]), min_size=1, max_size=4),
+    drawn=st.lists(WIRES, max_size=12),
+    kind=st.sampled_from(["jacobi", "gauss_seidel"]),
+    fault=st.sampled_from(list(Fault)),
+    per_record=st.integers(1, 4),
+    start=st.integers(-3, 3),
+    hand_over=st.sampled_from([0, 0, 3]),
+)
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_system_of_scripted_fmus(scripted, versions, drawn, kind, fault, per_record, start, hand_over):
+    def make():
+        moment = start + 0.035
+        units = {f"u{i}": fmu(f"u{i}", scripted[v], rate=1.0 + i, gain=0.5) for i, v in enumerate(versions)}
+        last = f"u{len(versions) - 1}"
+        units[last].terminate()
+        units[last] = fmu(last, scripted[versions[-1]], gain=0.5, moment=moment, kind=float(fault))
+        return System(units, _wires(units, drawn))
+
+    compare(make, Course(kind, start * 10**9, 5 * MS, 12, per_record), hand_over)
+
+
+def test_units_without_a_native_form_are_called_in_their_place(scripted):
+    def make():
+        units = {"first": fmu("first", scripted[3], rate=5.0), "python": Relaxation("python", 2.0, 1.0),
+                 "second": fmu("second", scripted[2], rate=4.0)}  # fmt: skip
+        wires = [Connection(("first", "y"), ("python", "input")), Connection(("python", "state"), ("second", "u")),
+                 Connection(("second", "y"), ("first", "u"))]  # fmt: skip
+        return System(units, wires)
+
+    for kind in ("jacobi", "gauss_seidel"):
+        native = compare(make, Course(kind, steps=25, per_record=5))
+        assert 0.0 < native.native_share < 1.0
+        assert native.index == 25
+
+
+def test_a_system_without_fmus_has_no_plan():
+    system = System({"a": Relaxation("a", 1.0, 0.0, feedback_start=1.0)}, [])
+    with pytest.raises(NoPlan, match="no component is a Co-Simulation FMU"):
+        native_plan(system, "jacobi", Grid(0, MS, 1), Watch(Trace(system, range(0, 2 * MS, MS))))
+
+
+def test_times_that_a_double_cannot_hold_have_no_plan(scripted):
+    system = System({"a": fmu("a", scripted[3])}, [])
+    with pytest.raises(NoPlan, match="104 days"):
+        native_plan(system, "jacobi", Grid(0, MS, 1), Watch(Trace(system, range(0, 2**55, 2**54 - 1))))
+    system.terminate()
+
+
+def test_the_end_is_reached_exactly_after_a_million_steps(scripted):
+    """A sum of steps of 1 us would miss 1 s by several nanoseconds; the count of steps does not."""
+    system = System({"a": fmu("a", scripted[3])}, [])
+    system.initialise(0, {})
+    plan = native_plan(system, "jacobi", Grid(0, 1000), Watch(Trace(system, range(0, 1, 1))))
+    index = 0
+    while index < 1_000_000:
+        outcome = plan.advance(index, 1_000_000)
+        index = plan.index
+    system.terminate()
+    assert (outcome.status, outcome.time) == (StepStatus.OK, 10**9)
+
+
+def test_callbacks_run_after_every_step_and_every_record(scripted):
+    system = System({"a": fmu("a", scripted[3])}, [])
+    system.initialise(0, {})
+    trace = Trace(system, range(0, 12 * MS + 1, 4 * MS))
+    seen = {"step": [], "record": []}
+    watch = Watch(trace, lambda: seen["step"].append(float(system.units["a"].get("yi"))),
+                  lambda: seen["record"].append(float(system.units["a"].get("yi"))))  # fmt: skip
+    plan = native_plan(system, "jacobi", Grid(0, MS, 4), watch)
+    plan.advance(0, 12)
+    system.terminate()
+    assert seen["step"] == [7.0 * i for i in range(1, 13)]
+    assert seen["record"] == [28.0, 56.0, 84.0]
+
+
+def test_wall_time_is_shared_out_among_the_units(scripted):
+    """All that the loop takes is the units' and its own; a unit's part cannot exceed the whole."""
+    make = loop_of_two(scripted, 3)
+    native = run(make, Course(steps=4000), is_native=True)
+    assert all(spent > 0.0 for spent in native.wall_time.values())
