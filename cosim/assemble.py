@@ -34,6 +34,7 @@ from cosim.connection import Connection, ConnectionFault, Element
 from cosim.errors import InputError
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
+from cosim.isolation.unit import IsolatedUnit
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
@@ -137,7 +138,7 @@ def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
     for name, unit in units.items():
         if isinstance(unit, CircuitUnit):
             found["ngspice"] = str(ngspice().version)
-        elif isinstance(unit, FmuUnit):
+        elif isinstance(unit, FmuUnit | IsolatedUnit) and unit.archive is not None:
             digest = hashlib.sha256(unit.archive.path.read_bytes()).hexdigest()
             found[f"FMU of {name}"] = f"{unit.archive.path.name}, sha256 {digest}"
     return found
