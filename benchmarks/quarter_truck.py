@@ -69,9 +69,9 @@ def main(arguments: list[str] | None = None) -> None:
     del arguments
     build()
     lines = [heading("Quarter truck: height of the chassis at 2 s", "python -m benchmarks.quarter_truck"),
-             "Chassis 400 kg on 15 kN/m and 1 kN s/m, wheel 40 kg on 150 kN/m without damping. The ground steps by 0.1 m",
-             "at 1 s, its derivative behind a 10 Hz filter. Start: chassis at 1 m, wheel at 0.5 m, at rest, springs",
-             "compressed by the weights. One monolithic solution of all equations (SciPy DOP853): "
+             "Chassis 400 kg on 15 kN/m and 1 kN s/m, wheel 40 kg on 150 kN/m without damping. The ground steps by",
+             "0.1 m at 1 s, its derivative behind a 10 Hz filter. Start: chassis at 1 m, wheel at 0.5 m, at rest,",
+             "springs compressed by the weights. One monolithic solution of all equations (SciPy DOP853): "
              f"{monolithic():.9f} m.",
              ]  # fmt: skip
     for version, kind in ((2, "jacobi"), (2, "gauss_seidel"), (3, "jacobi")):

@@ -31,7 +31,8 @@ def load(folder: Path) -> Model:
     """Model of one folder."""
     data = tomllib.loads((folder / "model.toml").read_text())
     token = str(uuid.uuid5(uuid.NAMESPACE_URL, folder.name + (folder / "model.toml").read_text()))
-    return Model(folder.name, data["description"], token, tuple(data["fmi"]), data["variables"])
+    events = data.get("events", False)
+    return Model(folder.name, data["description"], token, tuple(data["fmi"]), data["variables"], events)
 
 
 def build_one(folder: Path, version: int, into: Path) -> Path:

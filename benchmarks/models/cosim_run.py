@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import yaml
 from benchmarks.models.systems import System
 from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
+
+MODELS = Path(__file__).resolve().parent
 
 
 def scenario(system: System, version: int, step: float, kind: str = "jacobi", output_step: float | None = None) -> Any:
@@ -31,7 +34,11 @@ def scenario(system: System, version: int, step: float, kind: str = "jacobi", ou
     for wire in system.connections:
         components[wire.target].setdefault("start", {})[wire.input] = 0.0
     for (name, variable), value in system.start.items():
-        components[name].setdefault("start", {})[variable] = value
+        row = tomllib.loads((MODELS / system.components[name] / "model.toml").read_text())["variables"][variable]
+        key = "parameters" if row["causality"] == "parameter" else "start"
+        components[name].setdefault(key, {})[variable] = (
+            f"{value!r} {'' if row['unit'] == '1' else row['unit']}".strip()
+        )
     return {
         "title": "measured system",
         "time": {"stop": f"{system.stop:.9g} s", "macro_step": f"{step * 1e9:.0f} ns",

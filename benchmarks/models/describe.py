@@ -26,6 +26,7 @@ class Model:
         versions: FMI versions to build.
         variables: Name to causality, unit, start, size, depends and description; value references count from 1 in
             this order, 0 is time.
+        has_events: Whether it has time events.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Model:
     token: str
     versions: tuple[int, ...]
     variables: dict[str, dict[str, Any]]
+    has_events: bool = False
 
     def reference(self, name: str) -> int:
         """Value reference of a variable."""
@@ -74,8 +76,7 @@ def describe(model: Model, version: int) -> str:
     interface.set("canGetAndSetFMUstate" if version == FMI2 else "canGetAndSetFMUState", "true")
     interface.set("canSerializeFMUstate" if version == FMI2 else "canSerializeFMUState", "true")
     if version == FMI3:
-        interface.set("hasEventMode", "true")
-        interface.set("canReturnEarlyAfterIntermediateUpdate", "false")
+        interface.set("hasEventMode", str(model.has_events).lower())
     _units(root)
     variables = ET.SubElement(root, "ModelVariables")
     (_variables2 if version == FMI2 else _variables3)(model, variables)

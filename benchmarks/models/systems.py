@@ -88,4 +88,41 @@ TWO_MASS = System(
     start={},
 )
 
-SYSTEMS = {"chain": CHAIN, "quarter_truck": QUARTER_TRUCK, "two_mass": TWO_MASS}
+#: y = u / 2 + 1 twice, in a circle: an algebraic loop whose one solution is y = 2.
+LOOP = System(
+    components={"first": "feedthrough", "second": "feedthrough"},
+    connections=(Connection("first", "y", "second", "u"), Connection("second", "y", "first", "u")),
+    outputs=(("first", "y"), ("second", "y")),
+    step=1e-3,
+    stop=1e-3,
+    start={(n, v): value for n in ("first", "second") for v, value in (("gain", 0.5), ("offset", 1.0))},
+)
+
+#: A force [N] into a velocity [m/s]: a tool that checks units refuses it.
+WRONG_UNITS = System(
+    components={"chassis": "chassis", "wheel": "wheel"},
+    connections=(Connection("chassis", "force", "wheel", "velocity_in"),),
+    outputs=(("wheel", "z"),),
+    step=1e-3,
+    stop=1e-2,
+    start={},
+)
+
+#: The second FMU aborts its process at 0.5 s.
+CRASH = System(
+    components={"first": "feedthrough", "second": "crasher"},
+    connections=(Connection("first", "y", "second", "u"),),
+    outputs=(("second", "y"),),
+    step=1e-3,
+    stop=1.0,
+    start={("first", "u"): 3.0},
+)
+
+SYSTEMS = {
+    "loop": LOOP,
+    "wrong_units": WRONG_UNITS,
+    "crash": CRASH,
+    "chain": CHAIN,
+    "quarter_truck": QUARTER_TRUCK,
+    "two_mass": TWO_MASS,
+}

@@ -40,7 +40,7 @@ def _interpreter(variable: str) -> str | None:
 
 
 def tools() -> list[Tool]:
-    """All tools, installed or not. PEERS_VENV and COFMUPY_VENV name virtual environments, MASTERSIM a program."""
+    """All tools, installed or not. PEERS_VENV, COFMUPY_VENV, PYFMI_VENV: folders; MASTERSIM: a program."""
     peers, cofmupy, pyfmi = (_interpreter(v) for v in ("PEERS_VENV", "COFMUPY_VENV", "PYFMI_VENV"))
     mastersim = sys.executable if shutil.which(os.environ.get("MASTERSIM", "")) else None
     return [

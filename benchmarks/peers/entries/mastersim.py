@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import subprocess
+from dataclasses import asdict, dataclass
 
 from benchmarks.peers.job import Answer, Job, answer, written
 
@@ -17,28 +18,44 @@ hFallBackLimit 1e-10 s
 hStart {step!r} s
 hOutputMin {output!r} s
 outputTimeUnit s
-adjustStepSize no
+adjustStepSize {adjust}
 preventOversteppingOfEndTime yes
-absTol 1e-6
-relTol 1e-6
-MasterMode GAUSS_JACOBI
-ErrorControlMode NONE
-maxIterations 1
+absTol {tolerance!r}
+relTol {tolerance!r}
+MasterMode {mode}
+ErrorControlMode {control}
+maxIterations {iterations}
 writeInternalVariables no
 
 """
 
 
+@dataclass(frozen=True)
+class Method:
+    """What its project file calls the algorithm."""
+
+    mode: str = "GAUSS_JACOBI"
+    control: str = "NONE"
+    iterations: int = 1
+    adjust: str = "no"
+    tolerance: float = 1e-6
+
+
 def run(job: Job) -> Answer:
     """The wall time is the one in its own summary."""
+    return run_with(job, Method())
+
+
+def run_with(job: Job, method: Method) -> Answer:
+    """Run with another algorithm."""
     system = job.wired
     lines = [f'simulator 0 0 {name} #000000 "{system.fmu(name, job.version)}"' for name in system.components]
     lines += [f"graph {c.source}.{c.output} {c.target}.{c.input}" for c in system.connections]
     lines += [f"parameter {n}.{v} {value!r}" for (n, v), value in system.start.items()]
-    output = job.step if job.csv else job.stop
-    project = job.folder / "job.msim"
-    project.write_text(PROJECT.format(stop=job.stop, step=job.step, output=output) + "\n".join(lines) + "\n")
-    subprocess.run([os.environ["MASTERSIM"], "--verbosity-level=0", "-x", project], check=True,
+    settings = PROJECT.format(stop=job.stop, step=job.step, output=job.step if job.csv else job.stop, **asdict(method))
+    (job.folder / "job.msim").write_text(settings + "\n".join(lines) + "\n")
+    program = os.environ["MASTERSIM"]
+    subprocess.run([program, "--verbosity-level=0", "-x", job.folder / "job.msim"], check=True,
                    stdout=subprocess.DEVNULL)  # fmt: skip
     summary = dict(line.split("=", 1) for line in (job.folder / "job/log/summary.txt").read_text().split())
     with (job.folder / "job/results/values.csv").open() as file:

@@ -1,0 +1,1 @@
+"""Small scripts that try one feature of one tool each and print what they found."""
