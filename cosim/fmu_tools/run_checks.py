@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -88,20 +89,23 @@ def refuses_nan(path: Path) -> str:
     inputs = [n for n, v in unit.variables.items() if v.causality is Causality.INPUT and v.type.is_float]
     if not inputs:
         raise Skipped("no floating-point input")
-    for name in inputs:
+    rest = "and the next step is good"
+    for name, bad in itertools.product(inputs, (np.nan, np.inf)):
         buffer = unit.buffers.values[name]
         before = np.array(buffer)
-        for bad in (np.nan, np.inf):
-            buffer.reshape(-1)[-1:] = bad
-            try:
-                unit.writers[name]()
-            except UnitError:
+        buffer.reshape(-1)[-1:] = bad
+        try:
+            unit.writers[name]()
+        except UnitError as error:
+            if "fatal" in error.what:  # FMI allows no further call to this instance
+                unit, rest = _begun(path), "fatally: the run ends there"
+            else:
                 buffer[...] = before
-                continue
+        else:
             raise ValueError(f"it takes {name} = {bad}")
     _advance(unit, 0, 1)
     unit.terminate()
-    return f"{', '.join(inputs)}: NaN and infinity refused, and the next step is good"
+    return f"{', '.join(inputs)}: NaN and infinity refused, {rest}"
 
 
 def refuses_wrong_order(path: Path) -> str:

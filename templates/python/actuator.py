@@ -9,10 +9,11 @@ from coil_actuator import CoilActuator, Parameter
 from pythonfmu3 import Fmi3Slave
 
 
-class my_actuator(CoilActuator, Fmi3Slave):  # the class names the FMU; pythonfmu3 looks for the word Fmi3Slave
+# The class names the FMU; pythonfmu3 looks for the word Fmi3Slave in this line.
+class my_actuator(CoilActuator, Fmi3Slave):  # noqa: N801
     summary = "Heated coils whose stiffness follows their temperature along a straight line"
 
-    #: Optional inputs that the model uses: any of voltage, tension, extension. `power` may be left out if voltage is in.
+    #: Inputs that the model uses beside ambient_temperature: power or voltage (or both), tension, extension.
     inputs = ("power",)
     #: States beyond the outputs: whatever the next step needs and the outputs do not tell.
     states = ()
@@ -38,7 +39,9 @@ class my_actuator(CoilActuator, Fmi3Slave):  # the class names the FMU; pythonfm
         final = self.ambient_temperature + self.power / self.conductance
         before = self.temperature
         self.temperature = final + (before - final) * np.exp(-self.conductance / self.heat_capacity * step)
-        self.convected_energy = self.convected_energy + self.power * step - self.heat_capacity * (self.temperature - before)
+        self.convected_energy = (
+            self.convected_energy + self.power * step - self.heat_capacity * (self.temperature - before)
+        )
 
     def outputs(self) -> None:
         """Outputs from states and inputs."""
@@ -48,4 +51,3 @@ class my_actuator(CoilActuator, Fmi3Slave):  # the class names the FMU; pythonfm
         self.rest_length = np.full(self.coils, self.coil_rest_length)
         self.resistance = self.reference_resistance * np.ones(self.coils)
         self.stored_energy = self.heat_capacity * (self.temperature - self.initial_temperature)
-

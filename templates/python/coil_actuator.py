@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from pythonfmu3 import Fmi3Causality, Fmi3Initial, Fmi3Slave, Fmi3Variability, Float64, UInt64
+from pythonfmu3 import Float64, Fmi3Causality, Fmi3Initial, Fmi3Slave, Fmi3Variability, UInt64
+from pythonfmu3.enums import Fmi3Status
 from pythonfmu3.fmi3slave import Fmi3StepResult
 from pythonfmu3.unit import Unit
 from pythonfmu3.variables import Dimension
@@ -148,9 +149,16 @@ class CoilActuator(Fmi3Slave):
                                  (" and positive" if name in POSITIVE else ""))  # fmt: skip
 
     def do_step(self, current_time, step_size):
-        self.advance(step_size)
-        self.time = current_time + step_size
-        self._update()
+        """One step; what goes wrong in it is logged and returned as an error, which ends the run with its text."""
+        try:
+            if self.mode != "running":
+                raise ValueError(f"a step must not be made in the mode {self.mode}")
+            self.advance(step_size)
+            self.time = current_time + step_size
+            self._update()
+        except (ValueError, ArithmeticError) as error:
+            self.log(str(error), Fmi3Status.error)
+            return Fmi3StepResult(status=Fmi3Status.error)
         return Fmi3StepResult()
 
     def _get_fmu_state(self):
