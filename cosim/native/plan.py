@@ -95,6 +95,11 @@ class Plan:
         return int(self._cursor.index) + int(self._cursor.operation >= self._step_count)
 
     @property
+    def recorded(self) -> int:
+        """Rows recorded, that of the start included; a step that fails while its outputs settle records none."""
+        return int(self._cursor.index) // self._grid.per_record + 1 if self._grid.per_record else 1
+
+    @property
     def native_share(self) -> float:
         """Part of the actions that need no Python, in [0, 1]."""
         return sum(bool(a.calls) or a.can_be_empty for a in self._actions) / max(len(self._actions), 1)
