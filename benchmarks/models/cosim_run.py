@@ -36,9 +36,8 @@ def scenario(system: System, version: int, step: float, kind: str = "jacobi", ou
     for (name, variable), value in system.start.items():
         row = tomllib.loads((MODELS / system.components[name] / "model.toml").read_text())["variables"][variable]
         key = "parameters" if row["causality"] == "parameter" else "start"
-        components[name].setdefault(key, {})[variable] = (
-            f"{value!r} {'' if row['unit'] == '1' else row['unit']}".strip()
-        )
+        unit = "" if row["unit"] == "1" else row["unit"]
+        components[name].setdefault(key, {})[variable] = f"{value!r} {unit}".strip()
     return {
         "title": "measured system",
         "time": {"stop": f"{system.stop:.9g} s", "macro_step": f"{step * 1e9:.0f} ns",

@@ -119,10 +119,6 @@ CRASH = System(
 )
 
 SYSTEMS = {
-    "loop": LOOP,
-    "wrong_units": WRONG_UNITS,
-    "crash": CRASH,
-    "chain": CHAIN,
-    "quarter_truck": QUARTER_TRUCK,
-    "two_mass": TWO_MASS,
-}
+    "chain": CHAIN, "quarter_truck": QUARTER_TRUCK, "two_mass": TWO_MASS,
+    "loop": LOOP, "wrong_units": WRONG_UNITS, "crash": CRASH,
+}  # fmt: skip

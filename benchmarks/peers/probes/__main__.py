@@ -108,8 +108,8 @@ def main(names: list[str]) -> None:
     if not names:
         lines = [heading("What each tool does when it is asked", "python -m benchmarks.peers.probes"),
                  "Questions: `fmi3`, two FMI 3.0 FMUs, expected [3.0]; `loop`, an algebraic loop after one macro-step,",
-                 "solution [2.0, 2.0]; `units`, a force connected to a velocity, to be refused; `crash`, an FMU that aborts",
-                 "its process at 0.5 s, 1 ms steps, results recorded. Others: the script of that name in `probes/`.", "",
+                 "solution [2.0, 2.0]; `units`, a force connected to a velocity, to be refused; `crash`, an FMU that",
+                 "aborts its process at 0.5 s, 1 ms steps, results recorded. Others: the script of that name.", "",
                  "| probe | tool | found |", "|---|---|---|",
                  *(f"| {a} | {b} | {c.replace('|', '/')} |" for a, b, c in rows), ""]  # fmt: skip
         (results_folder() / "peers_probes.md").write_text("\n".join(lines))

@@ -24,8 +24,10 @@ def probe(work: Path) -> str:
     offsets = [ModelVariable(type="Float64", variability="fixed", causality="parameter", name=f"offset{i}", start="1")
                for i in range(2)]  # fmt: skip
     mappings = {y: [(parts[1], inner["y"])], **{offsets[i]: [(parts[i], inner["offset"])] for i in range(2)}}
-    outer = ModelDescription(fmiVersion="3.0", modelName="c", instantiationToken="",
-                             coSimulation=CoSimulation(fixedInternalStepSize=0.1), modelVariables=[time, *mappings])  # fmt: skip
+    outer = ModelDescription(
+        fmiVersion="3.0", modelName="c", instantiationToken="",
+        coSimulation=CoSimulation(fixedInternalStepSize=0.1), modelVariables=[time, *mappings],
+    )  # fmt: skip
     (work / "unzipped").mkdir()
     create_container_fmu(
         Configuration(False, outer, parts, [Connection(parts[0], [inner["y"]], parts[1], [inner["u"]])], mappings),

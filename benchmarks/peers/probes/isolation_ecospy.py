@@ -1,4 +1,4 @@
-"""ecos: an FMU run through proxyfmu (a process per FMU): `... crasher_fmi2` aborts it, `... feedthrough_fmi2` does not."""
+"""ecos: an FMU run through proxyfmu (a process per FMU), named on the command line."""
 
 from __future__ import annotations
 
