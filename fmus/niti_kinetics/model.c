@@ -92,15 +92,15 @@ static double mass(const Model *model, size_t i)
     return NUMBER(density) * ARRAY(volume)[i];
 }
 
-/* Temperature [K] of coil i at which it stores `heat` [J]: Newton's method inside a shrinking bracket. Not a number if
- * that does not converge. */
+/* Temperature [K] of coil i at which it stores `heat` [J]: Newton's method, or bisection where that leaves the bracket or
+ * does not halve its step (it may run in circles between the ends of the transformation). Not a number: no solution. */
 static double solve_temperature(const Model *model, size_t i, double heat)
 {
     const double capacity = mass(model, i) * NUMBER(specific_heat), latent = mass(model, i) * NUMBER(latent_heat);
     const double shift = stress_shift(model, i), start = ARRAY(initial_fraction)[i];
     double low = NUMBER(initial_temperature) + (heat - latent * (1.0 - start)) / capacity;
     double high = NUMBER(initial_temperature) + (heat + latent * start) / capacity;
-    double temperature = fmin(fmax(ARRAY(memory_temperature)[i] + shift, low), high);
+    double temperature = fmin(fmax(ARRAY(memory_temperature)[i] + shift, low), high), last = high - low;
     for (int k = 0; k < SOLVER_ITERATIONS; k++) {
         double slope;
         const double fraction = austenite(model, i, temperature - shift, &slope);
@@ -111,14 +111,17 @@ static double solve_temperature(const Model *model, size_t i, double heat)
         } else {
             low = temperature;
         }
-        double next = temperature - excess / (capacity + latent * slope);
-        if (!(next >= low && next <= high)) {
-            next = 0.5 * (low + high);
+        double change = -excess / (capacity + latent * slope);
+        const double tolerance = SOLVER_TOLERANCE * fabs(temperature);
+        const bool is_outside = !(temperature + change >= low && temperature + change <= high);
+        if (fabs(change) > tolerance && (is_outside || fabs(change) > 0.5 * last)) {
+            change = 0.5 * (low + high) - temperature;
         }
-        if (fabs(next - temperature) <= SOLVER_TOLERANCE * fabs(temperature)) {
-            return next;
+        temperature += change;
+        if (fabs(change) <= tolerance) {
+            return temperature;
         }
-        temperature = next;
+        last = fabs(change);
     }
     return NAN;
 }
