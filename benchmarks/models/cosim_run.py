@@ -30,10 +30,9 @@ def scenario(system: System, version: int, step: float, kind: str = "jacobi", ou
     components: dict[str, dict[str, Any]] = {
         name: {"kind": "fmu", "fmu": str(system.fmu(name, version))} for name in system.components
     }
-    # Inputs that nothing is connected to, or that close a loop, start from zero unless the system says otherwise.
-    for wire in system.connections:
-        components[wire.target].setdefault("start", {})[wire.input] = 0.0
-    for (name, variable), value in system.start.items():
+    # Inputs that close a loop start from zero unless the system says otherwise.
+    values = {(wire.target, wire.input): 0.0 for wire in system.connections} | system.start
+    for (name, variable), value in values.items():
         row = tomllib.loads((MODELS / system.components[name] / "model.toml").read_text())["variables"][variable]
         key = "parameters" if row["causality"] == "parameter" else "start"
         unit = "" if row["unit"] == "1" else row["unit"]
