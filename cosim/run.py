@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,8 @@ from cosim.assemble import Assembly, assemble
 from cosim.components import nanoseconds
 from cosim.errors import InputError
 from cosim.interrupt import Interrupt, deferred_interrupt
+from cosim.loop import Loop, Watched, choose_loop
+from cosim.native.plan import Grid
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
 from cosim.run_folder import RunFolder, read_checkpoint
@@ -74,6 +76,7 @@ class _Clockwork:
     meter: EnergyMeter
     start: int
     macro: int
+    loop: Loop
     index: int = 0
     written: int = 0
     is_resumed: bool = False
@@ -101,7 +104,7 @@ def run(
         scenario: What to run.
         out: Run folder; None keeps everything in memory.
         resume: Go on from the last checkpoint in `out`.
-        on_progress: Called after every output step.
+        on_progress: Called about twenty times a second, or after every macro-step that takes longer.
 
     Returns:
         Every recorded variable `component.name` with dimension `time` [s] first; attributes hold title, wall time of
@@ -141,14 +144,18 @@ def _check_resumable(folder: RunFolder | None) -> None:
 def _begin(scenario: Scenario, assembly: Assembly, resumed: RunFolder | None) -> _Clockwork:
     start, stop = nanoseconds(scenario.time.start), nanoseconds(scenario.time.stop)
     output = nanoseconds(scenario.time.output_step)
+    macro = nanoseconds(scenario.time.macro_step)
     trace, meter = _trace(scenario, assembly.system, range(start, stop + 1, output)), EnergyMeter(assembly.system)
-    state = _Clockwork(scenario, assembly, trace, meter, start, nanoseconds(scenario.time.macro_step))
+    watched = Watched(assembly.system, trace, meter, Grid(start, macro, output // macro))
     # A run that was interrupted before its first checkpoint starts once more.
-    if resumed is not None and resumed.checkpoints():
-        _restore(state, resumed)
-    else:
+    files = resumed.checkpoints() if resumed is not None else []
+    if not files:
         _initialise(assembly, start, scenario.path or "scenario")
         trace.record(start)
+    loop = choose_loop(watched, assembly.algorithm, scenario.algorithm.kind)
+    state = _Clockwork(scenario, assembly, trace, meter, start, macro, loop)
+    if files:
+        _restore(state, files)
     state.begin, state.first_index = clock.perf_counter(), state.index
     return state
 
@@ -173,8 +180,7 @@ def _trace(scenario: Scenario, system: System, times: range) -> Trace:
         ) from error  # fmt: skip
 
 
-def _restore(state: _Clockwork, folder: RunFolder) -> None:
-    files = folder.checkpoints()
+def _restore(state: _Clockwork, files: Sequence[Path]) -> None:
     for file in files:
         state.trace.load(_part(read_checkpoint(file), "trace/"))
     content = read_checkpoint(files[-1])
@@ -234,29 +240,24 @@ def _run_to_end(
 def _step_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
 ) -> None:
-    time = state.scenario.time
-    step, system = state.assembly.algorithm, state.assembly.system
-    per_output = nanoseconds(time.output_step) // state.macro
-    per_checkpoint = nanoseconds(time.checkpoint_step) // state.macro
+    per_checkpoint = nanoseconds(state.scenario.time.checkpoint_step) // state.macro
     while state.index < state.total:
-        outcome = step(system, state.now, state.macro)
+        due = min((state.index // per_checkpoint + 1) * per_checkpoint, state.total)
+        try:
+            outcome = state.loop.advance(state.index, due)
+        finally:
+            state.index = state.loop.index
         if outcome.status is not StepStatus.OK:
             raise UnitError("algorithm", f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} "
                             "cannot repeat a step", outcome.time,
                             "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
-        state.index += 1
-        state.meter.add_step(seconds(state.macro))
-        if state.index % per_output == 0:
-            system.propagate()
-            state.trace.record(state.now)
-            state.meter.note_largest()
-            if state.index % per_checkpoint == 0 and state.index < state.total:
-                _checkpoint(state, folder)
-            if on_progress is not None:
-                elapsed = clock.perf_counter() - state.begin
-                simulated = seconds((state.index - state.first_index) * state.macro)
-                on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
-                                     seconds(state.macro)))  # fmt: skip
+        if state.index == due < state.total:
+            _checkpoint(state, folder)
+        if on_progress is not None:
+            elapsed = clock.perf_counter() - state.begin
+            simulated = seconds((state.index - state.first_index) * state.macro)
+            on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
+                                 seconds(state.macro)))  # fmt: skip
         interrupt.check()
 
 
@@ -286,6 +287,7 @@ def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
         "simulated_until_s": seconds(state.now),
         "macro_steps": state.index,
         "algorithm": {"kind": state.scenario.algorithm.kind, **state.assembly.algorithm.counts()},
+        "loop": state.loop.language,
         "resumed": state.is_resumed,
         "wall_time_s": {"since_start_or_resumption": clock.perf_counter() - state.begin, "units": units},
         "energy_J": None if balance is None else {

@@ -23,6 +23,12 @@ def _fmus_of_these_sources(shipped_fmus):
         yield
 
 
+@pytest.fixture
+def _one_step_per_turn(monkeypatch):
+    """The loop comes back, for progress and interrupts, after every macro-step and not after some wall time."""
+    monkeypatch.setattr("cosim.native.plan.TURN", 0.0)
+
+
 @dataclass(frozen=True)
 class Answer:
     """What a command gave back."""

@@ -171,6 +171,7 @@ def test_the_two_fmi_versions_give_the_same_run_to_the_last_bit():
     assert_same(*runs)
 
 
+@pytest.mark.usefixtures("_one_step_per_turn")
 def test_progress_counts_steps_and_estimates_what_is_left():
     seen = []
     run(heating(), on_progress=seen.append)

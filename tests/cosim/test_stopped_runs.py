@@ -100,6 +100,7 @@ def test_a_run_that_cannot_begin_is_bad_input_and_leaves_no_folder(tmp_path):
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.usefixtures("_one_step_per_turn")
 def test_an_interrupt_inside_a_unit_takes_effect_after_the_step(monkeypatch):
     honest, steps = CircuitUnit.do_step, []
 
@@ -142,6 +143,7 @@ def test_a_run_in_another_thread_leaves_the_signals_alone():
     assert set(handlers) == {signal.default_int_handler}
 
 
+@pytest.mark.usefixtures("_one_step_per_turn")
 def test_a_run_interrupted_before_its_first_checkpoint_starts_again_when_resumed(tmp_path):
     def interrupt(progress):
         if progress.done == 3:
@@ -163,6 +165,7 @@ def interrupted(folder, done=25):
         run(heating(), folder, on_progress=interrupt)
 
 
+@pytest.mark.usefixtures("_one_step_per_turn")
 def test_another_scenario_is_not_resumed_into_a_folder(tmp_path):
     interrupted(tmp_path / "run")
     other = with_parameters(heating(), "actuator", volume="8 mm^3")
@@ -173,6 +176,7 @@ def test_another_scenario_is_not_resumed_into_a_folder(tmp_path):
     assert run(heating(), tmp_path / "run", resume=True).sizes["time"] == 31
 
 
+@pytest.mark.usefixtures("_one_step_per_turn")
 def test_a_checkpoint_that_is_damaged_is_named_with_the_way_out(tmp_path):
     interrupted(tmp_path / "run")
     first, last = sorted((tmp_path / "run" / "checkpoints").iterdir())
