@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cosim.algorithms.algorithm import Algorithm, Plain
-from cosim.native.library import LibraryAbsent, tell_once
 from cosim.native import plan as native
+from cosim.native.library import LibraryAbsent, tell_once
 from cosim.native.plan import Grid
 from cosim.native.planning import NoPlan, Watch, native_plan
 from cosim.observers.energy_balance import EnergyMeter
