@@ -172,6 +172,7 @@ class IsolatedProcess:
         if self._is_reaped:
             return
         self._is_reaped = True
+        self.failure = self.failure or "it was terminated"
         self._largest = self.header.memory
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)

@@ -21,7 +21,7 @@ from .fmus import Builder
 
 SCENARIO = """
 title: An FMU that misbehaves
-time: {{stop: {stop} s, macro_step: 10 ms, output_step: 10 ms, checkpoint_step: 20 ms}}
+time: {{stop: {stop} s, macro_step: 10 ms, output_step: 10 ms, checkpoint_step: {checkpoint}}}
 algorithm: {{kind: jacobi}}
 components:
 {components}
@@ -106,8 +106,10 @@ def isolate():
 def scenario(tmp_path):
     """`scenario({name: path}, isolation)` is a run of FMUs over 0.1 s (they misbehave from 0.05 s on)."""
 
-    def make(fmus, isolation="process", stop=0.1):
+    def make(fmus, isolation="process", stop=0.1, checkpoint="20 ms"):
         components = "\n".join(f"  {n}: {{kind: fmu, fmu: {p}, isolation: {isolation}}}" for n, p in fmus.items())
-        return parse_scenario(SCENARIO.format(stop=stop, components=components), tmp_path / "scenario.yaml")
+        text = SCENARIO.format(stop=stop, checkpoint=checkpoint, components=components)
+        (tmp_path / "scenario.yaml").write_text(text)
+        return parse_scenario(text, tmp_path / "scenario.yaml")
 
     return make

@@ -66,6 +66,8 @@ static void flood(Instance *i)
 
 static void flood_and_crash(Instance *i) { flood(i), printf("\033[2Jthe \001last words\n"), segfault(i); }
 
+static void nap(Instance *i) { (void)i, usleep(1000); }
+
 static int count_matches(const char *pattern)
 {
     glob_t found;
