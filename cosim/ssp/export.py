@@ -16,12 +16,11 @@ from cosim.connection import Connection
 from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
 from cosim.parameters import Resolved, find_parameter_set
-from cosim.quantity import PhysicalValue
 from cosim.scenario import ScaledConnection, Scenario
 from cosim.ssp.document import Document, validate
 from cosim.ssp.elements import to_bytes
 from cosim.ssp.export_parts import Part, Port
-from cosim.ssp.fmus import read_fmu
+from cosim.ssp.fmus import Fmu
 from cosim.ssp.import_components import OWN_KEYS
 from cosim.ssp.model import IDENTITY, End, Linear
 from cosim.ssp.namespaces import DEFAULT_SSD, FMU_TYPE, OWN_TYPE, SSD, SSV, Version, tag
@@ -80,7 +79,7 @@ def export_ssp(scenario: Scenario, out: Path, version: Version = "2.0", only_fmu
 
 def _part(name: str, assembly: Assembly, source: Path, version: Version) -> Part:
     component = assembly.scenario.components[name]
-    fmu = read_fmu(find_fmu(component, source)) if isinstance(component, FmuComponent) else None
+    fmu = Fmu(find_fmu(component, source)) if isinstance(component, FmuComponent) else None
     return Part(name, component, assembly.system.units[name], fmu, version)
 
 
@@ -167,13 +166,13 @@ def _fmu_component(export: _Export, part: Part, resolved: Resolved, starts: Mapp
     assert fmu is not None
     file = find_fmu(component, export.source)
     source = _entry(export, file.name, file.read_bytes())
-    is_fmi2 = fmu.version.startswith("2")
-    values = [] if is_fmi2 else [Entry(n, PhysicalValue(float(v), "")) for n, v in component.structure.items()]
+    is_fmi2 = fmu.is_fmi2
+    values = [] if is_fmi2 else [Entry(n, v) for n, v in component.structure.items()]
     values += [Entry(n, v, resolved.sources[n]) for n, v in resolved.values.items()]
     values += [Entry(n, v) for n, v in {**starts, **component.start}.items()]
     parameters = None
     if values:
-        top = parameter_set(f"Parameters of {part.name}", values, fmu, component.structure, export.version)
+        top = parameter_set(export.scenario.title, values, fmu, component.structure, export.version)
         validate(Document(export.source, f"{part.name}.ssv", top, []), top, tag(SSV, "ParameterSet"))
         parameters = _entry(export, f"{part.name}.ssv", to_bytes(top))
     kept = set(OWN_KEYS) - (set() if is_fmi2 else {"structure"})

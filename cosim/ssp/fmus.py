@@ -1,18 +1,21 @@
-"""What an import needs to know of a component's variables: types, units, which scalars form an array."""
+"""What import and export need to know of an FMU's variables: types, units, which scalars form an array."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from cosim.fmu.archive import open_fmu
+from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.units import UnitNames
+from cosim.fmu.values import array_of
 from cosim.ssp.model import BASE_UNITS, Unit
 from cosim.ssp.units import UnitFault, known_unit
-
-_ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d+)\]$")
+from cosim.variable import AnyArray
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,6 @@ class Variable:
         items: Item name to value of an enumeration.
         is_settable: Whether a value can be set before initialisation (SSP, section ParameterBindings).
         start: Start value as text.
-        dimensions: Size of each dimension, or the name of the structural parameter that gives it.
     """
 
     name: str
@@ -37,68 +39,66 @@ class Variable:
     items: Mapping[str, int] | None
     is_settable: bool
     start: str
-    dimensions: tuple[int | str, ...] = ()
 
 
-@dataclass(frozen=True)
 class Fmu:
-    """An FMU.
+    """An FMU, by its description.
 
     Args:
-        variables: Name, and every alias, to variable.
-        arrays: Name of an array gathered from FMI 2.0 scalars `x[1]`, `x[2]`, ... to their indices in order.
-        interfaces: CoSimulation, ModelExchange.
-        can_serialise: Whether its state can be written to a checkpoint.
-        version: FMI version.
-    """
-
-    variables: Mapping[str, Variable]
-    arrays: Mapping[str, tuple[int, ...]]
-    interfaces: frozenset[str]
-    can_serialise: bool
-    version: str
-
-    def shape(self, variable: Variable, structure: Mapping[str, int]) -> tuple[int, ...]:
-        """Shape of a variable under a choice of structural parameters."""
-        return tuple(
-            d if isinstance(d, int) else int(structure.get(d, int(self.variables[d].start or 0)))
-            for d in variable.dimensions
-        )
-
-
-def read_fmu(path: Path) -> Fmu:
-    """Description of an FMU.
+        path: Its file.
 
     Raises:
         InputError: It cannot be opened.
     """
-    archive = open_fmu(path)
-    archive.remove()
-    description = archive.description
-    units = {u.name: _defined(u) for u in description.unitDefinitions}
-    variables: dict[str, Variable] = {}
-    arrays: dict[str, list[int]] = {}
-    by_reference = {v.valueReference: v.name for v in description.modelVariables}
-    for v in description.modelVariables:
-        sizes = tuple(by_reference[d.valueReference] if d.start is None else int(d.start) for d in v.dimensions)
-        variable = _variable(v, units, sizes)
-        for name in (v.name, *(a.name for a in v.aliases or ())):
-            variables[name] = variable
-        match = _ELEMENT.match(v.name)
-        if match and not v.dimensions:
-            arrays.setdefault(match["name"], []).append(int(match["index"]))
-    interfaces = {"CoSimulation": description.coSimulation, "ModelExchange": description.modelExchange}
-    present = {name: interface for name, interface in interfaces.items() if interface is not None}
-    return Fmu(
-        variables, {n: tuple(sorted(i)) for n, i in arrays.items()}, frozenset(present),
-        all(i.canSerializeFMUstate for i in present.values()), description.fmiVersion,
-    )  # fmt: skip
 
+    def __init__(self, path: Path) -> None:
+        archive = open_fmu(path)
+        archive.remove()
+        self._description = archive.description
+        self._units = UnitNames(self._description)
+        units = {u.name: _defined(u) for u in self._description.unitDefinitions}
+        #: Name, and every alias, to variable.
+        self.variables: dict[str, Variable] = {}
+        for v in self._description.modelVariables:
+            variable = _variable(v, units)
+            for name in (v.name, *(a.name for a in v.aliases or ())):
+                self.variables[name] = variable
+        gathered = fmu_variables(self._description, {}, self._units).items()
+        #: Name of an array gathered from scalars `x[1]`, `x[2]`, ... to their names, in row-major order.
+        self.arrays = {n: tuple(d.name for d in v.declared) for n, v in gathered if n not in self.variables}
+        #: Name of such a scalar to its array and to its index as written.
+        self.elements: dict[str, tuple[str, tuple[int, ...]]] = {}
+        for name, v in gathered:
+            indices = (tuple(i + v.variable.first_index for i in index) for index in np.ndindex(v.variable.shape))
+            if name in self.arrays:
+                self.elements |= {d.name: (name, index) for d, index in zip(v.declared, indices, strict=True)}
 
-def array_element(name: str, arrays: Mapping[str, tuple[int, ...]]) -> tuple[str, int] | None:
-    """(array, index) of a scalar that belongs to a gathered array; None for any other name."""
-    match = _ELEMENT.match(name)
-    return (match["name"], int(match["index"])) if match and match["name"] in arrays else None
+    @property
+    def is_fmi2(self) -> bool:
+        """Whether it is of FMI 2.0."""
+        return str(self._description.fmiVersion).startswith("2")
+
+    @property
+    def interfaces(self) -> Mapping[str, Any]:
+        """CoSimulation, ModelExchange: what it has of them, as described."""
+        present = {"CoSimulation": self._description.coSimulation, "ModelExchange": self._description.modelExchange}
+        return {name: interface for name, interface in present.items() if interface is not None}
+
+    @property
+    def can_serialise(self) -> bool:
+        """Whether its state can be written to a checkpoint."""
+        return all(i.canSerializeFMUstate for i in self.interfaces.values())
+
+    def array(self, name: str, value: Any, structure: Mapping[str, int]) -> AnyArray:
+        """A scenario's value for a variable or gathered array: in the FMU's type, shape and unit.
+
+        Raises:
+            ValueError: It does not fit, or there is no such variable.
+        """
+        table = fmu_variables(self._description, {} if self.is_fmi2 else structure, self._units)
+        if name not in table:
+            raise ValueError(f"the FMU has no variable `{name}`")
+        return array_of(table[name], value, self._units)
 
 
 def _defined(unit: Any) -> Unit:
@@ -116,11 +116,10 @@ def _named(name: str) -> Unit:
         return Unit(name, ())
 
 
-def _variable(v: Any, units: Mapping[str, Unit], sizes: tuple[int | str, ...]) -> Variable:
+def _variable(v: Any, units: Mapping[str, Unit]) -> Variable:
     declared = v.declaredType
     name = v.unit or (declared.unit if declared is not None else None)
     items = {i.name: int(i.value) for i in declared.items} if declared is not None and declared.items else None
-    initial = v.initial or ("exact" if v.start is not None else "calculated")
-    is_settable = v.variability != "constant" and (v.causality == "input" or initial in ("exact", "approx"))
+    is_settable = v.variability != "constant" and (v.causality == "input" or v.initial in ("exact", "approx"))
     unit = None if name is None else units.get(name) or _named(name)
-    return Variable(v.name, v.causality or "local", v.type, unit, items, is_settable, str(v.start or ""), sizes)
+    return Variable(v.name, v.causality or "local", v.type, unit, items, is_settable, str(v.start or ""))

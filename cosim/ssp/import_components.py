@@ -12,13 +12,13 @@ import yaml
 
 from cosim.components import Component as ScenarioComponent
 from cosim.ssp.files import copy_once
-from cosim.ssp.fmus import Fmu, Variable, array_element
+from cosim.ssp.fmus import Fmu, Variable
 from cosim.ssp.graph import Node
 from cosim.ssp.graph import Path as ElementPath
 from cosim.ssp.import_connections import Ends
-from cosim.ssp.model import Component
+from cosim.ssp.model import Component, Unit
 from cosim.ssp.namespaces import FLOAT_TYPES
-from cosim.ssp.units import means_the_same
+from cosim.ssp.units import means_the_same, plain
 from cosim.ssp.values import Value
 from cosim.yaml_file import parse_yaml, read_text
 
@@ -104,31 +104,25 @@ class FmuImport:
     def _sorted(self, path: ElementPath, component: Component, fmu: Fmu) -> dict[str, dict[str, Any]]:
         """Values as `structure`, `parameters` and `start`; `sourced` names those that a parameter set can hold."""
         found: dict[str, dict[str, Any]] = {"structure": {}, "parameters": {}, "start": {}, "sourced": {}}
-        elements: dict[str, dict[int, Any]] = {}
+        elements: dict[str, dict[str, Any]] = {}
         for (element, name), value in self.values.items():
             if element != path:
                 continue
             variable = fmu.variables[name]
             self._check(component, variable, value)
-            gathered = array_element(variable.name, fmu.arrays)
-            if gathered is not None:
-                elements.setdefault(gathered[0], {})[gathered[1]] = self._written(value, variable)
+            written, key = self._written(value, variable), _key(variable)
+            if variable.name in fmu.elements:
+                elements.setdefault(fmu.elements[variable.name][0], {})[variable.name] = written
                 continue
-            key, written = _key(variable), self._written(value, variable)
             found[key][variable.name] = written
             if key == "parameters" and not isinstance(written, list) and variable.type in FLOAT_TYPES | {"Boolean"}:
                 found["sourced"][variable.name] = value
         for name, given in elements.items():
-            first = fmu.variables[f"{name}[{fmu.arrays[name][0]}]"]
-            found[_key(first)][name] = _collapsed([given.get(i, self._start(fmu, name, i)) for i in fmu.arrays[name]])
+            names = fmu.arrays[name]
+            values = [given[n] if n in given else _start(fmu.variables[n]) for n in names]
+            shape = tuple(b - a + 1 for a, b in zip(fmu.elements[names[0]][1], fmu.elements[names[-1]][1]))
+            found[_key(fmu.variables[names[0]])][name] = _shaped(values, shape)
         return found
-
-    def _start(self, fmu: Fmu, name: str, index: int) -> Any:
-        """Start value of an array element that no value is bound to."""
-        variable = fmu.variables[f"{name}[{index}]"]
-        if variable.type in FLOAT_TYPES:
-            return f"{float(variable.start or 0)!r} {variable.unit.name if variable.unit else ''}".strip()
-        return {"true": True, "false": False}.get(variable.start, variable.start)
 
     def _check(self, component: Component, variable: Variable, value: Value) -> None:
         if not variable.is_settable:
@@ -144,11 +138,16 @@ class FmuImport:
     def _written(self, value: Value, variable: Variable) -> Any:
         """The value as a scenario holds it."""
         if variable.type in FLOAT_TYPES:
-            is_plain = not value.is_changed and (value.unit is None or means_the_same(value.unit))
-            final = value if is_plain else value.in_unit(variable.unit)
-            unit = final.unit.name if final.unit is not None else (variable.unit.name if variable.unit else "")
-            unit = "" if unit == "1" else unit
-            texts = [f"{v!r} {unit}".strip() if unit else v for v in map(float, final.values)]
+            final = value.in_unit(variable.unit)
+            if (
+                not value.is_changed
+                and variable.unit is not None
+                and value.unit is not None
+                and means_the_same(value.unit)
+            ):
+                final = value
+            unit = variable.unit and final.unit
+            texts = [_quantity(float(v), unit) for v in final.values]
             return _shaped(texts, value.parameter.shape)
         if variable.type == "Enumeration" and value.parameter.type == "Enumeration":
             return _shaped([self._item(value, variable, v) for v in value.values], value.parameter.shape)
@@ -179,6 +178,18 @@ class FmuImport:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110), encoding="utf-8")
         return file.relative_to(self.out).as_posix()
+
+
+def _quantity(number: float, unit: Unit | None) -> float | str:
+    """A number with its unit; a bare one where the FMU declares no unit."""
+    return number if unit is None or unit.name == "1" else plain(unit, number)
+
+
+def _start(variable: Variable) -> Any:
+    """Start value of an array element that no value is bound to."""
+    if variable.type in FLOAT_TYPES:
+        return _quantity(float(variable.start or 0), variable.unit)
+    return {"true": True, "false": False}.get(variable.start, variable.start)
 
 
 def _key(variable: Variable) -> str:

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.quantity import conversion
-from cosim.ssp.fmus import Fmu, array_element
+from cosim.ssp.fmus import Fmu
 from cosim.ssp.graph import Flow, Graph, Indices, Node, Path
-from cosim.ssp.model import Linear, Unit
+from cosim.ssp.model import BASE_UNITS, Linear, Unit
+from cosim.ssp.units import UnitFault, convert
 
 _OWN_ELEMENT = re.compile(r"^(?P<name>\w+)\[(?P<index>[\d,]+)\]$")
 
@@ -47,11 +47,9 @@ class Ends:
         """Variable of a component's connector: `x[3]` of FMI 2.0 is an element of the array `x`."""
         path, name = node
         if path in self.fmus:
-            own_name = self.fmus[path].variables[name].name if name in self.fmus[path].variables else name
-            gathered = array_element(own_name, self.fmus[path].arrays)
-            return (
-                Variable(path, own_name, indices) if gathered is None else Variable(path, gathered[0], (gathered[1],))
-            )
+            own_name = self.fmus[path].variables[name].name  # of which `name` may be an alias
+            gathered = self.fmus[path].elements.get(own_name)
+            return Variable(path, own_name, indices) if gathered is None else Variable(path, *gathered)
         match = _OWN_ELEMENT.match(name)
         if match:
             return Variable(path, match["name"], tuple(int(i) for i in match["index"].split(",")))
@@ -61,7 +59,7 @@ class Ends:
         """Every element of the array, in row-major order; empty where its size is not known."""
         path, name = variable.path, variable.name
         if path in self.fmus and name in self.fmus[path].arrays:
-            return [(i,) for i in self.fmus[path].arrays[name]]
+            return [self.fmus[path].elements[e][1] for e in self.fmus[path].arrays[name]]
         connectors = self._graph.elements[path].connectors
         if name in connectors:
             sizes = [s for s in connectors[name].dimensions if s is not None]
@@ -70,16 +68,11 @@ class Ends:
         matches = (_OWN_ELEMENT.match(c) for c in connectors)
         return sorted(tuple(int(i) for i in m["index"].split(",")) for m in matches if m and m["name"] == name)
 
-    def unit(self, node: Node) -> str:
+    def unit(self, node: Node) -> Unit:
         """Unit that the variable has in a scenario: the FMU's own declaration, that of a connector of ours."""
         path, name = node
-        found: Unit | None
-        if path in self.fmus:
-            variable = self.fmus[path].variables.get(name)
-            found = variable.unit if variable is not None else None
-        else:
-            found = self._graph.unit(node)
-        return found.name if found is not None else "1"
+        found = self.fmus[path].variables[name].unit if path in self.fmus else self._graph.unit(node)
+        return found if found is not None else Unit("1", (0,) * len(BASE_UNITS))
 
 
 def connections(graph: Graph, ends: Ends) -> list[str | dict[str, Any]]:
@@ -132,8 +125,8 @@ def _check_causality(graph: Graph, ends: Ends, flow: Flow, target: Node) -> None
 def _scaling(ends: Ends, flow: Flow, target: Node) -> tuple[float, float, bool]:
     """(factor, offset, whether units are converted before) that a scenario's connection needs for a flow."""
     try:
-        ours: Linear | None = Linear(*conversion(ends.unit(flow.source), ends.unit(target)))
-    except ValueError:
+        ours: Linear | None = Linear(*convert(ends.unit(flow.source), ends.unit(target)))
+    except UnitFault:
         ours = None
     if ours is not None and _close(flow.conversion.factor, ours.factor) and _close(flow.conversion.offset, ours.offset):
         return flow.linear.factor, flow.linear.offset, True

@@ -12,7 +12,7 @@ import yaml
 from cosim.errors import InputError
 from cosim.scenario import parse_scenario
 from cosim.ssp.files import plain_name
-from cosim.ssp.fmus import Fmu, read_fmu
+from cosim.ssp.fmus import Fmu
 from cosim.ssp.graph import Graph
 from cosim.ssp.graph import Path as ElementPath
 from cosim.ssp.import_components import FmuImport, own_component
@@ -121,7 +121,7 @@ def _read(path: Path, folder: Path, variant: str) -> _System:
 
 def _read_fmu(path: Path, component: Component, source: Path) -> Fmu:
     try:
-        return read_fmu(source)
+        return Fmu(source)
     except InputError as error:  # it names the file where the package is unpacked for the moment
         where = f"{source.name}: {error.key}" if error.key else source.name
         raise InputError(path, where, f"{error.problem} (component {component.name})", error.remedy) from error

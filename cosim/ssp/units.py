@@ -68,5 +68,33 @@ def means_the_same(unit: Unit) -> bool:
     )
 
 
+def plain(unit: Unit, number: float) -> str:
+    """A number with its unit as a scenario writes it: by the unit's name where that means what is defined, else in SI.
+
+    >>> plain(Unit("Nm", (1, 2, -2, 0, 0, 0, 0, 0)), 3.0)
+    '3.0 kg*m**2/s**2'
+    """
+    if means_the_same(unit) or not unit.exponents:
+        return f"{number!r} {unit.name}" if unit.name != "1" else repr(number)
+    if unit.factor != 1.0 or unit.offset != 0.0:
+        number = float(f"{unit.factor * number + unit.offset:.15g}")
+    return f"{number!r} {base_expression(unit)}"
+
+
+def base_expression(unit: Unit) -> str:
+    """The base units of a unit, for pint.
+
+    >>> base_expression(Unit("km/h", (0, 1, -1, 0, 0, 0, 0, 0), 1 / 3.6))
+    'm/s'
+    """
+    powers = [(name, e) for name, e in zip(BASE_UNITS, unit.exponents, strict=True) if e]
+    above, below = ("*".join(_power(n, abs(e)) for n, e in powers if (e > 0) is sign) for sign in (True, False))
+    return (above or "1") + (f"/({below})" if "*" in below.replace("**", "") else f"/{below}" if below else "")
+
+
+def _power(name: str, exponent: int) -> str:
+    return name if exponent == 1 else f"{name}**{exponent}"
+
+
 def _close(a: float, b: float) -> bool:
     return abs(a - b) <= 1e-12 * max(abs(a), abs(b))
