@@ -133,7 +133,7 @@ class NativeLoop(Loop):
         try:
             return self._plan.advance(index, stop)
         finally:
-            self._watched.trace.count = self._plan.index // self._watched.grid.per_record + 1
+            self._watched.trace.count = self._plan.recorded
 
 
 def choose_loop(watched: Watched, algorithm: Algorithm, kind: str) -> Loop:
