@@ -12,9 +12,11 @@ from rich.console import Console
 from rich.table import Table
 
 from cosim.commands import fmu
+from cosim.commands.compare import compare
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
+from cosim.ssp import command as ssp
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
@@ -28,6 +30,8 @@ app = typer.Typer(
 )
 
 app.add_typer(fmu.app, name="fmu")
+app.add_typer(ssp.app, name="ssp")
+app.command()(compare)
 
 ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
 
@@ -62,7 +66,9 @@ def schema() -> None:
 
 @app.command()
 def run(
-    scenario: Annotated[str, typer.Argument(help="A scenario file or name; with --resume it may be a run folder.")],
+    scenario: Annotated[
+        str, typer.Argument(help="A scenario file or name, or an .ssp file; with --resume it may be a run folder.")
+    ],
     out: Annotated[Path | None, typer.Option(help="Run folder; default runs/SCENARIO.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
@@ -72,11 +78,21 @@ def run(
     Ctrl-C keeps what is computed; `--resume` goes on from there to the same result.
     """
     folder = _folder(scenario, out, resume)
-    loaded = load_scenario(folder.scenario if resume and Path(scenario).is_dir() else scenario)
+    loaded = _loaded(scenario, folder, resume)
     run_into(loaded, folder, resume)
     if plots:
         _draw(folder)
     print(f"{folder.path}: {loaded.title}")
+
+
+def _loaded(scenario: str, folder: RunFolder, resume: bool) -> Scenario:
+    is_imported = ssp.is_ssp(scenario)
+    if resume and (is_imported or Path(scenario).is_dir()):
+        return load_scenario(folder.scenario)
+    if is_imported:
+        folder.refuse_existing()
+        return ssp.scenario_of(Path(scenario), folder.path / "imported")
+    return load_scenario(scenario)
 
 
 def _folder(scenario: str, out: Path | None, resume: bool) -> RunFolder:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from pathlib import Path
 from typing import Annotated, Literal
@@ -9,9 +10,7 @@ from typing import Annotated, Literal
 import typer
 
 from cosim.scenario import Scenario, load_scenario
-from cosim.ssp.export import export_ssp
 from cosim.ssp.import_time import TimeRequest
-from cosim.ssp.importer import check_ssp, import_ssp
 from cosim.ssp.namespaces import Version
 
 app = typer.Typer(no_args_is_help=True, help="System Structure and Parameterization (SSP) 1.0 and 2.0.")
@@ -32,6 +31,8 @@ def import_command(
     variant: VariantOption = "",
 ) -> None:
     """Import an SSP as a scenario that `cosim run` runs."""
+    from cosim.ssp.importer import import_ssp
+
     imported = import_ssp(file, out, TimeRequest(start, stop, step, output_step, algorithm), variant)
     _print_notes(imported.notes)
     for path, name in imported.names.items():
@@ -49,6 +50,8 @@ def export_command(
     ] = False,
 ) -> None:
     """Export a scenario as an SSP."""
+    from cosim.ssp.export import export_ssp  # late: `--help` must not load Bullet
+
     number: Version = "1.0" if version == "1" else "2.0"
     _print_notes(export_ssp(load_scenario(scenario), out, number, only_fmus))
     print(out)
@@ -57,13 +60,24 @@ def export_command(
 @app.command("validate")
 def validate_command(file: FileArgument, variant: VariantOption = "") -> None:
     """Check an SSP against the schemas, and its connections and parameters against its FMUs."""
+    from cosim.ssp.importer import check_ssp
+
     structure, notes = check_ssp(file, variant)
     _print_notes(notes)
     print(f"{file}: valid SSP {structure.version}, `{structure.name}`")
 
 
+def is_ssp(scenario: str) -> bool:
+    """Whether an argument names an SSP rather than a scenario."""
+    return Path(scenario).suffix.lower() in (".ssp", ".ssd")
+
+
 def scenario_of(file: Path, folder: Path) -> Scenario:
-    """Scenario of an .ssp file, imported into a folder: what `cosim run FILE.ssp` runs."""
+    """Scenario of an SSP, imported into `folder`, which a run in the same place may have left behind."""
+    from cosim.ssp.importer import import_ssp
+
+    if (folder / "scenario.yaml").is_file():
+        shutil.rmtree(folder)
     imported = import_ssp(file, folder)
     _print_notes(imported.notes)
     return load_scenario(imported.scenario)
