@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -105,17 +105,36 @@ class Iterated(Algorithm):
 
     def _once(self, system: System, group: Group, begin: Values, when: tuple[int, int]) -> StepOutcome:
         name = group.names[0]
+        end = {}
         for transfer in system.transfers[name]:
             for part in transfer.parts:
                 part.copy()
-            self._apply(transfer, begin[transfer.end], transfer.buffer)
-        return system.step(name, *when)
+            end[transfer.end] = transfer.buffer.copy()
+        return self._step(system, name, (begin, end), when)
 
-    def _apply(self, transfer: Transfer, begin: AnyArray, end: AnyArray) -> None:
-        """Set an input for the step from its values at begin and end."""
-        is_mean = self._is_mean and transfer.variable.type.is_float
-        transfer.buffer[...] = 0.5 * (begin + end) if is_mean else end
-        transfer.write()
+    def _step(self, system: System, name: str, values: tuple[Values, Values], when: tuple[int, int]) -> StepOutcome:
+        """Step a unit with its inputs over the step; afterwards its outputs are those of the inputs at the end.
+
+        The inputs are left as they were over the step, which is what an energy meter must see.
+        """
+        self._apply(system.transfers[name], *values)
+        outcome = system.step(name, *when)
+        unit = system.units[name]
+        if self._is_mean and unit.feedthrough and outcome.status is StepStatus.OK:
+            for transfer in system.transfers[name]:
+                transfer.buffer[...] = values[1][transfer.end]
+                transfer.write()
+            unit.refresh()
+            self._apply(system.transfers[name], *values)
+        return outcome
+
+    def _apply(self, transfers: Sequence[Transfer], begin: Values, end: Values) -> None:
+        """Set inputs for the step from their values at begin and end."""
+        for transfer in transfers:
+            first, last = begin[transfer.end], end[transfer.end]
+            is_mean = self._is_mean and transfer.variable.type.is_float
+            transfer.buffer[...] = 0.5 * (first + last) if is_mean else last
+            transfer.write()
 
     def _loop(self, system: System, group: Group, begin: Values, when: tuple[int, int]) -> StepOutcome:
         inputs = [t for name in group.names for t in system.transfers[name]]
@@ -145,13 +164,11 @@ class Iterated(Algorithm):
         self, system: System, group: Group, values: tuple[Values, Values], when: tuple[int, int]
     ) -> tuple[StepOutcome, float, Transfer]:
         """Step every unit of a loop once; returns the largest change of an input at the end, and which it was."""
-        begin, end = values
+        end = values[1]
         inputs = [t for name in group.names for t in system.transfers[name]]
         change, where = 0.0, inputs[0]
         for name in group.names:
-            for transfer in system.transfers[name]:
-                self._apply(transfer, begin[transfer.end], end[transfer.end])
-            outcome = system.step(name, *when)
+            outcome = self._step(system, name, values, when)
             if outcome.status is not StepStatus.OK:
                 break
             for transfer in inputs:
