@@ -44,6 +44,7 @@ ELECTRICAL = {
         dict.fromkeys(("actuator.temperature", "actuator.stiffness", "load.length", "load.tension"), SMOOTH),
         every(60.0, 50.0, 2450.0), None,
     ),
+    "hanging_coils": (load_scenario, COILS | SUPPLY | {"load.length": SMOOTH}, every(3.0, 0.0, 45.0), [0, 5]),
     "prototype_cantilever": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "prototype_cantilever_instant": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "hanging_contraction": (without_fabric, COILS | SUPPLY, every(3.0, -3.0, 36.0), [0, 35]),

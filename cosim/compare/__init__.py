@@ -1,0 +1,1 @@
+"""One scenario over several actuators, side by side."""
