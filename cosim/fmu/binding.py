@@ -113,6 +113,8 @@ class Binding(ABC):
                 f"its binary cannot be loaded: {error}{said}",
                 "the binary may need libraries that are not installed here (see `ldd`)",
             ) from error
+        #: Whether Event Mode exists in this interface.
+        self.uses_event_mode = interface == "model_exchange" or bool(getattr(kind, "hasEventMode", False))
         self.is_alive = True
         self.is_fatal = False
 

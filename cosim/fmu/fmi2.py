@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import itertools
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from fmpy import fmi2
@@ -41,6 +41,7 @@ class Fmi2Binding(Binding):
 
     prefix = "fmi2"
     c_types = FMI2
+    _update: Callable[..., None] | None = None
 
     def _load(self, identifier: str) -> Any:
         kind = fmi2.FMU2Slave if self.interface == "co_simulation" else fmi2.FMU2Model
@@ -99,5 +100,15 @@ class Fmi2Binding(Binding):
 
     def update_discrete_states(self) -> DiscreteStates:
         """One fmi2NewDiscreteStates."""
-        again, terminate, nominals, states, defined, time = self.call(self.fmu.newDiscreteStates)
-        return DiscreteStates(again, terminate, nominals, states, time if defined else None)
+        if self._update is None:
+            self._info = fmi2.fmi2EventInfo()
+            self._update = self.checked("NewDiscreteStates", ctypes.c_void_p)
+        self._update(ctypes.addressof(self._info))
+        info = self._info
+        return DiscreteStates(
+            bool(info.newDiscreteStatesNeeded),
+            bool(info.terminateSimulation),
+            bool(info.nominalsOfContinuousStatesChanged),
+            bool(info.valuesOfContinuousStatesChanged),
+            info.nextEventTime if info.nextEventTimeDefined else None,
+        )

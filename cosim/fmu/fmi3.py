@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,23 @@ from cosim.fmu.types import FMI3
 from cosim.fmu.variables import FmuVariable
 
 
+class _Discrete(ctypes.Structure):
+    _fields_ = [
+        ("again", ctypes.c_bool),
+        ("terminate", ctypes.c_bool),
+        ("nominals", ctypes.c_bool),
+        ("states", ctypes.c_bool),
+        ("defined", ctypes.c_bool),
+        ("next_event", ctypes.c_double),
+    ]
+
+
 class Fmi3Binding(Binding):
     """FMI 3.0."""
 
     prefix = "fmi3"
     c_types = FMI3
+    _update: Callable[..., None] | None = None
 
     def _load(self, identifier: str) -> Any:
         common = {
@@ -34,10 +46,9 @@ class Fmi3Binding(Binding):
             model.instantiate(loggingOn=True, logMessage=log)
             return model
         capabilities = self.capabilities
-        self.uses_event_mode = capabilities.hasEventMode
         slave = fmi3.FMU3Slave(**common)
         slave.instantiate(
-            loggingOn=True, logMessage=log, eventModeUsed=self.uses_event_mode,
+            loggingOn=True, logMessage=log, eventModeUsed=capabilities.hasEventMode,
             earlyReturnAllowed=capabilities.mightReturnEarlyFromDoStep or capabilities.hasEventMode,
         )  # fmt: skip
         self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
@@ -72,5 +83,13 @@ class Fmi3Binding(Binding):
 
     def update_discrete_states(self) -> DiscreteStates:
         """One fmi3UpdateDiscreteStates."""
-        again, terminate, nominals, states, defined, time = self.call(self.fmu.updateDiscreteStates)
-        return DiscreteStates(again, terminate, nominals, states, time if defined else None)
+        if self._update is None:
+            self._discrete = _Discrete()
+            fields = ("again", "terminate", "nominals", "states", "defined", "next_event")
+            base = ctypes.addressof(self._discrete)
+            self._update_arguments = [base + getattr(_Discrete, f).offset for f in fields]
+            self._update = self.checked("UpdateDiscreteStates", *[ctypes.c_void_p] * 6)
+        self._update(*self._update_arguments)
+        found = self._discrete
+        next_event = found.next_event if found.defined else None
+        return DiscreteStates(found.again, found.terminate, found.nominals, found.states, next_event)

@@ -1,126 +1,152 @@
-"""A Model Exchange FMU integrated by CVODE of SUNDIALS (scikit-sundae)."""
+"""A Model Exchange FMU integrated by CVODE, with state, time and step events."""
 
 from __future__ import annotations
 
-import ctypes
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from sksundae.cvode import CVODE
 
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.unit import FmuSettings, FmuUnit
-from cosim.unit import Array, StepOutcome, StepStatus, UnitError, seconds
+from cosim.fmu.continuous import ContinuousModel
+from cosim.fmu.integrator import Integrator
+from cosim.fmu.unit import FmuSettings, FmuUnit, Mode
+from cosim.unit import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
+
+RELATIVE_TOLERANCE = 1e-8
+#: Events in a row at practically the same instant before the FMU is given up: it chatters.
+MOST_EVENTS = 100
+#: What is practically the same instant [s]: a tenth of the resolution of simulated time.
+INSTANT = 0.1 / NANOSECONDS
 
 
 class ModelExchangeUnit(FmuUnit):
     """An FMU whose derivatives CVODE integrates (`integrator: cvode`).
 
-    Inputs are constant over a macro-step, so CVODE is started afresh at each step and told to stop exactly at its end:
-    an integrator that steps past the end would interpolate across the jump of the inputs.
+    Inputs are constant over a macro-step and CVODE stops exactly at its end. It begins anew after a step whose begin
+    changed an input, after an event, and after the state was saved or restored, so that a step that is repeated, or a
+    run that is resumed, is the same to the last bit.
 
     Args:
         name: Name of the component in the scenario.
-        archive: The opened FMU; it must have no event indicators.
-        settings: Structure and parameters.
-        relative_tolerance: CVODE's rtol.
-        absolute_tolerance: CVODE's atol, times the nominal value of each state.
+        archive: The opened FMU.
+        settings: Structure, parameters and start values; `tolerance` is CVODE's rtol.
 
     Raises:
-        InputError: The FMU has no Model Exchange interface, or has events.
+        InputError: The FMU has no Model Exchange interface, or something in `settings` does not fit.
     """
 
-    def __init__(
-        self, name: str, archive: FmuArchive, settings: FmuSettings,
-        relative_tolerance: float = 1e-8, absolute_tolerance: float = 1e-10,
-    ) -> None:  # fmt: skip
+    def __init__(self, name: str, archive: FmuArchive, settings: FmuSettings) -> None:
         super().__init__(name, archive, settings, "model_exchange")
-        relative_tolerance = settings.tolerance or relative_tolerance
-        self._is_fmi3 = archive.description.fmiVersion.startswith("3")
-        self._tolerances = relative_tolerance, absolute_tolerance
-        self._count = 0
-        self._solver: Any = None
-
-    def initialise(self, time: int) -> None:
-        """Initialise."""
-        super().initialise(time)
+        self._next_event: float | None = None
 
     def _begin(self, time: int) -> None:
-        fmu, call = self.binding.fmu, self.binding.call
-        if self._is_fmi3:
-            self._count = int(call(fmu.getNumberOfContinuousStates))
-            indicators = int(call(fmu.getNumberOfEventIndicators))
-        else:
-            self._count = int(self.archive.description.numberOfContinuousStates)
-            indicators = int(self.archive.description.numberOfEventIndicators)
-        if indicators:
-            raise InputError(self.archive.path, self.name, f"it has {indicators} event indicators",
-                             "use `integrator: internal` for this FMU")  # fmt: skip
-        self._update_discrete_states()
-        call(fmu.enterContinuousTimeMode)
-        self._states = np.zeros(self._count)
-        self._scratch = np.zeros(self._count)
-        self._rates = np.zeros(self._count)
-        nominals = np.ones(self._count)
-        call(fmu.getNominalsOfContinuousStates, _pointer(nominals), self._count)
-        call(fmu.getContinuousStates, _pointer(self._states), self._count)
-        rtol, atol = self._tolerances
-        # GMRES needs no Jacobian, so nothing is assumed of how the states of an FMU depend on each other. (A band of
-        # width zero perturbs all states at once: a state that depends on another one gets a wrong diagonal.)
-        self._options = {"rtol": rtol, "atol": atol * np.abs(nominals), "linsolver": "gmres"}
-        super()._begin(time)
+        """From Initialization Mode through Event Mode to Continuous-Time Mode."""
+        binding = self.binding
+        self._mode = Mode.EVENT
+        self._model = ContinuousModel(binding)
+        reports = bool(binding.capabilities.needsCompletedIntegratorStep)
+        self._integrator = Integrator(self._model, self.settings.tolerance or RELATIVE_TOLERANCE, reports)
+        self._enter_continuous = binding.checked("EnterContinuousTimeMode")
+        self._now = seconds(time)
+        self._leave_event_mode()
 
-    def _update_discrete_states(self) -> None:
-        for _ in range(100):
-            if not self.binding.update_discrete_states().again:
-                return
-        raise UnitError(self.name, "its discrete states do not settle in 100 iterations")
-
-    def _derivatives(self, time: float, states: Array, rates: Array) -> None:
-        fmu, call = self.binding.fmu, self.binding.call
-        self._scratch[:] = states
-        call(fmu.setTime, time)
-        call(fmu.setContinuousStates, _pointer(self._scratch), self._count)
-        get = fmu.getContinuousStateDerivatives if self._is_fmi3 else fmu.getDerivatives
-        call(get, _pointer(self._rates), self._count)
-        rates[:] = self._rates
+    def _leave_event_mode(self) -> None:
+        """Iterate the discrete states until they settle, then go on with the states that result."""
+        settled = self._settle()
+        self._next_event = settled.next_event
+        self._enter_continuous()
+        self._mode = Mode.RUNNING
+        if settled.nominals_changed:
+            self._integrator.forget()
+        self._integrator.restart(self._model.get_states())
 
     def do_step(self, time: int, size: int) -> StepOutcome:
-        """Integrate over one macro-step.
+        """Integrate over one macro-step, through all events in it.
+
+        Returns:
+            OK at the end, or EARLY_RETURN just after the first event where the settings ask for that.
 
         Raises:
-            UnitError: CVODE gave up, or the FMU returned an error.
+            UnitError: CVODE gave up, events follow each other without end, the FMU returned an error or asked to
+                terminate.
         """
         self.exit_initialisation()
-        begin, end = seconds(time), seconds(time + size)
-        fmu, call = self.binding.fmu, self.binding.call
-        if self._count:
-            solver = CVODE(self._derivatives, first_step=0.1 * (end - begin), **self._options)
-            solver.init_step(begin, self._states)
-            solution = solver.step(end, tstop=end)
-            if not solution.success or not np.isfinite(solution.y).all():
-                raise UnitError(self.name, f"CVODE failed: {solution.message}", time, "loosen its tolerances")
-            self._states[:] = solution.y
-        call(fmu.setTime, end)
-        call(fmu.setContinuousStates, _pointer(self._states), self._count)
-        enter_event_mode, terminate = call(fmu.completedIntegratorStep)
-        if terminate:
-            raise UnitError(self.name, "the FMU asks to terminate the simulation", time)
-        if enter_event_mode:
-            call(fmu.enterEventMode)
-            self._update_discrete_states()
-            call(fmu.enterContinuousTimeMode)
-            call(fmu.getContinuousStates, _pointer(self._states), self._count)
+        try:
+            if self._mode is Mode.EVENT:
+                self._leave_event_mode()
+            reached = self._advance(self._instant(time), seconds(time + size))
+        except UnitError as error:
+            raise UnitError(self.name, error.what, time if error.time is None else error.time, error.remedy) from error
+        self._now = reached
+        self._is_stale = False
+        rounded = math.ceil((reached - INSTANT) * NANOSECONDS)
+        if rounded < time + size:
+            self.buffers.read(rounded)
+            return StepOutcome(StepStatus.EARLY_RETURN, rounded, f"{self.name} had an event")
         self.buffers.read(time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
-    def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
-        """Restore the serialised state; CVODE starts afresh at every step and keeps none."""
-        super().resume(state, time)
-        self.binding.call(self.binding.fmu.getContinuousStates, _pointer(self._states), self._count)
+    def _instant(self, time: int) -> float:
+        """Where the FMU stands [s]: after an early return that is within a nanosecond of `time`, not on it."""
+        begin = seconds(time)
+        return self._now if abs(self._now - begin) * NANOSECONDS <= 1.0 else begin
 
+    def _advance(self, begin: float, end: float) -> float:
+        """Integrate to `end` [s], or to the first event where the settings ask for that; returns the time reached."""
+        now, last, repeated = begin, -math.inf, 0
+        while now < end - INSTANT or self._is_due(now):
+            stop = end if self._next_event is None else max(now, min(end, self._next_event))
+            reached = self._integrator.advance(now, stop) if stop > now else None
+            now = stop if reached is None else reached.time
+            if reached is not None and not (reached.is_root or reached.is_step_event) and not self._is_due(now):
+                continue
+            repeated = repeated + 1 if now - last <= INSTANT else 0
+            last = now
+            if repeated > MOST_EVENTS:
+                raise UnitError(self.name, f"{repeated} events follow each other at {now:.9g} s: it chatters",
+                                math.floor(now * NANOSECONDS), "give its switching a hysteresis")  # fmt: skip
+            self._enter_event_mode()
+            self._leave_event_mode()
+            if self.settings.report_early_return and now < end - INSTANT:
+                return now
+        return end
 
-def _pointer(array: Array) -> Any:
-    return array.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+    def _is_due(self, now: float) -> bool:
+        return self._next_event is not None and self._next_event <= now + INSTANT
+
+    def _pass_on(self, name: str) -> None:
+        """An input that jumps is an event: it may switch something whose indicator jumps along with it."""
+        if self._mode is Mode.RUNNING and name in self.writers:
+            self._enter_event_mode()
+        super()._pass_on(name)
+
+    def refresh(self) -> None:
+        """Outputs, and what switches, follow the inputs that were set since."""
+        if self._mode is Mode.EVENT:
+            self._leave_event_mode()
+        super().refresh()
+
+    def _extra(self) -> tuple[float | None, float, Array]:
+        self._integrator.forget()
+        return self._next_event, self._now, self._integrator.states.copy()
+
+    def _take_extra(self, extra: tuple[float | None, float, Array], time: int) -> None:
+        self._next_event, self._now, states = extra
+        self._integrator.forget()
+        self._integrator.restart(states[: self._model.states])
+
+    def checkpoint(self) -> dict[str, np.ndarray[Any, Any]]:
+        """The FMU's serialised state in Continuous-Time Mode, the inputs and the next time event."""
+        self.refresh()
+        return super().checkpoint()
+
+    def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
+        self._integrator.forget()
+        return {"next_event": np.array(math.inf if self._next_event is None else self._next_event)}
+
+    def _resume_extra(self, extra: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
+        event = float(extra["next_event"])
+        self._next_event = event if math.isfinite(event) else None
+        self._integrator.restart(self._model.get_states())

@@ -11,7 +11,7 @@ import numpy as np
 
 from cosim.fmu.access import Access
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.binding import Binding, Interface
+from cosim.fmu.binding import Binding, DiscreteStates, Interface
 from cosim.fmu.buffers import Buffers, Saved, element_text
 from cosim.fmu.dependencies import dependencies
 from cosim.fmu.settings import FmuSettings, Table
@@ -41,11 +41,15 @@ class SavedState:
     Args:
         handle: The FMU's own state.
         values: Inputs and outputs.
+        mode: Where the instance is.
+        is_stale: Whether an input was set after the outputs were read.
         extra: What the interface keeps beside it.
     """
 
     handle: Any
     values: Saved
+    mode: Mode
+    is_stale: bool
     extra: Any
 
 
@@ -80,6 +84,8 @@ class FmuUnit(Unit):
             #: One call for each variable that is read after a step.
             self.readers: list[Access] = self.buffers.readers
             self._mode = Mode.INSTANTIATED
+            if self.binding.uses_event_mode:
+                self._call_enter_event_mode = self.binding.checked("EnterEventMode")
             self._is_stale = False
             self._given: set[str] = set()
             for key, value in self.table.start_values(self.binding).items():
@@ -100,11 +106,13 @@ class FmuUnit(Unit):
     def set(self, name: str, value: AnyArray) -> None:
         """Copy a value to an input of the FMU; it reaches the FMU at once."""
         buffer = self.buffers.values[name]
+        if self._mode is Mode.INSTANTIATED:
+            self._given.add(name)
+        elif buffer is not value and (buffer == value).all():
+            return  # the FMU has it already
         buffer[...] = value
         if buffer.dtype.kind == "f" and not np.isfinite(buffer).all():
             raise UnitError(self.name, f"input {name}{element_text(buffer)} is not a finite number")
-        if self._mode is Mode.INSTANTIATED:
-            self._given.add(name)
         self._pass_on(name)
         self._is_stale = True
 
@@ -137,6 +145,27 @@ class FmuUnit(Unit):
             self.buffers.read(self._start_time)
             self._is_stale = False
 
+    def _enter_event_mode(self) -> None:
+        if self._mode is not Mode.EVENT:
+            self._call_enter_event_mode()
+            self._mode = Mode.EVENT
+
+    def _settle(self) -> DiscreteStates:
+        """Iterate in Event Mode until the discrete states do not change any more.
+
+        Raises:
+            UnitError: They do not settle, or the FMU asks to terminate.
+        """
+        nominals = states = False
+        for _ in range(MOST_ITERATIONS):
+            found = self.binding.update_discrete_states()
+            nominals, states = nominals or found.nominals_changed, states or found.states_changed
+            if found.terminate:
+                raise UnitError(self.name, "the FMU asks to terminate the simulation")
+            if not found.again:
+                return DiscreteStates(False, False, nominals, states, found.next_event)
+        raise UnitError(self.name, f"its discrete states do not settle in {MOST_ITERATIONS} iterations")
+
     def _begin(self, time: int) -> None:
         """From the end of Initialization Mode to the first step."""
         self._mode = Mode.RUNNING
@@ -164,13 +193,13 @@ class FmuUnit(Unit):
             raise UnitError(self.name, "it cannot return to a saved state (canGetAndSetFMUstate is false)",
                             remedy="choose an algorithm that repeats no step")  # fmt: skip
         self.exit_initialisation()
-        return SavedState(self.binding.save(), self.buffers.save(), self._extra())
+        return SavedState(self.binding.save(), self.buffers.save(), self._mode, self._is_stale, self._extra())
 
     def restore(self, saved: SavedState, time: int) -> None:
         """Return to a saved state, any number of times."""
         self.binding.restore(saved.handle)
         self.buffers.restore(saved.values)
-        self._is_stale = False
+        self._mode, self._is_stale = saved.mode, saved.is_stale
         self._take_extra(saved.extra, time)
 
     def release(self, saved: SavedState) -> None:

@@ -1,0 +1,99 @@
+"""The equations of a Model Exchange FMU as functions on numpy arrays."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+
+import numpy as np
+
+from cosim.fmu.binding import DISCARD, WARNING, Binding
+from cosim.unit import Array, UnitError
+
+
+class ContinuousModel:
+    """Continuous states, derivatives and event indicators of one instance.
+
+    Args:
+        binding: An initialised FMU.
+    """
+
+    def __init__(self, binding: Binding) -> None:
+        description = binding.archive.description
+        is_fmi3 = binding.prefix == "fmi3"
+        self._binding = binding
+        self.name = binding.name
+        #: Number of continuous states and of event indicators; structural parameters can change both in FMI 3.0.
+        self.states, self.indicators = description.numberOfContinuousStates, description.numberOfEventIndicators
+        if is_fmi3:
+            self.states = int(binding.call(binding.fmu.getNumberOfContinuousStates))
+            self.indicators = int(binding.call(binding.fmu.getNumberOfEventIndicators))
+        array = ctypes.c_void_p, ctypes.c_size_t
+        self._set_time = binding.checked("SetTime", ctypes.c_double)
+        self._set_states = binding.function("SetContinuousStates", *array)
+        derivatives = "GetContinuousStateDerivatives" if is_fmi3 else "GetDerivatives"
+        self._get_derivatives = binding.function(derivatives, *array)
+        self._get_indicators = binding.function("GetEventIndicators", *array)
+        self._get_states = binding.checked("GetContinuousStates", *array)
+        self._get_nominals = binding.checked("GetNominalsOfContinuousStates", *array)
+        boolean = ctypes.c_bool if is_fmi3 else ctypes.c_int
+        self._completed = binding.checked("CompletedIntegratorStep", boolean, ctypes.c_void_p, ctypes.c_void_p)
+        self._wants_event, self._terminate = boolean(), boolean()
+        self._scratch = [np.zeros(self.states), np.zeros(self.states), np.zeros(self.indicators)]
+        self._addresses = [a.ctypes.data for a in self._scratch]
+
+    def get_states(self) -> Array:
+        """Continuous states, shape (states,), a copy."""
+        result = np.zeros(self.states)
+        if self.states:
+            self._get_states(result.ctypes.data, self.states)
+        return result
+
+    def nominals(self) -> Array:
+        """Nominal values of the states, shape (states,); where the FMU gives zero or nonsense, one."""
+        result = np.ones(self.states)
+        if self.states:
+            self._get_nominals(result.ctypes.data, self.states)
+        result = np.abs(result)
+        return np.where(np.isfinite(result) & (result > 0.0), result, 1.0)
+
+    def move_to(self, time: float, states: Array) -> None:
+        """Set time [s] and states, shape (states,), for good; raises UnitError if the FMU refuses."""
+        self._set_time(time)
+        if self.states:
+            self._scratch[0][:] = states[: self.states]
+            status = self._set_states(self._binding.fmu.component, self._addresses[0], self.states)
+            if status > WARNING:
+                self._binding.check(f"{self._binding.prefix}SetContinuousStates", status)
+
+    def derivatives(self, time: float, states: Array, rates: Array) -> None:
+        """Fill `rates`; with NaN where the FMU discards the point, so that the integrator takes a smaller step."""
+        rates[self.states :] = 0.0
+        if self.states:
+            rates[: self.states] = self._evaluate(self._get_derivatives, 1, "Derivatives", time, states)
+
+    def event_indicators(self, time: float, states: Array, result: Array) -> None:
+        """Fill `result`, shape (indicators,)."""
+        result[:] = self._evaluate(self._get_indicators, 2, "GetEventIndicators", time, states)
+
+    def _evaluate(self, function: Callable[..., int], slot: int, label: str, time: float, states: Array) -> Array:
+        self._set_time(time)
+        component, result = self._binding.fmu.component, self._scratch[slot]
+        status = 0
+        if self.states:
+            self._scratch[0][:] = states[: self.states]
+            status = self._set_states(component, self._addresses[0], self.states)
+        if status <= WARNING:
+            status = function(component, self._addresses[slot], result.size)
+        if status > WARNING:
+            if status != DISCARD:
+                self._binding.check(label, status)
+            result.fill(np.nan)
+        return result
+
+    def completed_integrator_step(self) -> bool:
+        """Tell the FMU that the step is accepted; whether it wants Event Mode. Raises UnitError if it terminates."""
+        self._completed(True, ctypes.addressof(self._wants_event), ctypes.addressof(self._terminate))
+        if self._terminate.value:
+            raise UnitError(self.name, "the FMU asks to terminate the simulation")
+        return bool(self._wants_event.value)
