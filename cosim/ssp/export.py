@@ -89,6 +89,7 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
     if left_out == set(parts):
         raise ValueError("no component of it is an FMU")
     replaced = Replaced(left_out, parts)
+    connected: dict[str, set[str]] = {n: set() for n in parts}
     connections: list[WrittenConnection] = []
     for given, connection in zip(scenario.connections, assembly.system.connections, strict=True):
         linear, suppress = _scaling(given)
@@ -96,11 +97,12 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
             continue
         if connection.source[0] in left_out and replaced.as_start_value(connection, linear, suppress):
             continue
+        connected[connection.target[0]].add(connection.target[1])
         connections += _connections(export.parts, connection, replaced, linear, suppress)
     components = [
-        _fmu_component(export, parts[n], assembly.parameters[n], replaced.starts.get(n, {}))
+        _fmu_component(export, parts[n], assembly.parameters[n], replaced.starts.get(n, {}), connected[n])
         if parts[n].fmu is not None
-        else _own_component(export, parts[n])
+        else _own_component(export, parts[n], connected[n])
         for n in scenario.components
         if n not in left_out
     ]
@@ -146,7 +148,7 @@ def _connections(
         yield WrittenConnection(replaced.end(ends[0], name), ends[1], linear, suppress)
 
 
-def _own_component(export: _Export, part: Part) -> WrittenComponent:
+def _own_component(export: _Export, part: Part, connected: set[str]) -> WrittenComponent:
     """A component that is no FMU: its YAML is its source."""
     data = part.component.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     data = {"kind": part.component.kind, **data}
@@ -157,10 +159,12 @@ def _own_component(export: _Export, part: Part) -> WrittenComponent:
         data["parameter_set"] = data["parameter_set"].removeprefix("resources/")
     text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110)
     source = _entry(export, f"{part.name}.yaml", text.encode())
-    return WrittenComponent(part.name, OWN_TYPE, source, "any", part.ports(), None, {})
+    return WrittenComponent(part.name, OWN_TYPE, source, "any", part.ports(connected), None, {})
 
 
-def _fmu_component(export: _Export, part: Part, resolved: Resolved, starts: Mapping[str, Any]) -> WrittenComponent:
+def _fmu_component(
+    export: _Export, part: Part, resolved: Resolved, starts: Mapping[str, Any], connected: set[str]
+) -> WrittenComponent:
     component, fmu = part.component, part.fmu
     assert isinstance(component, FmuComponent)
     assert fmu is not None
@@ -178,7 +182,7 @@ def _fmu_component(export: _Export, part: Part, resolved: Resolved, starts: Mapp
     kept = set(OWN_KEYS) - (set() if is_fmi2 else {"structure"})
     own = component.model_dump(mode="json", include=kept, exclude_defaults=True, exclude_none=True)
     return WrittenComponent(
-        part.name, FMU_TYPE, source, _IMPLEMENTATIONS[component.integrator], part.ports(), parameters, own
+        part.name, FMU_TYPE, source, _IMPLEMENTATIONS[component.integrator], part.ports(connected), parameters, own
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from cosim.components import Component, FmuComponent
@@ -69,14 +70,18 @@ class Part:
             return is_split
         return self.version == "1.0"
 
-    def ports(self) -> list[Port]:
-        """Every input and output."""
+    def ports(self, connected: Collection[str]) -> list[Port]:
+        """Every output, and the inputs that are connected.
+
+        An input that is not listed keeps its start value in every tool; some set listed ones to 0.
+
+        Args:
+            connected: Names of inputs.
+        """
         found = []
         for name, variable in self.unit.variables.items():
-            if variable.causality not in _KINDS:
-                continue
-            for written in self.element_names(name):
-                found.append(self._port(name, written, variable))
+            if variable.causality is Causality.OUTPUT or name in connected:
+                found += [self._port(name, written, variable) for written in self.element_names(name)]
         return found
 
     def element_names(self, name: str) -> list[str]:

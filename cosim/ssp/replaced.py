@@ -56,6 +56,6 @@ class Replaced:
             return end
         name = f"{end.element}.{end.connector}"
         if name not in self.inputs:
-            ports = {p.name: p for p in self._parts[end.element].ports()}
+            ports = {p.name: p for p in self._parts[end.element].ports(())}
             self.inputs[name] = replace(ports[end.connector], name=name, kind="input")
         return End(None, name, end.indices)
