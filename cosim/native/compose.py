@@ -11,7 +11,7 @@ from cosim.fmu.unit import FmuUnit
 from cosim.native.action import Action, Call
 from cosim.native.copies import copy_operation
 from cosim.native.courses import course_call
-from cosim.native.fmu_calls import is_carried, read_calls, step_call, write_calls
+from cosim.native.fmu_calls import is_carried, read_calls, step_call, write_call
 from cosim.programme import ProgrammeUnit
 from cosim.system import System
 from cosim.unit import AnyArray, StepOutcome, Unit
@@ -79,18 +79,17 @@ class Composer:
         name = transfer.variable.name
         if not _is_plain(transfer.target) or name not in transfer.target.writers:
             return None
-        access = transfer.target.writers[name]
-        calls = write_calls(access, self.own)
-        if calls is None:
+        write = write_call(transfer.target.writers[name], transfer.buffer, self.own)
+        if write is None:
             return None
         copies = []
         for part in transfer.parts:
             source = self.live(part.source, part.connection.source[1])
-            copy = None if source is None else copy_operation(part.connection, source, access.values, self.own)
+            copy = None if source is None else copy_operation(part.connection, source, part.buffer, self.own)
             if copy is None:
                 return None
             copies.append(Call(copy))
-        return copies + calls
+        return [*copies, write]
 
     def _step(self, name: str) -> Action:
         unit, system = self._system.units[name], self._system

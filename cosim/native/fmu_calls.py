@@ -12,12 +12,21 @@ from cosim.native.layout import ELEMENT_TYPES, Code, Operation
 from cosim.unit import AnyArray
 
 
-def write_calls(access: Access, unit: int) -> list[Call] | None:
-    """Set one input; None where Python has to translate its values (text, binary data)."""
-    if not _is_carried(access):
+def write_call(access: Access, given: AnyArray, unit: int) -> Call | None:
+    """Set one input to the values in `given`; None where Python has to translate them (text, binary data)."""
+    if not _is_carried(access) or given.dtype != access.values.dtype:
         return None
     call = _access_call(access, Code.WRITE_FMI3 if _is_fmi3(access) else Code.WRITE_FMI2, unit)
-    return [call] if access.is_direct else [_conversion(access.values, access.buffer, unit), call]
+    operation = call.operation
+    operation.source_type = ELEMENT_TYPES[given.dtype.name]
+    operation.source = given.ctypes.data
+    operation.held = access.values.ctypes.data
+    operation.held_bytes = given.nbytes
+    operation.source_step = 1
+    operation.factor = 1.0
+    if access.is_direct:
+        operation.target = given.ctypes.data
+    return call
 
 
 def read_calls(access: Access, unit: int) -> list[Call] | None:

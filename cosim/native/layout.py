@@ -8,7 +8,7 @@ from enum import IntEnum
 from cosim.unit import VariableType
 
 #: Changes with every change of the structures; the library says for which one it was compiled.
-LAYOUT_VERSION = 1
+LAYOUT_VERSION = 2
 
 
 class Code(IntEnum):
@@ -65,6 +65,8 @@ class Operation(ctypes.Structure):
         ("reference_count", ctypes.c_size_t),
         ("target", ctypes.c_void_p),
         ("source", ctypes.c_void_p),
+        ("held", ctypes.c_void_p),
+        ("held_bytes", ctypes.c_size_t),
         ("count", ctypes.c_size_t),
         ("source_step", ctypes.c_size_t),
         ("factor", ctypes.c_double),

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define LAYOUT_VERSION 1
+#define LAYOUT_VERSION 2
 
 #if defined(_WIN32)
 #define EXPORT __declspec(dllexport)
@@ -21,7 +21,7 @@ enum {
     COPY_DOUBLE,   /* one Float64, as it is */
     COPY_BYTES,    /* `count` bytes */
     CONVERT,       /* `count` elements: from source_type to target_type, times factor plus offset */
-    WRITE_FMI2,    /* fmi2SetReal and its kin, after the check of the values */
+    WRITE_FMI2,    /* fmi2SetReal and its kin, where a value differs from the one held, after the check of the values */
     WRITE_FMI3,    /* fmi3SetFloat64 and its kin */
     READ_FMI2,     /* fmi2GetReal and its kin, before the check of the values */
     READ_FMI3,     /* fmi3GetFloat64 and its kin */
@@ -49,13 +49,15 @@ typedef struct {
     int32_t code;
     int32_t unit;       /* whose wall time it counts for; `units` of the plan for none */
     int32_t source_type;
-    int32_t target_type; /* for READ and WRITE too: floating-point values are checked */
+    int32_t target_type; /* for READ too: floating-point values are checked */
     void (*function)(void);
     void *component;
     const uint32_t *references;
     size_t reference_count;
-    void *target; /* the values of READ and WRITE */
-    const void *source;
+    void *target; /* what the FMU sees of READ and WRITE */
+    const void *source; /* WRITE: new values; converted to `target` where their type differs from C's */
+    void *held;         /* WRITE: the values that the FMU has */
+    size_t held_bytes;
     size_t count;       /* elements (COPY_BYTES: bytes) */
     size_t source_step; /* 0: one source element fills the target */
     double factor;

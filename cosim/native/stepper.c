@@ -8,6 +8,7 @@
 #include "convert.h"
 #include "course.h"
 #include "plan.h"
+#include "values.h"
 
 typedef int (*AccessFmi2)(void *component, const uint32_t references[], size_t count, void *values);
 typedef int (*AccessFmi3)(void *instance, const uint32_t references[], size_t count, void *values, size_t value_count);
@@ -27,34 +28,6 @@ static double now(void)
     return (double)moment.tv_sec + 1e-9 * (double)moment.tv_nsec;
 }
 
-static inline bool is_finite(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (bits & UINT64_C(0x7ff0000000000000)) != UINT64_C(0x7ff0000000000000);
-}
-
-/* Index of the first element that is not finite, or -1. */
-static inline int64_t first_not_finite(const Operation *operation)
-{
-    if (operation->target_type == FLOAT64) {
-        const double *values = operation->target;
-        for (size_t i = 0; i < operation->count; ++i) {
-            if (!is_finite(values[i])) {
-                return (int64_t)i;
-            }
-        }
-    } else if (operation->target_type == FLOAT32) {
-        const float *values = operation->target;
-        for (size_t i = 0; i < operation->count; ++i) {
-            if (!is_finite((double)values[i])) {
-                return (int64_t)i;
-            }
-        }
-    }
-    return -1;
-}
-
 static inline int access_fmi2(const Operation *o)
 {
     return ((AccessFmi2)o->function)(o->component, o->references, o->reference_count, o->target);
@@ -65,14 +38,24 @@ static inline int access_fmi3(const Operation *o)
     return ((AccessFmi3)o->function)(o->component, o->references, o->reference_count, o->target, o->count);
 }
 
-static inline int write_checked(const Operation *operation, Cursor *cursor, bool is_fmi2)
+static inline int write_checked(const Operation *o, Cursor *cursor, bool is_fmi2)
 {
-    cursor->element = first_not_finite(operation);
+    if (are_equal(o->source, o->held, o->source_type, o->count, o->held_bytes)) {
+        return REACHED;
+    }
+    cursor->element = first_not_finite(o->source, o->source_type, o->count);
     if (cursor->element >= 0) {
         return NOT_FINITE;
     }
-    cursor->status = is_fmi2 ? access_fmi2(operation) : access_fmi3(operation);
-    return cursor->status > STATUS_WARNING ? REFUSED : REACHED;
+    if (o->source != o->target) {
+        convert(o);
+    }
+    cursor->status = is_fmi2 ? access_fmi2(o) : access_fmi3(o);
+    if (cursor->status > STATUS_WARNING) {
+        return REFUSED;
+    }
+    memcpy(o->held, o->source, o->held_bytes);
+    return REACHED;
 }
 
 static inline int read_checked(const Operation *operation, Cursor *cursor, bool is_fmi2)
@@ -81,7 +64,7 @@ static inline int read_checked(const Operation *operation, Cursor *cursor, bool 
     if (cursor->status > STATUS_WARNING) {
         return REFUSED;
     }
-    cursor->element = first_not_finite(operation);
+    cursor->element = first_not_finite(operation->target, operation->target_type, operation->count);
     return cursor->element >= 0 ? NOT_FINITE : REACHED;
 }
 

@@ -73,7 +73,8 @@ def run(make: Callable[[], System], course: Course, is_native: bool, hand_over: 
         trace = Trace(system, times)
         trace.record(course.start)
         loop = _native if is_native else _python
-        index, ending, share = loop(system, course, trace, hand_over)
+        with np.errstate(invalid="ignore", over="ignore"):  # values that are not finite are found and named anyway
+            index, ending, share = loop(system, course, trace, hand_over)
         count = index // course.per_record + 1
         rows = {c.name: trace._data[c.name][:count].copy() for c in trace.channels}
         now = {f"{n}.{v}": np.array(u.get(v)) for n, u in system.units.items() for v in u.variables}

@@ -13,6 +13,10 @@ from hypothesis import strategies as st
 from cosim.native import csv_file
 from cosim.native.csv_file import CsvColumn, CsvWriter, write_csv
 from cosim.native.layout import ELEMENT_TYPES
+from cosim.native.trace_csv import write_trace
+from cosim.observers.trace import Trace
+from cosim.system import System
+from tests.native.both_loops import fmu
 
 RNG = np.random.default_rng(20)
 
@@ -122,3 +126,21 @@ def test_text_is_quoted_and_only_the_rows_asked_for_are_written():
     file = io.BytesIO()
     CsvWriter(file, np.array([0.0, 0.5, 1.0]), [CsvColumn("unit.mode", "1", texts)]).write(2)
     assert file.getvalue() == b'time [s],unit.mode [1]\n0.0,plain\n0.5,"a ""quoted"", one"\n'
+
+
+def test_a_trace_of_every_type_is_written(scripted, tmp_path):
+    system = System({"a": fmu("a", scripted[2], rate=2.0)}, [])
+    system.initialise(0, {})
+    trace = Trace(system, range(0, 3_000_000, 1_000_000))
+    trace.record(0)
+    system.step("a", 0, 1_000_000)
+    trace.record(1_000_000)
+    system.terminate()
+    write_trace(tmp_path / "run.csv", trace)
+    first, *rows = csv.reader((tmp_path / "run.csv").read_text().splitlines())
+    assert set(first) == {"time [s]", "a.y [1]", "a.yf [1]", "a.yi [1]", "a.yb [1]", "a.z [1]", "a.ya[1] [1]",
+                          "a.ya[2] [1]", "a.ya[3] [1]"}  # fmt: skip
+    assert len(rows) == 2
+    last = dict(zip(first, rows[1]))
+    assert (last["time [s]"], last["a.yi [1]"], last["a.yb [1]"], last["a.yf [1]"]) == ("0.001", "7", "0", repr(
+        float(np.float32(0.1))))  # fmt: skip
