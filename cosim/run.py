@@ -217,7 +217,8 @@ def _run_to_end(
 ) -> xr.Dataset:
     reason, is_interrupt = "", False
     try:
-        with deferred_interrupt() as interrupt:
+        # Every value is checked for being finite, so numpy's warnings of overflow and NaN would only repeat the error.
+        with np.errstate(invalid="ignore", over="ignore"), deferred_interrupt() as interrupt:
             _step_to_end(state, folder, on_progress, interrupt)
     except UnitError as error:  # one raised while values are exchanged does not know the time
         moment = state.now if error.time is None else error.time
