@@ -158,13 +158,21 @@ class FmuUnit(Unit):
         """
         nominals = states = False
         for _ in range(MOST_ITERATIONS):
+            self._before_update()
             found = self.binding.update_discrete_states()
+            self._after_update()
             nominals, states = nominals or found.nominals_changed, states or found.states_changed
             if found.terminate:
                 raise UnitError(self.name, "the FMU asks to terminate the simulation")
             if not found.again:
                 return DiscreteStates(False, False, nominals, states, found.next_event)
         raise UnitError(self.name, f"its discrete states do not settle in {MOST_ITERATIONS} iterations")
+
+    def _before_update(self) -> None:
+        """What an interface reads in Event Mode before the discrete states are updated."""
+
+    def _after_update(self) -> None:
+        """What it reads afterwards."""
 
     def _begin(self, time: int) -> None:
         """From the end of Initialization Mode to the first step."""
