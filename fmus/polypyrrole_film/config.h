@@ -46,7 +46,7 @@
     V(film_length, "film_length", PARAMETER, SCALAR, "m", 0.03, POSITIVE, 0.01, "", "Length of the films") \
     V(film_section, "film_section", PARAMETER, SCALAR, "m^2", 22.5e-6, POSITIVE, 1e-5, "", \
       "Cross-section of all films of an actuator") \
-    V(film_thickness, "film_thickness", PARAMETER, SCALAR, "m", 6e-6, POSITIVE, 1e-5, "", \
+    V(film_thickness, "film_thickness", PARAMETER, SCALAR, "m", 4e-6, POSITIVE, 1e-5, "", \
       "Thickness of one film, wetted on both sides") \
     V(youngs_modulus, "youngs_modulus", PARAMETER, SCALAR, "Pa", 0.8e9, POSITIVE, 1e9, "", "Young's modulus of the film") \
     V(volumetric_capacitance, "volumetric_capacitance", PARAMETER, SCALAR, "F/m^3", 8e7, POSITIVE, 1e8, "", \
@@ -57,7 +57,7 @@
       "Diffusion coefficient of the ions in the film") \
     V(lever_ratio, "lever_ratio", PARAMETER, SCALAR, "1", 16.1, POSITIVE, 10, "", \
       "Stroke of the actuator over that of its films") \
-    V(coil_rest_length, "coil_rest_length", PARAMETER, SCALAR, "m", 0.03145, POSITIVE, 0.03, "", \
+    V(coil_rest_length, "coil_rest_length", PARAMETER, SCALAR, "m", 0.0314, POSITIVE, 0.03, "", \
       "Length without load of an actuator without charge")
 
 #endif

@@ -47,6 +47,17 @@ def test_only_the_functions_of_the_standard_are_exported(unpacked, model, versio
 
 
 @every_fmu
+def test_a_binary_links_what_it_uses(unpacked, model, version):
+    """Every symbol is found by the loader alone: a host that has no libm of its own can use it."""
+    done = subprocess.run(
+        ["ldd", "-r", binary(unpacked(model, version), model, version)], capture_output=True, text=True, check=True
+    )
+    assert "undefined symbol" not in done.stdout + done.stderr
+    assert "not found" not in done.stdout + done.stderr
+    assert "libm.so" in done.stdout or model == "instant_stiffness"
+
+
+@every_fmu
 def test_a_c_host_leaks_nothing(unpacked, tmp_path, model, version):
     if shutil.which("valgrind") is None:
         pytest.skip("valgrind is not installed")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from fmu_runs import STEP, advance
 from niti_twin import NITI
+from scipy.optimize import curve_fit
 from thermal_twin import CELSIUS, cooling, heating
 
 from cosim.unit import UnitError, seconds
@@ -193,6 +194,21 @@ def test_under_the_papers_weight_the_stiffness_is_close_to_equation_2(make_unit)
     # A cosine is no Gompertz curve: 2.3 and 10.7 N/m are the largest residuals of the fits (README).
     assert np.abs(up - heating(celsius)).max() < 2.4
     assert np.abs(down - cooling(celsius)).max() < 10.8
+
+
+def test_latent_heat_slows_the_cooling_to_the_papers_rate(make_unit):
+    """Equation (5) has a regressed alpha of 0.14 1/s where h A / C is 0.22 1/s: under load, latent heat explains it."""
+    unit = make_unit("niti_kinetics", coils=2)
+    unit.set("tension", np.array([3.5, WEIGHT]))
+    unit.initialise(0)
+    advance(unit, np.full((1, 2), 1.0 / 2.2), (), size=200 * 10**9)
+    rise = advance(unit, np.zeros((300, 2)), ("temperature",), size=10**8, begin=200 * 10**9)[:, 0] - 295.15
+    time = 0.1 * np.arange(1, 301)
+    start = 1.0 / 2.2 / NITI.conductance
+    for k in range(2):
+        (alpha,), _ = curve_fit(lambda t, a: start * np.exp(-a * t), time, rise[:, k], p0=0.2)
+        assert alpha == pytest.approx(0.14, abs=0.005)
+    assert NITI.conductance / CAPACITY == pytest.approx(0.2226, abs=1e-4)
 
 
 def test_a_slack_coil_is_an_unloaded_one(make_unit):
