@@ -123,6 +123,10 @@ class IsolatedProcess:
             raise self._died(doing, time) from None
         except TimeoutError:
             raise self._timed_out(doing, time, limit) from None
+        except Exception as error:
+            self.failure = f"its process sent something unreadable ({type(error).__name__}: {error})"
+            self.end()
+            raise UnitError(self.unit, self.failure, time) from error
         except BaseException:  # the user's second Ctrl-C: a reply may still come, so no request can follow
             self.failure = "it was interrupted"
             self.end()

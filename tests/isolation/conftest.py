@@ -49,6 +49,11 @@ def temporary(tmp_path, monkeypatch):
     assert not [name for name in os.listdir("/dev/shm") if "cosim" in name]
 
 
+def rising(count):
+    """The first values of y: u = 1 summed over steps of 0.01 s, each rounded (10 steps: a relative 2e-15)."""
+    return pytest.approx([0.01 * k for k in range(count)], rel=1e-12)
+
+
 def processes(text):
     """Ids of all processes with `text` in their command line (the extracted FMU's folder is in it), but this one."""
     found = []

@@ -13,7 +13,7 @@ from cosim.isolation.ending import last_lines
 from cosim.run import RunStopped, run
 from cosim.unit import UnitError
 
-from .conftest import processes
+from .conftest import processes, rising
 
 STEP = 10_000_000
 MEGABYTE = 1_000_000
@@ -36,7 +36,7 @@ def test_an_endless_step_is_ended_and_the_values_before_it_are_kept(tmp_path, fm
     with pytest.raises(RunStopped, match=what):
         run(limited({"unruly": fmu("never_return", "step")}), tmp_path / "run")
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
-    assert kept["unruly.y"].values.tolist() == [sum([0.01] * k) for k in range(6)]
+    assert kept["unruly.y"].values.tolist() == rising(6)
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,7 @@ def test_a_leak_ends_at_the_memory_limit_which_is_named(tmp_path, fmu, scenario)
     # The last block of 4 MB did not fit; the resident set holds 40 MB of files beside what is limited.
     assert 500 <= used <= 700
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
-    assert kept["unruly.y"].values.tolist() == [sum([0.01] * k) for k in range(6)]
+    assert kept["unruly.y"].values.tolist() == rising(6)
 
 
 def test_memory_that_is_never_touched_counts_too_and_a_refusal_names_it(isolate, fmu):
@@ -101,7 +101,7 @@ def test_a_limit_below_what_the_interpreter_needs_is_refused(tmp_path, fmu, scen
 
 def test_a_flood_of_output_neither_blocks_nor_reaches_the_terminal(tmp_path, fmu, scenario, capfd):
     dataset = run(scenario({"unruly": fmu("flood", "step")}))
-    assert dataset["unruly.y"].values.tolist() == [sum([0.01] * k) for k in range(11)]
+    assert dataset["unruly.y"].values.tolist() == rising(11)
     assert capfd.readouterr() == ("", "")
 
 

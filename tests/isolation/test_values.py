@@ -12,7 +12,7 @@ from cosim.isolation.unit import IsolatedUnit
 from cosim.unit import StepStatus, Unit, UnitError, VariableType
 
 from .conftest import descriptors
-from .units import Echo, Modules, refusing
+from .units import Babbler, Echo, Modules, refusing
 
 TEXTS = ["", "grün 织物", "line\nline", "a" * 300_000, " ", "\0"]
 BLOBS = [b"", bytes(range(256)), b"\0" * 300_000, b"\xff", b"a", b"b"]
@@ -179,6 +179,14 @@ def test_a_defect_of_the_unit_is_reported_with_the_end_of_its_traceback(echo):
 def test_errors_of_the_construction_are_those_of_the_unit(isolated, error, kind, what):
     with pytest.raises(kind, match=what):
         isolated(partial(refusing, error))
+
+
+def test_rubbish_in_place_of_a_reply_is_an_error_of_the_unit(isolated):
+    unit = isolated(partial(Babbler, "unit"))
+    with pytest.raises(UnitError, match=r"^unit at t = 1e-08 s: its process sent something unreadable"):
+        unit.do_step(10, 10)
+    with pytest.raises(UnitError, match="its process has ended: its process sent something unreadable"):
+        unit.do_step(20, 10)
 
 
 def test_nothing_but_finish_step_may_follow_begin_step(echo):

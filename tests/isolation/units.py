@@ -104,6 +104,19 @@ class Modules(Unit):
         """Nothing to free."""
 
 
+class Babbler(Modules):
+    """Its step writes rubbish to every pipe that it finds."""
+
+    def do_step(self, time, size):
+        """Write."""
+        for entry in os.listdir("/proc/self/fd"):
+            try:
+                os.write(int(entry), b"\xff" * 4096)
+            except OSError:  # not open for writing
+                continue
+        return StepOutcome(StepStatus.OK, time + size)
+
+
 def empty(variable):
     """Array of zeros, empty texts or empty bytes."""
     blank = {VariableType.STRING: "", VariableType.BINARY: b""}.get(variable.type, 0)
