@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from cosim.compare.layout import Layout
 from cosim.compare.measures import coil_series, shape_series, total_power
@@ -53,6 +53,7 @@ def _spread(place: Axes, series: list[xr.DataArray]) -> None:
         return
     if min(float(s.min()) for s in series) > 0.0:
         place.set_yscale("log")
+        place.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     else:
         place.set_yscale("symlog", linthresh=min(peaks))
         place.set_ylim(bottom=0.0)

@@ -42,7 +42,9 @@ def cells(columns: Columns) -> list[list[str]]:
 
 def show(columns: Columns, console: Console) -> None:
     """Print the table."""
-    table = Table("quantity", *columns, box=None, pad_edge=False)
+    table = Table(box=None, pad_edge=False)
+    for heading in ("quantity", *columns):
+        table.add_column(heading, overflow="fold")
     for row in cells(columns):
         table.add_row(*map(escape, row))  # [s] is a unit here, no markup
     console.print(table)

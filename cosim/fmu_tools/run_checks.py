@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cosim.fmu.archive import open_fmu
+from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings, FmuUnit
@@ -25,8 +25,8 @@ SAME = 2e-5
 Trace = dict[str, list[AnyArray]]
 
 
-def _unit(path: Path, interface: str | None = None) -> FmuUnit:
-    archive = open_fmu(path)
+def _unit(path: Path, interface: str | None = None, archive: FmuArchive | None = None) -> FmuUnit:
+    archive = archive or open_fmu(path)
     has_cs = archive.description.coSimulation is not None
     kind = ModelExchangeUnit if interface == "model_exchange" or not has_cs else CoSimulationUnit
     unit = kind(path.stem, archive, FmuSettings())
@@ -73,7 +73,11 @@ def steps(path: Path) -> str:
 
 def repeats(path: Path) -> str:
     """Two instances in one process, stepped in turn, give the same values to the last bit."""
-    one, other = _begun(path), _begun(path)
+    archive = open_fmu(path)  # extracted once: the same library is loaded once, with one set of global variables
+    one, other = _unit(path, archive=archive), _unit(path, archive=archive)
+    for unit in (one, other):
+        unit.initialise(0)
+        unit.exit_initialisation()
     for index in range(STEPS):
         difference = _first_difference(_advance(one, index, 1), _advance(other, index, 1))
         if difference:
