@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from benchmarks.machine import heading, results_folder
+from benchmarks.models import cosim_run, fmpy_loop
 from benchmarks.models.build import build
-from benchmarks.models.fmpy_loop import simulate
 from benchmarks.models.systems import QUARTER_TRUCK
 
 #: Communication steps [s]; each divides 1 s, the time of the ground's step, into a whole number of steps.
@@ -21,6 +22,27 @@ CHASSIS = (400.0, 15e3, 1e3)
 WHEEL = (40.0, 150e3, 0.0)
 STEP_HEIGHT, BANDWIDTH = 0.1, 2 * math.pi * 10.0
 Vector = np.ndarray[Any, np.dtype[np.float64]]
+#: Height of the chassis at 2 s [m] with a step [s].
+Simulate = Callable[[float], float]
+
+
+def _fmpy(version: int, kind: str) -> Simulate:
+    return lambda step: fmpy_loop.simulate(QUARTER_TRUCK, version, step, kind)[0]
+
+
+def _cosim(method: cosim_run.Method) -> Simulate:
+    return lambda step: cosim_run.simulate(QUARTER_TRUCK, 2, step, method)[0]
+
+
+#: What is measured. All are of first order: the ground, which no loop contains, is held over each step.
+METHODS: dict[str, Simulate] = {
+    "FMPy loop, FMI 2.0, Jacobi": _fmpy(2, "jacobi"),
+    "FMPy loop, FMI 2.0, Gauss-Seidel": _fmpy(2, "gauss_seidel"),
+    "FMPy loop, FMI 3.0, Jacobi": _fmpy(3, "jacobi"),
+    "cosim, jacobi": _cosim("jacobi"),
+    "cosim, gauss_seidel": _cosim("gauss_seidel"),
+    "cosim, iterated": _cosim("iterated"),
+}
 
 
 def _rates(time: float, x: Vector) -> Vector:
@@ -47,20 +69,20 @@ def monolithic() -> float:
 
 
 def richardson(values: list[float]) -> float:
-    """Limit of a first-order sequence whose step halves: two eliminations (orders 1 and 2) of its last three values."""
+    """Limit of a first-order sequence whose step halves: orders 1 and 2 eliminated from its last three values."""
     first = [2 * fine - coarse for coarse, fine in itertools.pairwise(values)]
     return (4 * first[-1] - first[-2]) / 3
 
 
-def table(version: int, kind: str) -> tuple[list[str], float]:
+def table(simulate: Simulate) -> tuple[list[str], float]:
     """Rows of step, height, error and order; and the Richardson limit."""
     exact = monolithic()
-    heights = [simulate(QUARTER_TRUCK, version, step, kind)[0] for step in STEPS]
+    heights = [simulate(step) for step in STEPS]
     errors = [height - exact for height in heights]
     rows = []
     for i, step in enumerate(STEPS):
-        order = f"{math.log2(abs(errors[i - 1] / errors[i])):.3f}" if i else ""
-        rows.append(f"| {step:g} | {heights[i]:.9f} | {errors[i]:+.3e} | {order} |")
+        found = f"{math.log2(abs(errors[i - 1] / errors[i])):.3f}" if i else ""
+        rows.append(f"| {step:g} | {heights[i]:.9f} | {errors[i]:+.3e} | {found} |")
     return rows, richardson(heights)
 
 
@@ -74,11 +96,11 @@ def main(arguments: list[str] | None = None) -> None:
              "springs compressed by the weights. One monolithic solution of all equations (SciPy DOP853): "
              f"{monolithic():.9f} m.",
              ]  # fmt: skip
-    for version, kind in ((2, "jacobi"), (2, "gauss_seidel"), (3, "jacobi")):
-        rows, limit = table(version, kind)
-        lines += ["", f"## FMPy loop, FMI {version}.0, {kind}\n", "| step [s] | height [m] | error [m] | order |",
-                  "|---|---|---|---|", *rows, "", f"Richardson limit {limit:.9f} m, {limit - monolithic():+.1e} m "
-                  "from the monolithic solution."]  # fmt: skip
+    for name, simulate in METHODS.items():
+        rows, limit = table(simulate)
+        beside = limit - monolithic()
+        lines += ["", f"## {name}\n", "| step [s] | height [m] | error [m] | order |", "|---|---|---|---|", *rows, "",
+                  f"Richardson limit {limit:.9f} m, {beside:+.1e} m from the monolithic solution."]  # fmt: skip
     text = "\n".join(lines) + "\n"
     (results_folder() / "quarter_truck.md").write_text(text)
     print(text)

@@ -50,18 +50,20 @@ def build_one(folder: Path, version: int, into: Path) -> Path:
              "-lm"], check=True)  # fmt: skip
         entries = {"modelDescription.xml": describe(model, version).encode(), binary: library.read_bytes()}
     into.mkdir(parents=True, exist_ok=True)
-    with zipfile.ZipFile(fmu, "w", zipfile.ZIP_DEFLATED) as archive:
+    part = fmu.with_suffix(".part")  # another process may be reading the old file
+    with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in entries.items():
             entry = zipfile.ZipInfo(name, EPOCH)
             entry.external_attr = (0o100755 if name == binary else 0o100644) << 16
             archive.writestr(entry, content)
+    part.replace(fmu)
     return fmu
 
 
 def build(into: Path = DEFAULT) -> list[Path]:
     """Build every FMU that is missing or older than its sources; returns all paths."""
     built = []
-    shim_age = max(file.stat().st_mtime for file in [*SHIM.iterdir(), *HERE.glob("*.py")])
+    shim_age = max(file.stat().st_mtime for file in [*SHIM.iterdir(), HERE / "build.py", HERE / "describe.py"])
     for folder in sorted(p.parent for p in HERE.glob("*/model.toml")):
         age = max(shim_age, *(file.stat().st_mtime for file in folder.iterdir()))
         for version in load(folder).versions:

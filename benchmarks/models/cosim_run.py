@@ -15,14 +15,20 @@ from cosim.scenario import Scenario, parse_scenario
 MODELS = Path(__file__).resolve().parent
 
 
-def scenario(system: System, version: int, step: float, kind: str = "jacobi", output_step: float | None = None) -> Any:
+#: Name of an algorithm, or what a scenario says under `algorithm`.
+Method = str | dict[str, Any]
+
+
+def scenario(
+    system: System, version: int, step: float, method: Method = "jacobi", output_step: float | None = None
+) -> dict[str, Any]:
     """What a user would write, as the mapping that a scenario file holds.
 
     Args:
         system: What to simulate.
         version: FMI version, 2 or 3.
         step: Macro-step [s].
-        kind: Algorithm.
+        method: Algorithm.
         output_step: Interval of recorded values [s]; None: the end alone.
     """
     steps = round(system.stop / step)
@@ -41,19 +47,21 @@ def scenario(system: System, version: int, step: float, kind: str = "jacobi", ou
         "title": "measured system",
         "time": {"stop": f"{system.stop:.9g} s", "macro_step": f"{step * 1e9:.0f} ns",
                  "output_step": f"{output * 1e9:.0f} ns", "checkpoint_step": f"{step * steps * 1e9:.0f} ns"},
-        "algorithm": {"kind": kind},
+        "algorithm": {"kind": method} if isinstance(method, str) else method,
         "components": components,
         "connections": [f"{c.source}.{c.output} -> {c.target}.{c.input}" for c in system.connections],
     }  # fmt: skip
 
 
-def load(system: System, version: int, step: float, kind: str = "jacobi", output_step: float | None = None) -> Scenario:
+def load(
+    system: System, version: int, step: float, method: Method = "jacobi", output_step: float | None = None
+) -> Scenario:
     """The scenario, checked."""
-    text = yaml.safe_dump(scenario(system, version, step, kind, output_step), sort_keys=False)
+    text = yaml.safe_dump(scenario(system, version, step, method, output_step), sort_keys=False)
     return parse_scenario(text, Path("benchmark.yaml"))
 
 
-def simulate(system: System, version: int, step: float, kind: str = "jacobi") -> tuple[float, ...]:
+def simulate(system: System, version: int, step: float, method: Method = "jacobi") -> tuple[float, ...]:
     """Outputs of `system` at its stop time."""
-    result = run(load(system, version, step, kind))
+    result = run(load(system, version, step, method))
     return tuple(float(result[f"{name}.{variable}"].values[-1]) for name, variable in system.outputs)

@@ -35,6 +35,7 @@ SCRIPTS = [
     ("ssp_ecospy", "ecospy", ()),
     ("ssp_libcosimpy", "libcosimpy", ("1.0",)),
     ("ssp_libcosimpy", "libcosimpy", ("2.0",)),
+    ("ssp_fmpy", "fmpy_loop", ()),
     ("isolation_ecospy", "ecospy", ("feedthrough_fmi2",)),
     ("isolation_ecospy", "ecospy", ("crasher_fmi2",)),
     *(

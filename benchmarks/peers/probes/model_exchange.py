@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -58,7 +59,9 @@ def mastersim(path: Path, work: Path) -> str:
     )
     done = subprocess.run([os.environ["MASTERSIM"], "--verbosity-level=1", "-x", work / "job.msim"],
                           capture_output=True, text=True, check=False)  # fmt: skip
-    return f"exit code {done.returncode}; {(done.stdout + done.stderr).strip().splitlines()[-1][-160:]}"
+    text = re.sub(r"\x1b\[[0-9;]*m", "", done.stdout + done.stderr)
+    reasons = [line.strip() for line in text.splitlines() if "xpected" in line]
+    return f"exit code {done.returncode}; {reasons[-1] if reasons else 'no reason given'}"
 
 
 def fmpy(path: Path, work: Path) -> str:
