@@ -101,6 +101,8 @@ class Binding(ABC):
                 archive.path, "modelDescription.xml", f"it has no {interface} interface", f"it offers {other}: use that"
             )
         self.capabilities = kind
+        #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
+        self.uses_event_mode = interface == "model_exchange"
         try:
             self.fmu = self._load(kind.modelIdentifier)
         except InputError:
@@ -113,8 +115,6 @@ class Binding(ABC):
                 f"its binary cannot be loaded: {error}{said}",
                 "the binary may need libraries that are not installed here (see `ldd`)",
             ) from error
-        #: Whether Event Mode exists in this interface.
-        self.uses_event_mode = interface == "model_exchange" or bool(getattr(kind, "hasEventMode", False))
         self.is_alive = True
         self.is_fatal = False
 
@@ -161,7 +161,7 @@ class Binding(ABC):
             del self.messages[:-20]
 
     @abstractmethod
-    def configure(self, values: Sequence[tuple[FmuVariable, int]]) -> None:
+    def configure(self, values: Sequence[tuple[FmuVariable, AnyArray]]) -> None:
         """Set structural parameters before initialisation."""
 
     def _access(

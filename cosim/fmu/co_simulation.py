@@ -137,10 +137,11 @@ class CoSimulationUnit(FmuUnit):
         try:
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
+            self._now = begin
             self._clocks.silence()
             status = self._advance(begin, end)
         except UnitError as error:
-            raise UnitError(self.name, error.what, time if error.time is None else error.time, error.remedy) from error
+            raise UnitError(self.name, error.what, self._reached, error.remedy) from error
         if status is StepStatus.DISCARDED:
             return StepOutcome(status, self._reached, f"{self.name} refused the step (discard)")
         self._size = size
@@ -177,7 +178,7 @@ class CoSimulationUnit(FmuUnit):
                 result = self.binding.do_step(before, stop - before, self._saved == 0)
                 self._now = result.reached if result.early or result.discarded else stop
                 if result.terminate:
-                    raise UnitError(self.name, "the FMU asks to terminate the simulation", self._reached)
+                    raise self._terminated()
                 if result.discarded:
                     return StepStatus.DISCARDED
                 stuck = 0 if self._now > before + INSTANT else stuck + 1

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from cosim.fmu.binding import DISCARD, WARNING, Binding
-from cosim.unit import Array, UnitError
+from cosim.unit import Array
 
 
 class ContinuousModel:
@@ -58,7 +58,7 @@ class ContinuousModel:
         return np.where(np.isfinite(result) & (result > 0.0), result, 1.0)
 
     def move_to(self, time: float, states: Array) -> None:
-        """Set time [s] and states, shape (states,), for good; raises UnitError if the FMU refuses."""
+        """Set time [s] and states, shape (states,), for good; the FMU may refuse (UnitError)."""
         self._set_time(time)
         if self.states:
             self._scratch[0][:] = states[: self.states]
@@ -91,9 +91,7 @@ class ContinuousModel:
             result.fill(np.nan)
         return result
 
-    def completed_integrator_step(self) -> bool:
-        """Tell the FMU that the step is accepted; whether it wants Event Mode. Raises UnitError if it terminates."""
+    def completed_integrator_step(self) -> tuple[bool, bool]:
+        """Tell the FMU that the step is accepted; whether it wants Event Mode, and whether it terminates."""
         self._completed(True, ctypes.addressof(self._wants_event), ctypes.addressof(self._terminate))
-        if self._terminate.value:
-            raise UnitError(self.name, "the FMU asks to terminate the simulation")
-        return bool(self._wants_event.value)
+        return bool(self._wants_event.value), bool(self._terminate.value)

@@ -16,7 +16,7 @@ from cosim.errors import InputError
 from cosim.fmu.binding import DISCARD, Binding, DiscreteStates, StepResult
 from cosim.fmu.types import FMI2
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import UnitError
+from cosim.unit import AnyArray, UnitError
 
 _PENDING = 5
 _LAST_SUCCESSFUL_TIME, _TERMINATED = 2, 3
@@ -65,7 +65,7 @@ class Fmi2Binding(Binding):
             self._do_step.argtypes, self._do_step.restype = types, ctypes.c_int
         return fmu
 
-    def configure(self, values: Sequence[tuple[FmuVariable, int]]) -> None:
+    def configure(self, values: Sequence[tuple[FmuVariable, AnyArray]]) -> None:
         """Refuse: FMI 2.0 has no structural parameters."""
         for variable, _ in values:
             raise InputError(self.archive.path, variable.variable.name, "FMI 2.0 has no structural parameters",

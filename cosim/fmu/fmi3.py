@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import ctypes
+import logging
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
 from fmpy import fmi3
 
 from cosim.fmu.binding import DISCARD, Binding, DiscreteStates, StepResult
 from cosim.fmu.types import FMI3
 from cosim.fmu.variables import FmuVariable
+from cosim.unit import AnyArray
+
+_LOG = logging.getLogger(__name__)
 
 
 class _Discrete(ctypes.Structure):
@@ -45,12 +48,8 @@ class Fmi3Binding(Binding):
             model = fmi3.FMU3Model(**common)
             model.instantiate(loggingOn=True, logMessage=log)
             return model
-        capabilities = self.capabilities
         slave = fmi3.FMU3Slave(**common)
-        slave.instantiate(
-            loggingOn=True, logMessage=log, eventModeUsed=capabilities.hasEventMode,
-            earlyReturnAllowed=capabilities.mightReturnEarlyFromDoStep or capabilities.hasEventMode,
-        )  # fmt: skip
+        self._instantiate(slave, log)
         self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
         self._reached = ctypes.c_double()
         self._results = tuple(ctypes.addressof(r) for r in (self._event, self._terminate, self._early, self._reached))
@@ -59,13 +58,30 @@ class Fmi3Binding(Binding):
         self._do_step.argtypes, self._do_step.restype = [ctypes.c_void_p, *types], ctypes.c_int
         return slave
 
-    def configure(self, values: Sequence[tuple[FmuVariable, int]]) -> None:
+    def _instantiate(self, slave: Any, log: Callable[..., None]) -> None:
+        """With Event Mode where the FMU has it; without where it refuses what it declares."""
+        capabilities = self.capabilities
+        for with_events in (True, False) if capabilities.hasEventMode else (False,):
+            try:
+                slave.instantiate(
+                    loggingOn=True, logMessage=log, eventModeUsed=with_events,
+                    earlyReturnAllowed=with_events or capabilities.mightReturnEarlyFromDoStep,
+                )  # fmt: skip
+            except Exception:  # fmpy raises bare Exception
+                if not with_events:
+                    raise
+                _LOG.warning("%s: it declares Event Mode but refuses it: it runs without", self.name)
+            else:
+                self.uses_event_mode = with_events
+                return
+
+    def configure(self, values: Sequence[tuple[FmuVariable, AnyArray]]) -> None:
         """Set all of them in one visit to Configuration Mode."""
         if not values:
             return
         self.call(self.fmu.enterConfigurationMode)
         for variable, value in values:
-            self.writer(variable, np.full(variable.variable.shape, value, variable.variable.type.dtype))()
+            self.writer(variable, value)()
         self.call(self.fmu.exitConfigurationMode)
 
     def enter_initialisation(self, time: float, tolerance: float | None, stop: float | None) -> None:

@@ -25,11 +25,13 @@ class Reached:
         time: Time [s].
         is_root: Whether an event indicator changed its sign there.
         is_step_event: Whether the FMU asked for Event Mode after a completed step.
+        terminates: Whether it asked for the end of the simulation.
     """
 
     time: float
     is_root: bool = False
     is_step_event: bool = False
+    terminates: bool = False
 
 
 class Integrator:
@@ -102,7 +104,7 @@ class Integrator:
         model = self._model
         if not self._is_needed:
             model.move_to(end, self.states)
-            return Reached(end, False, self._reports_steps and model.completed_integrator_step())
+            return Reached(end, False, *self._report())
         size = end - begin
         if self._solver is None or not 0.1 * self._size <= size <= 10.0 * self._size:
             self._build(size)
@@ -112,9 +114,12 @@ class Integrator:
             time, is_root = float(solution.t), solution.status == 2
             self.states[:] = solution.y
             model.move_to(time, self.states)
-            is_step_event = self._reports_steps and model.completed_integrator_step()
-            if is_root or is_step_event or time >= end:
-                return Reached(time, is_root, is_step_event)
+            is_step_event, terminates = self._report()
+            if is_root or is_step_event or terminates or time >= end:
+                return Reached(time, is_root, is_step_event, terminates)
+
+    def _report(self) -> tuple[bool, bool]:
+        return self._model.completed_integrator_step() if self._reports_steps else (False, False)
 
     def _step(self, begin: float, end: float) -> Any:
         """One call of CVODE; it stops exactly at `end`: past it, it would interpolate across the jump of the inputs."""

@@ -78,8 +78,8 @@ class ModelExchangeUnit(FmuUnit):
                 self._leave_event_mode()
             reached = self._advance(self._instant(time), seconds(time + size))
         except UnitError as error:
-            raise UnitError(self.name, error.what, time if error.time is None else error.time, error.remedy) from error
-        self._now = reached
+            when = max(time, math.floor(self._now * NANOSECONDS))
+            raise UnitError(self.name, error.what, when, error.remedy) from error
         self._is_stale = False
         rounded = math.ceil((reached - INSTANT) * NANOSECONDS)
         if rounded < time + size:
@@ -96,21 +96,25 @@ class ModelExchangeUnit(FmuUnit):
     def _advance(self, begin: float, end: float) -> float:
         """Integrate to `end` [s], or to the first event where the settings ask for that; returns the time reached."""
         now, last, repeated = begin, -math.inf, 0
+        self._now = begin
         while now < end - INSTANT or self._is_due(now):
             stop = end if self._next_event is None else max(now, min(end, self._next_event))
             reached = self._integrator.advance(now, stop) if stop > now else None
-            now = stop if reached is None else reached.time
+            self._now = now = stop if reached is None else reached.time
+            if reached is not None and reached.terminates:
+                raise self._terminated()
             if reached is not None and not (reached.is_root or reached.is_step_event) and not self._is_due(now):
                 continue
             repeated = repeated + 1 if now - last <= INSTANT else 0
             last = now
             if repeated > MOST_EVENTS:
                 raise UnitError(self.name, f"{repeated} events follow each other at {now:.9g} s: it chatters",
-                                math.floor(now * NANOSECONDS), "give its switching a hysteresis")  # fmt: skip
+                                remedy="give its switching a hysteresis")  # fmt: skip
             self._enter_event_mode()
             self._leave_event_mode()
             if self.settings.report_early_return and now < end - INSTANT:
                 return now
+        self._now = end
         return end
 
     def _is_due(self, now: float) -> bool:

@@ -13,7 +13,7 @@ from cosim.fmu.binding import Binding
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
-from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array
+from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array, start_value
 from cosim.unit import AnyArray, Causality
 
 
@@ -72,10 +72,17 @@ class Table:
         return name
 
     def configure(self, binding: Binding) -> None:
-        """Set the structural parameters that differ from their start values."""
-        structural = {n: v for n, v in self.all.items() if v.is_structural and n in self.settings.structure}
-        changed = [(v, self.settings.structure[n]) for n, v in structural.items()]
-        binding.configure([(v, value) for v, value in changed if value != int(v.declared[0].start or 0)])
+        """Set the structural parameters that differ from their start values; also those that are no size."""
+        given: list[tuple[FmuVariable, Any]] = []
+        for key, value in {**self.settings.structure, **self.settings.parameters}.items():
+            variable = self.all.get(key)
+            if variable is not None and variable.is_structural:
+                part = "structure" if key in self.settings.structure else "parameters"
+                if part == "parameters" and variable.is_size:
+                    raise InputError(self.archive.path, f"{self.name}.parameters.{key}", "it is the size of an array",
+                                     "give it under `structure`")  # fmt: skip
+                given.append((variable, self._array(part, key, variable, value)))
+        binding.configure([(v, array) for v, array in given if not _is_start(v, array)])
 
     def set_parameters(self, binding: Binding, parameters: Mapping[str, Any]) -> None:
         """Set parameters before initialisation.
@@ -88,6 +95,8 @@ class Table:
             return v.variable.causality is Causality.PARAMETER and not v.is_structural and not v.is_constant
 
         for key, value in parameters.items():
+            if key in self.all and self.all[key].is_structural:
+                continue  # `configure` has set it
             variable = self._find("parameters", key, is_parameter)
             binding.writer(variable, self._array("parameters", key, variable, value))()
 
@@ -142,3 +151,8 @@ class Table:
         return InputError(
             self.archive.path, f"{self.name}.{part}.{key}", problem, f"{remedy}it has: {listed or 'none'}"
         )
+
+
+def _is_start(variable: FmuVariable, array: AnyArray) -> bool:
+    start = start_value(variable.declared, variable.variable.type, variable.variable.shape)
+    return start is not None and bool((array == start).all())

@@ -163,10 +163,15 @@ class FmuUnit(Unit):
             self._after_update()
             nominals, states = nominals or found.nominals_changed, states or found.states_changed
             if found.terminate:
-                raise UnitError(self.name, "the FMU asks to terminate the simulation")
+                raise self._terminated()
             if not found.again:
                 return DiscreteStates(False, False, nominals, states, found.next_event)
         raise UnitError(self.name, f"its discrete states do not settle in {MOST_ITERATIONS} iterations")
+
+    def _terminated(self) -> UnitError:
+        """The FMU asks to end the simulation: its outputs are valid, so they are read before that is said."""
+        self.buffers.read()
+        return UnitError(self.name, "the FMU asks to terminate the simulation")
 
     def _before_update(self) -> None:
         """What an interface reads in Event Mode before the discrete states are updated."""

@@ -45,6 +45,11 @@ class FmuVariable:
         return bool(self.declared[0].causality == "structuralParameter")
 
     @property
+    def is_size(self) -> bool:
+        """Whether it is a structural parameter that can be the size of arrays."""
+        return self.is_structural and self.variable.type.dtype.kind in "iu"
+
+    @property
     def is_discrete(self) -> bool:
         """Whether it changes at events only."""
         return bool(self.declared[0].variability == "discrete")
@@ -96,7 +101,7 @@ def sizes(description: ModelDescription, structure: Mapping[str, int]) -> Sizes:
     values = {
         v.valueReference: int(structure.get(v.name, (v.start or "0").split()[0]))
         for v in description.modelVariables
-        if v.name in structural or (v.variability == "constant" and v.type.startswith(("UInt", "Int")))
+        if v.type.startswith(("UInt", "Int")) and (v.name in structural or v.variability == "constant")
     }
     return Sizes(values, {v.valueReference: v.name for v in description.modelVariables if v.valueReference in values})
 
