@@ -70,7 +70,8 @@ def stepper(unit: Unit) -> Callable[[int], list[float]]:
 def macro_step(path: Path, coils: int | None) -> str:
     """Row of the table: a macro-step without and with a process [us]."""
     units = [load(path, is_isolated, coils) for is_isolated in (False, True)]
-    advances, spent = [stepper(unit) for unit in units], ([], [])  # type: tuple[list[float], list[float]]
+    advances = [stepper(unit) for unit in units]
+    spent: tuple[list[float], list[float]] = ([], [])
     for _ in range(TURNS):
         for advance, times in zip(advances, spent):
             times.extend(advance(STEPS))
