@@ -37,11 +37,13 @@ class Action:
         perform: Does it in Python.
         calls: The same as operations.
         can_be_empty: Whether no calls mean that there is nothing to do; otherwise that only Python can do it.
+        prepare: Tells the library what it must know beforehand; after every time that Python did the action.
     """
 
     perform: Perform
     calls: Sequence[Call] = ()
     can_be_empty: bool = False
+    prepare: Callable[[], None] | None = None
 
     @property
     def operations(self) -> list[Operation]:
@@ -66,8 +68,6 @@ class Action:
         Raises:
             UnitError: The one that the loop in Python would have raised.
         """
-        if not self.calls:
-            return self.perform(time, size)
         first = self.calls[0]
         made = {0: 0} if first.operation.code in (Code.STEP_FMI2, Code.STEP_FMI3) else {}
         if status > 1:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal, TypeGuard
 
+import numpy as np
+
 from cosim.connection import Transfer
 from cosim.fmu.co_simulation import CoSimulationUnit
-from cosim.fmu.unit import FmuUnit
 from cosim.native.action import Action, Call
 from cosim.native.copies import copy_operation
 from cosim.native.courses import course_call
-from cosim.native.fmu_calls import is_carried, read_calls, step_call, write_call
+from cosim.native.fmu_calls import is_carried, is_plain, next_event, read_calls, step_call, write_call
 from cosim.programme import ProgrammeUnit
 from cosim.system import System
 from cosim.unit import AnyArray, StepOutcome, Unit
@@ -33,6 +34,8 @@ class Composer:
         self.own = len(system.units)
         #: Arrays whose addresses the operations hold.
         self.kept: list[AnyArray] = []
+        #: FMUs that the library steps.
+        self.stepped: list[CoSimulationUnit] = []
 
     def macro_step(self, kind: Kind) -> list[Action]:
         """What `cosim.algorithms.jacobi` and `cosim.algorithms.gauss_seidel` do, in their order."""
@@ -77,7 +80,7 @@ class Composer:
 
     def _transfer_calls(self, transfer: Transfer) -> list[Call] | None:
         name = transfer.variable.name
-        if not _is_plain(transfer.target) or name not in transfer.target.writers:
+        if not self._is_plain(transfer.target) or name not in transfer.target.writers:
             return None
         write = write_call(transfer.target.writers[name], transfer.buffer, self.own)
         if write is None:
@@ -99,10 +102,19 @@ class Composer:
 
         if isinstance(unit, ProgrammeUnit):
             return Action(perform, self._courses(unit), can_be_empty=True)
-        if not _is_plain(unit):
+        if not self._is_plain(unit):
             return Action(perform)
         read = self._read(unit, self._index[name])
-        return Action(perform, () if read is None else [step_call(unit, self._index[name]), *read])
+        if read is None:
+            return Action(perform)
+        due = np.empty(1)
+        self.kept.append(due)
+        self.stepped.append(unit)
+
+        def prepare() -> None:
+            due[0] = next_event(unit)
+
+        return Action(perform, [step_call(unit, self._index[name], due), *read], prepare=prepare)
 
     def _courses(self, unit: ProgrammeUnit) -> list[Call]:
         calls = []
@@ -117,7 +129,7 @@ class Composer:
         def perform(_time: int, _size: int) -> None:
             unit.refresh()
 
-        return Action(perform, (self._read(unit, self.own) if _is_plain(unit) else None) or ())
+        return Action(perform, (self._read(unit, self.own) if self._is_plain(unit) else None) or ())
 
     def _read(self, unit: CoSimulationUnit, index: int) -> list[Call] | None:
         """Get all outputs; None where one needs Python."""
@@ -129,7 +141,6 @@ class Composer:
             calls += found
         return calls
 
-
-def _is_plain(unit: Unit) -> TypeGuard[CoSimulationUnit]:
-    """Whether setting, stepping and reading a unit is no more than its FMU's calls."""
-    return isinstance(unit, CoSimulationUnit) and type(unit)._pass_on is FmuUnit._pass_on
+    def _is_plain(self, unit: Unit) -> TypeGuard[CoSimulationUnit]:
+        connected = {t.variable.name for t in self._system.transfers[unit.name]}
+        return isinstance(unit, CoSimulationUnit) and is_plain(unit, connected)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import Any
 
 from cosim.fmu.access import Access
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Call
 from cosim.native.layout import ELEMENT_TYPES, Code, Operation
-from cosim.unit import AnyArray
+from cosim.unit import AnyArray, Array, seconds
 
 
 def write_call(access: Access, given: AnyArray, unit: int) -> Call | None:
@@ -37,8 +38,37 @@ def read_calls(access: Access, unit: int) -> list[Call] | None:
     return [call] if access.is_direct else [call, _conversion(access.buffer, access.values, unit)]
 
 
-def step_call(unit: CoSimulationUnit, index: int) -> Call:
-    """fmi2DoStep or fmi3DoStep."""
+def is_plain(unit: CoSimulationUnit, connected: set[str]) -> bool:
+    """Whether a step is nothing but inputs, doStep and outputs while no event comes up.
+
+    Args:
+        unit: The FMU.
+        connected: Its inputs that something is connected to.
+    """
+    if not unit._clocks.is_empty:
+        return False
+    # A discrete input that is set takes an FMU with Event Mode there.
+    return not (unit.binding.uses_event_mode and any(unit.table.exposed[name].is_discrete for name in connected))
+
+
+def next_event(unit: CoSimulationUnit) -> float:
+    """Time of the next time event [s]; infinity if there is none."""
+    return math.inf if unit._next_event is None else unit._next_event
+
+
+def moved_to(unit: CoSimulationUnit, time: int, size: int) -> None:
+    """The FMU has been stepped to `time` [ns] with steps of `size` [ns]."""
+    unit._now, unit._size = seconds(time), size
+
+
+def step_call(unit: CoSimulationUnit, index: int, due: Array) -> Call:
+    """fmi2DoStep or fmi3DoStep.
+
+    Args:
+        unit: The FMU.
+        index: Number of its wall time.
+        due: Time of its next time event [s], shape (1,); kept up to date by the caller.
+    """
     binding: Any = unit.binding
     is_fmi3 = binding.prefix == "fmi3"
     operation = Operation(
@@ -46,6 +76,7 @@ def step_call(unit: CoSimulationUnit, index: int) -> Call:
         unit=index,
         function=_address(binding._do_step),
         component=binding.fmu.component,
+        due=due.ctypes.data,
     )
     if is_fmi3:
         *flags, reached = binding._results

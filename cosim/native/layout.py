@@ -8,7 +8,7 @@ from enum import IntEnum
 from cosim.unit import VariableType
 
 #: Changes with every change of the structures; the library says for which one it was compiled.
-LAYOUT_VERSION = 2
+LAYOUT_VERSION = 3
 
 
 class Code(IntEnum):
@@ -75,6 +75,7 @@ class Operation(ctypes.Structure):
         ("point_count", ctypes.c_size_t),
         ("flags", ctypes.c_void_p * 3),
         ("reached", ctypes.c_void_p),
+        ("due", ctypes.c_void_p),
     )
 
 
@@ -96,7 +97,6 @@ class PlanLayout(ctypes.Structure):
         ("per_record", ctypes.c_int64),
         ("start", ctypes.c_int64),
         ("size", ctypes.c_int64),
-        ("size_seconds", ctypes.c_double),
         ("wall_time", ctypes.c_void_p),
         ("sample", ctypes.c_void_p),
         ("units", ctypes.c_size_t),

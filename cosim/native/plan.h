@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define LAYOUT_VERSION 2
+#define LAYOUT_VERSION 3
 
 #if defined(_WIN32)
 #define EXPORT __declspec(dllexport)
@@ -42,7 +42,7 @@ enum {
     REFUSED,    /* a call returned Discard, Error or worse; see Cursor.status */
     NOT_FINITE, /* a value is NaN or infinite; see Cursor.element */
     FLAGGED,    /* fmi3DoStep returned early, or wants event handling or the end of the simulation */
-    CALLED      /* a PYTHON operation is next */
+    CALLED      /* a PYTHON operation is next, or a step that meets an event */
 };
 
 typedef struct {
@@ -66,6 +66,7 @@ typedef struct {
     size_t point_count;
     void *flags[3]; /* fmi3DoStep: event handling needed, terminate simulation, early return */
     double *reached;
+    const double *due; /* DoStep: time of the FMU's next time event [s]; a step that meets it belongs to Python */
 } Operation;
 
 /* One recorded variable: `source` is copied to row after row of `rows`. */
@@ -84,7 +85,6 @@ typedef struct {
     int64_t per_record; /* macro-steps from one recorded row to the next; 0: none */
     int64_t start;      /* [ns] */
     int64_t size;       /* [ns] */
-    double size_seconds;
     double *wall_time; /* [s] of every unit, and of everything else, shape (units + 1,) */
     double *sample;    /* working memory of the same shape */
     size_t units;

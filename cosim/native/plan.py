@@ -5,15 +5,17 @@ from __future__ import annotations
 import bisect
 import time as clock
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Action
+from cosim.native.fmu_calls import moved_to
 from cosim.native.layout import Code, Cursor, Operation, PlanLayout, Recording, Return
 from cosim.native.library import library
 from cosim.system import System
-from cosim.unit import AnyArray, StepOutcome, StepStatus, seconds
+from cosim.unit import AnyArray, StepOutcome, StepStatus
 
 #: Wall time after which `Plan.advance` comes back, so that interrupts and progress have their turn [s].
 TURN = 0.05
@@ -43,12 +45,14 @@ class Actions:
         record: After a macro-step at whose end rows are recorded, before they are.
         recordings: (live array, rows): the array is copied to row `index / per_record` of `rows`.
         kept: Arrays whose addresses the operations hold.
+        units: FMUs that the library steps.
     """
 
     step: Sequence[Action]
     record: Sequence[Action] = ()
     recordings: Sequence[tuple[AnyArray, AnyArray]] = ()
-    kept: Sequence[AnyArray] = field(default_factory=list)
+    kept: Sequence[AnyArray] = ()
+    units: Sequence[CoSimulationUnit] = ()
 
 
 class Plan:
@@ -84,7 +88,7 @@ class Plan:
         self._sample = np.zeros_like(self._wall_time)
         self._layout = PlanLayout(
             self._operations, self._step_count, len(operations), self._recordings, len(actions.recordings),
-            grid.per_record, grid.start, grid.size, seconds(grid.size),
+            grid.per_record, grid.start, grid.size,
             self._wall_time.ctypes.data, self._sample.ctypes.data, len(system.units),
         )  # fmt: skip
         self._cursor = Cursor()
@@ -119,12 +123,16 @@ class Plan:
             UnitError: The one that the loop in Python would have raised.
         """
         self._cursor.index, self._cursor.operation = index, 0
+        for action in self._actions:
+            if action.prepare is not None:
+                action.prepare()
         deadline = clock.perf_counter() + TURN
         try:
             while True:
                 left = max(deadline - clock.perf_counter(), 0.0)
                 found = self._library.cosim_advance(self._layout, self._cursor, stop, left)
                 if found in (Return.REACHED, Return.PAUSED):
+                    self._hand_over()
                     return StepOutcome(StepStatus.OK, self._grid.start + self.index * self._grid.size)
                 outcome = self._in_python(Return(found))
                 if outcome is not None and outcome.status is not StepStatus.OK:
@@ -139,10 +147,21 @@ class Plan:
         position = cursor.operation - self._first[number]
         time = self._grid.start + cursor.index * self._grid.size
         status = cursor.status if found is Return.REFUSED else 0
-        outcome = self._actions[number].repeat(position, status, time, self._grid.size)
+        action = self._actions[number]
+        if found is Return.CALLED:
+            outcome = action.perform(time, self._grid.size)
+        else:
+            outcome = action.repeat(position, status, time, self._grid.size)
+        if action.prepare is not None:
+            action.prepare()
         if outcome is None or outcome.status is StepStatus.OK:
             cursor.operation = self._first[number + 1]
         return outcome
+
+    def _hand_over(self) -> None:
+        """Tell the FMUs' units where they stand, so that Python can go on from here."""
+        for unit in self._kept.units:
+            moved_to(unit, self._grid.start + self.index * self._grid.size, self._grid.size)
 
     def _share_out(self) -> None:
         for name, spent in zip(self._system.wall_time, self._wall_time.tolist()):

@@ -68,7 +68,7 @@ def native_plan(system: System, kind: Kind, grid: Grid, watch: Watch) -> Plan:
         else:
             record.append(Action(_recorder(system, channel.unit, channel.variable.name, rows, grid)))
     record += _called(watch.each_record)
-    return Plan(system, grid, Actions(step, record, recordings, composer.kept))
+    return Plan(system, grid, Actions(step, record, recordings, composer.kept, composer.stepped))
 
 
 def _called(callback: Callable[[], object] | None) -> list[Action]:

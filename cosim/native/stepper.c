@@ -21,6 +21,9 @@ enum { STATUS_WARNING = 1, LONGEST_STRIDE = 64 };
 /* Wall time between two looks at the clock, where the macro-steps are short enough [s]. */
 static const double LOOK = 1e-3;
 
+/* What is practically the same instant, as in cosim/fmu/co_simulation.py [s]. */
+static const double INSTANT = 0.1 / 1e9;
+
 static double now(void)
 {
     struct timespec moment;
@@ -68,8 +71,38 @@ static inline int read_checked(const Operation *operation, Cursor *cursor, bool 
     return cursor->element >= 0 ? NOT_FINITE : REACHED;
 }
 
-static inline int step_fmi3(const Operation *o, Cursor *cursor, double time, double size)
+/* A macro-step in nanoseconds and in seconds, each end rounded on its own, as in cosim/unit.py. */
+typedef struct {
+    int64_t time, size;
+    double begin, end;
+} Step;
+
+static Step step_at(const Plan *plan, int64_t index)
 {
+    const int64_t time = plan->start + index * plan->size;
+    return (Step){time, plan->size, (double)time / 1e9, (double)(time + plan->size) / 1e9};
+}
+
+static inline bool meets_event(const Operation *o, double end)
+{
+    return o->due && *o->due <= end + INSTANT;
+}
+
+static inline int step_fmi2(const Operation *o, Cursor *cursor, const Step *step)
+{
+    if (meets_event(o, step->end)) {
+        return CALLED;
+    }
+    cursor->status = ((StepFmi2)o->function)(o->component, step->begin, step->end - step->begin, 1);
+    return cursor->status > STATUS_WARNING ? REFUSED : REACHED;
+}
+
+static inline int step_fmi3(const Operation *o, Cursor *cursor, const Step *step)
+{
+    if (meets_event(o, step->end)) {
+        return CALLED;
+    }
+    const double time = step->begin, size = step->end - step->begin;
     bool *const event = o->flags[0], *const terminate = o->flags[1], *const early = o->flags[2];
     cursor->status = ((StepFmi3)o->function)(o->component, time, size, true, event, terminate, early, o->reached);
     if (cursor->status > STATUS_WARNING) {
@@ -78,8 +111,7 @@ static inline int step_fmi3(const Operation *o, Cursor *cursor, double time, dou
     return *event || *terminate || *early ? FLAGGED : REACHED;
 }
 
-/* One operation of the step that begins at `time` [ns]. */
-static inline int carry_out(const Plan *plan, const Operation *o, Cursor *cursor, int64_t time, double seconds)
+static inline int carry_out(const Operation *o, Cursor *cursor, const Step *step)
 {
     switch (o->code) {
     case COPY_DOUBLE: *(double *)o->target = *(const double *)o->source; return REACHED;
@@ -89,12 +121,10 @@ static inline int carry_out(const Plan *plan, const Operation *o, Cursor *cursor
     case WRITE_FMI3: return write_checked(o, cursor, false);
     case READ_FMI2: return read_checked(o, cursor, true);
     case READ_FMI3: return read_checked(o, cursor, false);
-    case STEP_FMI2:
-        cursor->status = ((StepFmi2)o->function)(o->component, seconds, plan->size_seconds, 1);
-        return cursor->status > STATUS_WARNING ? REFUSED : REACHED;
-    case STEP_FMI3: return step_fmi3(o, cursor, seconds, plan->size_seconds);
-    case COURSE_HELD: course_held(o, time); return REACHED;
-    case COURSE_LINEAR: course_linear(o, (double)time + 0.5 * (double)plan->size); return REACHED;
+    case STEP_FMI2: return step_fmi2(o, cursor, step);
+    case STEP_FMI3: return step_fmi3(o, cursor, step);
+    case COURSE_HELD: course_held(o, step->time); return REACHED;
+    case COURSE_LINEAR: course_linear(o, (double)step->time + 0.5 * (double)step->size); return REACHED;
     default: return CALLED;
     }
 }
@@ -102,10 +132,9 @@ static inline int carry_out(const Plan *plan, const Operation *o, Cursor *cursor
 /* Operations `cursor->operation` to `end` of one macro-step. */
 static int finish_step(const Plan *plan, Cursor *cursor, size_t end)
 {
-    const int64_t time = plan->start + cursor->index * plan->size;
-    const double seconds = (double)time / 1e9;
+    const Step step = step_at(plan, cursor->index);
     for (size_t i = (size_t)cursor->operation; i < end; ++i) {
-        const int code = carry_out(plan, plan->operations + i, cursor, time, seconds);
+        const int code = carry_out(plan->operations + i, cursor, &step);
         if (code != REACHED) {
             cursor->operation = (int64_t)i;
             return code;
@@ -117,12 +146,11 @@ static int finish_step(const Plan *plan, Cursor *cursor, size_t end)
 /* The same, with the wall time of every operation added to its unit's sample. */
 static int finish_step_timed(const Plan *plan, Cursor *cursor, size_t end)
 {
-    const int64_t time = plan->start + cursor->index * plan->size;
-    const double seconds = (double)time / 1e9;
+    const Step step = step_at(plan, cursor->index);
     double begin = now();
     for (size_t i = (size_t)cursor->operation; i < end; ++i) {
         const Operation *o = plan->operations + i;
-        const int code = carry_out(plan, o, cursor, time, seconds);
+        const int code = carry_out(o, cursor, &step);
         if (code != REACHED || i + 1 == end || o[1].unit != o->unit) {
             const double then = now();
             plan->sample[o->unit] += then - begin;
