@@ -1,0 +1,1 @@
+"""Finds what a scenario leaves out of a recording, and models it."""
