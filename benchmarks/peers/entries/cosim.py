@@ -1,35 +1,34 @@
 """This project: a scenario of plain FMU components, run as a user runs it.
 
-Recorded results are a NetCDF file in a run folder; it writes no CSV while it runs.
+Recorded results are a run folder with all outputs as NetCDF and as CSV, written at the end.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-from pathlib import Path
 from time import perf_counter
 
 from benchmarks.models import cosim_run
 from benchmarks.peers.job import Answer, Job, answer, written
+from cosim.run import Progress
 from cosim.run import run as run_scenario
 
 
-def _wall_time(job: Job, folder: Path | None) -> tuple[float, float, list[float]]:
-    system = job.wired
-    scenario = cosim_run.load(system, job.version, job.step, output_step=job.step if job.csv else None)
-    begin = perf_counter()
-    result = run_scenario(scenario, folder)
-    seconds = perf_counter() - begin
-    values = [float(result[f"{name}.{variable}"].values[-1]) for name, variable in system.outputs]
-    return seconds, float(result["time"].values[-1]), values
-
-
 def run(job: Job) -> Answer:
-    """Loading is taken off by a run of one step before."""
+    """The run's own clock says when its first step began; where results are recorded, their file is counted too."""
+    system = job.wired
     out = job.folder / "run" if job.csv else None
-    loading = _wall_time(replace(job, steps=1), job.folder / "one" if job.csv else None)[0]
-    seconds, end, values = _wall_time(job, out)
-    return Answer(seconds - loading, end, values, written(out) if out else 0)
+    scenario = cosim_run.load(system, job.version, job.step, output_step=job.step if job.csv else None)
+    begins: list[float] = []
+    loops: list[float] = []
+
+    def note(progress: Progress) -> None:
+        begins.append(perf_counter() - progress.elapsed)
+        loops.append(progress.elapsed)
+
+    result = run_scenario(scenario, out, on_progress=note)
+    seconds = perf_counter() - begins[-1] if job.csv else loops[-1]
+    values = [float(result[f"{name}.{variable}"].values[-1]) for name, variable in system.outputs]
+    return Answer(seconds, float(result["time"].values[-1]), values, written(out) if out else 0)
 
 
 if __name__ == "__main__":
