@@ -1,0 +1,1 @@
+"""Recordings: what was done, what was measured, with which sensors."""

@@ -1,0 +1,74 @@
+"""The scenario of a recording: the scenario given, with what was done in place of what it says."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import yaml
+
+from cosim.components import nanoseconds
+from cosim.errors import InputError
+from cosim.scenario import Scenario, parse_scenario
+from cosim.yaml_file import parse_yaml, read_text
+from diagnosis.recording.recording import Input, Recording
+
+
+def scenario_of(base: Scenario, recording: Recording) -> Scenario:
+    """The scenario under the conditions of a recording.
+
+    Keys in `overrides` replace those of the scenario, mapping by mapping; recorded inputs become the points of their
+    programme, moved to the grid of macro-steps; the run ends with the last sample unless `overrides` says otherwise.
+
+    Raises:
+        InputError: The result is no valid scenario; the keys are those of the scenario.
+    """
+    assert base.path is not None, "the scenario was read from a file"
+    data = parse_yaml(read_text(base.path), base.path)
+    merged = _merged(data, recording.overrides)
+    macro = nanoseconds(base.time.macro_step) * 1e-9
+    for recorded in recording.inputs:
+        _put_points(merged, recorded, macro, recording)
+    if "stop" not in recording.overrides.get("time", {}):
+        output = nanoseconds(base.time.output_step) * 1e-9
+        begin = base.time.start.to("s")
+        steps = max(1, math.ceil((recording.end - begin) / output - 1e-9))
+        merged["time"]["stop"] = f"{begin + steps * output:.12g} s"
+    try:
+        return parse_scenario(yaml.safe_dump(merged, sort_keys=False), base.path)
+    except InputError as error:
+        problem = f"{error.problem} (with the overrides of {recording.path})"
+        raise InputError(error.source, error.key, problem, error.remedy) from error
+
+
+def _merged(base: Any, change: Any) -> Any:
+    if isinstance(base, Mapping) and isinstance(change, Mapping):
+        both = dict(base)
+        for key, value in change.items():
+            both[key] = _merged(base[key], value) if key in base else value
+        return both
+    return change
+
+
+def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: Recording) -> None:
+    key = f"inputs.{recorded.component}.{recorded.output}"
+    component = data.get("components", {}).get(recorded.component)
+    if not isinstance(component, dict) or component.get("kind") != "programme":
+        raise InputError(recording.path / "recording.yaml", key, f"the scenario has no programme {recorded.component}",
+                         "name an output of a programme of the scenario")  # fmt: skip
+    output = component.get("outputs", {}).get(recorded.output)
+    if output is None:
+        raise InputError(recording.path / "recording.yaml", key, f"the programme has no output {recorded.output}",
+                         f"it has: {', '.join(component.get('outputs', {}))}")  # fmt: skip
+    points, last_step = [], None
+    for time, value in zip(recorded.times.tolist(), recorded.values.tolist()):
+        step = round(time / macro)
+        if points and step == last_step:  # two readings in one macro-step: the later one holds
+            points.pop()
+        if points and points[-1][1] == f"{value!r} {recorded.unit}" and output.get("interpolation") != "linear":
+            continue
+        points.append([f"{step * macro:.12g} s", f"{value!r} {recorded.unit}"])
+        last_step = step
+    output.pop("constant", None)
+    output["points"] = points

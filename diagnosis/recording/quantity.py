@@ -1,0 +1,90 @@
+"""Names of measured quantities: `supply.current`, `string[3].current`, `coil[2,5].temperature`, `marker[4].z`."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+#: SI unit of every quantity that has a name of its own.
+SI_UNITS = {
+    "temperature": "K",
+    "current": "A",
+    "voltage": "V",
+    "power": "W",
+    "extension": "m",
+    "length": "m",
+    "link_length": "m",
+    "stiffness": "N/m",
+    "resistance": "ohm",
+    "tension": "N",
+    "max_curvature": "1/m",
+    "x": "m",
+    "y": "m",
+    "z": "m",
+    "angle": "rad",
+    "angular_velocity": "rad/s",
+}
+#: Kind of element to its quantities and the number of indices that it may have.
+_KINDS = {
+    "supply": ({"current", "voltage", "power"}, {0}),
+    "string": ({"current", "voltage"}, {1}),
+    "coil": (
+        {"temperature", "current", "voltage", "power", "extension", "stiffness", "resistance", "tension"}, {1, 2}
+    ),
+    "link": ({"x", "y", "z", "length"}, {1}),
+    "marker": ({"x", "y", "z"}, {1}),
+    "fabric": ({"max_curvature", "length"}, {0}),
+}  # fmt: skip
+_INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
+_NAME = re.compile(
+    rf"^(?P<kind>[A-Za-z]\w*){_INDEX.format('index')}\.(?P<quantity>[A-Za-z]\w*){_INDEX.format('last')}$"
+)
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a channel measures.
+
+    Args:
+        kind: `supply`, `string`, `coil`, `link`, `marker`, `fabric`, or the name of a component of the scenario.
+        element: Numbers of the element, from 1: (string, place in it) or (number,); empty for a scalar.
+        quantity: What is measured.
+        unit: SI unit where the quantity has no name of its own.
+    """
+
+    kind: str
+    element: tuple[int, ...]
+    quantity: str
+    unit: str = "1"
+
+    @property
+    def is_component(self) -> bool:
+        """Whether it is a variable of a component, named `component.variable[element]`."""
+        return self.kind not in _KINDS
+
+
+def parse_quantity(name: str) -> Target:
+    """Target of a channel's name.
+
+    Raises:
+        ValueError: It is no such name, or the kind has no such quantity or another number of indices.
+
+    >>> parse_quantity("coil[2,5].temperature")
+    Target(kind='coil', element=(2, 5), quantity='temperature', unit='1')
+    """
+    match = _NAME.match(name)
+    if match is None:
+        raise ValueError(f"`{name}` is no name of a quantity, such as `coil[2,5].temperature` or `supply.current`")
+    kind, quantity = match["kind"], match["quantity"]
+    element = tuple(int(i) for i in (match["index"] or match["last"] or "").split(",") if i)
+    if kind not in _KINDS:
+        return Target(kind, element, quantity)
+    quantities, indices = _KINDS[kind]
+    if quantity not in quantities:
+        raise ValueError(f"`{name}`: a {kind} has no {quantity}; it has: {', '.join(sorted(quantities))}")
+    if len(element) not in indices:
+        example = {0: kind, 1: f"{kind}[3]", 2: f"{kind}[2,5]"}[max(indices)]
+        raise ValueError(f"`{name}`: write `{example}.{quantity}`, counted from 1")
+    if 0 in element:
+        raise ValueError(f"`{name}`: elements are counted from 1")
+    return Target(kind, element, quantity)

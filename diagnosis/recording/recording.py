@@ -1,0 +1,231 @@
+"""A recording, read and checked: channels in SI units on the scenario's clock."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cosim.errors import InputError
+from cosim.quantity import PhysicalValue, conversion
+from cosim.unit import AnyArray, Array
+from diagnosis.recording.noise import estimate_noise
+from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
+from diagnosis.recording.sidecar import ChannelEntry, Clock, InputEntry, Sidecar, load_sidecar
+from diagnosis.recording.table import Table
+
+#: A channel needs at least this many values to be worth anything.
+FEWEST_VALUES = 8
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One measured quantity.
+
+    Args:
+        name: As in recording.yaml, for example `coil[2,5].temperature`.
+        target: What it means.
+        times: Times of its samples on the scenario's clock [s], rising, shape (samples,).
+        values: Readings in SI, shape (samples,).
+        deviation: Standard deviation of the sensor's noise, SI.
+        is_deviation_given: Whether the deviation was given and not estimated.
+        quantum: Step of the reading, SI; 0 if it has none.
+        limits: Readings at which the sensor clips, SI; infinite where it does not.
+        lag_bound: Largest time constant of the sensor [s].
+        offset_bound: How far its clock may be off [s].
+        is_clipped: Which samples lie at a limit, shape (samples,).
+    """
+
+    name: str
+    target: Target
+    times: Array
+    values: Array
+    deviation: float
+    is_deviation_given: bool
+    quantum: float = 0.0
+    limits: tuple[float, float] = (-math.inf, math.inf)
+    lag_bound: float = 0.0
+    offset_bound: float = 0.0
+    is_clipped: AnyArray = field(default_factory=lambda: np.zeros(0, dtype=bool))
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return SI_UNITS.get(self.target.quantity, self.target.unit)
+
+
+@dataclass(frozen=True)
+class Input:
+    """A recorded course of a programme's output.
+
+    Args:
+        component: Programme.
+        output: Its output.
+        unit: Unit of `values`.
+        times: [s] on the scenario's clock, shape (samples,).
+        values: Shape (samples,).
+    """
+
+    component: str
+    output: str
+    unit: str
+    times: Array
+    values: Array
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What was done and what was measured.
+
+    Args:
+        path: Folder.
+        title: One line.
+        channels: By name.
+        inputs: Recorded courses of programmes.
+        overrides: Keys of the scenario that this recording replaces.
+        end: Last time with a value [s].
+        switch_margin: Samples this close to a switch are not used to judge [s].
+        source: Who measured it.
+    """
+
+    path: Path
+    title: str
+    channels: Mapping[str, Channel]
+    inputs: tuple[Input, ...]
+    overrides: Mapping[str, Any]
+    end: float
+    switch_margin: float
+    source: str = ""
+
+
+def load_recording(path: str | Path) -> Recording:
+    """Read and check a recording.
+
+    Args:
+        path: Folder with recording.yaml, or that file.
+
+    Raises:
+        InputError: A file or key is missing or wrong, a column does not exist or holds text, times do not rise, or a
+            channel has too few values.
+    """
+    given = Path(path)
+    file = given if given.is_file() else given / "recording.yaml"
+    if not file.is_file():
+        raise InputError(given, "", "there is no recording here: no recording.yaml",
+                         "see docs/diagnosis.md, or make one with `cosim record`")  # fmt: skip
+    return _Reader(file).recording()
+
+
+class _Reader:
+    """Reads one recording; tables are read once."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self.sidecar: Sidecar = load_sidecar(file)
+        self._tables: dict[str, Table] = {}
+        self._zero: dict[tuple[str, str], float] = {}
+
+    def recording(self) -> Recording:
+        sidecar = self.sidecar
+        channels = {name: self._channel(name, entry) for name, entry in sidecar.channels.items()}
+        inputs = tuple(self._input(name, entry) for name, entry in sidecar.inputs.items())
+        end = max(float(c.times[-1]) for c in channels.values())
+        return Recording(
+            self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
+            sidecar.switch_margin.to("s"), sidecar.source,
+        )  # fmt: skip
+
+    def _table(self, name: str | None) -> Table:
+        chosen = name or self.sidecar.table
+        if chosen not in self._tables:
+            self._tables[chosen] = Table(self.file.parent / chosen, self.sidecar.header_lines)
+        return self._tables[chosen]
+
+    def _times(self, table_name: str | None, own: Clock | None, key: str) -> tuple[Array, Clock]:
+        """Times on the scenario's clock [s]."""
+        clock = own or self.sidecar.time
+        readings = self._table(table_name).column(clock.column, f"{key}.time.column")
+        try:
+            factor = conversion(clock.unit, "s")[0]
+        except ValueError as error:
+            raise InputError(self.file, f"{key}.time.unit", str(error), "give a unit of time") from error
+        if clock.zero is None and not np.isfinite(readings).any():
+            raise InputError(self._table(table_name).file, clock.column, "the clock has no values", "give times")
+        zero = float(readings[np.isfinite(readings)][0]) if clock.zero is None else float(clock.zero)
+        return factor * (readings - zero), clock
+
+    def _input(self, name: str, entry: InputEntry) -> Input:
+        key = f"inputs.{name}"
+        component, _, output = name.partition(".")
+        if not output:
+            raise InputError(self.file, key, "this is no output of a programme", "write `component.output`")
+        times, _ = self._times(entry.table, entry.time, key)
+        values = entry.factor * self._table(entry.table).column(entry.column, f"{key}.column")
+        known = np.isfinite(times) & np.isfinite(values)
+        self._check_times(times[known], key)
+        return Input(component, output, entry.unit, times[known], values[known])
+
+    def _check_times(self, times: Array, key: str) -> None:
+        late = np.flatnonzero(np.diff(times) <= 0)
+        if late.size:
+            first = int(late[0])
+            what = f"its times do not rise: {times[first]:.6g} s, then {times[first + 1]:.6g} s"
+            raise InputError(self.file, key, what, "sort the table and remove doubled rows")
+
+    def _channel(self, name: str, entry: ChannelEntry) -> Channel:
+        key = f"channels.{name}"
+        target = self._target(name, key)
+        times, clock = self._times(entry.table, entry.time, key)
+        raw = self._table(entry.table).column(entry.column, f"{key}.column")
+        unit = SI_UNITS.get(target.quantity, entry.unit)
+        factor, offset = self._conversion(entry.unit, unit, key)
+        begin = -math.inf if self.sidecar.begin is None else self.sidecar.begin.to("s")
+        end = math.inf if self.sidecar.end is None else self.sidecar.end.to("s")
+        known = np.isfinite(raw) & np.isfinite(times) & (times >= begin) & (times <= end) & ~np.isin(raw, entry.invalid)
+        if known.sum() < FEWEST_VALUES:
+            raise InputError(self.file, key, f"it has {int(known.sum())} values, fewer than {FEWEST_VALUES}",
+                             "leave the channel out, or correct begin, end and invalid")  # fmt: skip
+        times, values = times[known], factor * raw[known] + offset
+        self._check_times(times, key)
+        limits = self._limits(entry, unit, key)
+        quantum = self._difference(entry.quantum, unit, f"{key}.quantum")
+        given = self._difference(entry.noise, unit, f"{key}.noise")
+        return Channel(
+            name, Target(target.kind, target.element, target.quantity, unit), times, values,
+            given or estimate_noise(times, values, quantum), bool(given), quantum, limits,
+            entry.lag_bound.to("s"), clock.offset_bound.to("s"), (values <= limits[0]) | (values >= limits[1]),
+        )  # fmt: skip
+
+    def _target(self, name: str, key: str) -> Target:
+        try:
+            return parse_quantity(name)
+        except ValueError as error:
+            raise InputError(self.file, key, str(error), "docs/diagnosis.md lists the quantities") from error
+
+    def _conversion(self, source: str, target: str, key: str) -> tuple[float, float]:
+        try:
+            return conversion(source, target)
+        except ValueError as error:
+            raise InputError(self.file, f"{key}.unit", str(error), f"give a unit that converts to {target}") from error
+
+    def _limits(self, entry: ChannelEntry, unit: str, key: str) -> tuple[float, float]:
+        found = []
+        for which, value, default in (("minimum", entry.minimum, -math.inf), ("maximum", entry.maximum, math.inf)):
+            try:
+                found.append(default if value is None else value.to(unit))
+            except ValueError as error:
+                raise InputError(self.file, f"{key}.{which}", str(error), f"give it in {unit}") from error
+        return found[0], found[1]
+
+    def _difference(self, value: PhysicalValue | None, unit: str, key: str) -> float:
+        """A difference of readings in SI: 0.3 degC of noise are 0.3 K."""
+        if value is None:
+            return 0.0
+        factor = self._conversion(value.unit or unit, unit, key)[0]
+        if not value.number * factor > 0:
+            raise InputError(self.file, key, f"{value} is not positive", "give a positive number with its unit")
+        return factor * value.number

@@ -1,0 +1,102 @@
+"""`recording.yaml`: what was done, in the scenario's own words, and what each column of the table measures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import pydantic
+from pydantic import Field, StrictFloat, StrictInt, model_validator
+
+from cosim.components import AnyQuantity, Duration, Strict, Time
+from cosim.errors import InputError
+from cosim.quantity import In, PhysicalValue
+from cosim.yaml_file import input_error, parse_yaml, read_text
+
+Number = StrictFloat | StrictInt
+
+
+class Clock(Strict):
+    """A column of times."""
+
+    column: str = Field(default="time", description="Column of the table.")
+    unit: str = Field(default="s", description="Unit of time of that column.")
+    zero: Number | None = Field(
+        default=None, description="Reading of the clock at the scenario's time 0, in that unit; default: its first."
+    )
+    offset_bound: Annotated[PhysicalValue, In("s", minimum=0.0)] = Field(
+        default=PhysicalValue(0.0, "s"), description="How far the clock may be off; within it the offset is estimated."
+    )
+
+
+class ChannelEntry(Strict):
+    """One measured quantity."""
+
+    column: str = Field(description="Column of the table.")
+    unit: str = Field(description="Unit of that column, for example degC or mA.")
+    noise: AnyQuantity | None = Field(
+        default=None, description="Standard deviation of the sensor; estimated where it is not given."
+    )
+    quantum: AnyQuantity | None = Field(default=None, description="Step of a quantised reading.")
+    minimum: AnyQuantity | None = Field(default=None, description="Reading at which the sensor clips at the bottom.")
+    maximum: AnyQuantity | None = Field(default=None, description="Reading at which the sensor clips at the top.")
+    lag_bound: Annotated[PhysicalValue, In("s", minimum=0.0)] = Field(
+        default=PhysicalValue(0.0, "s"), description="Largest time constant that the sensor may have."
+    )
+    invalid: list[Number] = Field(default=[], description="Readings that mean `no value`.")
+    table: str | None = Field(default=None, description="Table of this channel; default: that of the recording.")
+    time: Clock | None = Field(default=None, description="Clock of this channel; default: that of the recording.")
+
+
+class InputEntry(Strict):
+    """A programme's output that was recorded: its points come from a column of the table."""
+
+    column: str
+    unit: str = Field(description="Unit of the column after scaling, for example W or V.")
+    factor: Number = Field(default=1.0, description="Value = factor * column, in `unit`.")
+    table: str | None = None
+    time: Clock | None = None
+
+
+class Sidecar(Strict):
+    """A recording as its file describes it."""
+
+    title: str
+    source: str = Field(default="", description="Who measured it, where it is published, under which licence.")
+    table: str = Field(description="CSV or Parquet file beside this one.")
+    header_lines: Annotated[StrictInt, Field(ge=0)] = Field(default=0, description="Lines of a CSV before its header.")
+    time: Clock = Clock()
+    begin: Time | None = Field(default=None, description="Only what was measured from this time on is used.")
+    end: Time | None = Field(default=None, description="Only what was measured up to this time is used.")
+    switch_margin: Duration = Field(
+        default=PhysicalValue(0.3, "s"), description="Samples this close to a switch are not used to judge."
+    )
+    overrides: dict[str, Any] = Field(
+        default={}, description="What was done: keys of the scenario with the values of this recording."
+    )
+    inputs: dict[str, InputEntry] = Field(
+        default={}, description="`component.output` of a programme whose course is a column of the table."
+    )
+    channels: dict[str, ChannelEntry] = Field(min_length=1)
+
+    @model_validator(mode="after")
+    def _check(self) -> Sidecar:
+        if self.begin is not None and self.end is not None and self.end.to("s") <= self.begin.to("s"):
+            raise ValueError(f"end ({self.end}) must come after begin ({self.begin})")
+        return self
+
+
+def load_sidecar(file: Path) -> Sidecar:
+    """Read `recording.yaml`.
+
+    Raises:
+        InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
+    """
+    data = parse_yaml(read_text(file), file)
+    if not isinstance(data, dict):
+        raise InputError(file, "", "a recording is a mapping with the keys title, table, channels",
+                         "see docs/diagnosis.md, or make one with `cosim record`")  # fmt: skip
+    try:
+        return Sidecar.model_validate(data)
+    except pydantic.ValidationError as error:
+        raise input_error(file, error, "docs/diagnosis.md lists the keys of a recording") from error

@@ -1,0 +1,60 @@
+"""Columns of numbers from CSV or Parquet files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd  # type: ignore[import-untyped]
+
+from cosim.errors import InputError
+from cosim.unit import Array
+
+
+class Table:
+    """The columns of one file.
+
+    Args:
+        file: CSV (with a header row) or Parquet file.
+        header_lines: Lines of a CSV before its header row.
+
+    Raises:
+        InputError: It cannot be read or has no rows.
+    """
+
+    def __init__(self, file: Path, header_lines: int = 0) -> None:
+        self.file = file
+        if not file.is_file():
+            raise InputError(file, "", "there is no such table", "correct `table` in recording.yaml")
+        try:
+            if file.suffix.lower() in (".parquet", ".pq"):
+                self._frame = pd.read_parquet(file)
+            else:
+                self._frame = pd.read_csv(file, skiprows=header_lines, skipinitialspace=True, comment=None)
+        except Exception as error:  # pandas and pyarrow raise many unrelated kinds
+            raise InputError(file, "", f"it cannot be read as a table: {error}",
+                             "give a CSV file with one header row (see `header_lines`), or a Parquet file",
+                             ) from error  # fmt: skip
+        if not len(self._frame):
+            raise InputError(file, "", "the table has no rows", "give a table with values")
+
+    def column(self, name: str, key: str) -> Array:
+        """Values of a column, shape (rows,); what is empty is not a number.
+
+        Args:
+            name: Column.
+            key: Key of recording.yaml that names it, for errors.
+
+        Raises:
+            InputError: No such column, or it holds text.
+        """
+        if name not in self._frame.columns:
+            there = ", ".join(str(c) for c in self._frame.columns[:12]) + (" ..." if self._frame.shape[1] > 12 else "")
+            raise InputError(self.file, key, f"there is no column `{name}`", f"there are: {there}")
+        values = pd.to_numeric(self._frame[name], errors="coerce").to_numpy(dtype=np.float64)
+        text = self._frame[name].notna().to_numpy() & np.isnan(values)
+        if text.any():
+            row = int(np.flatnonzero(text)[0])
+            raise InputError(self.file, key, f"`{self._frame[name].iloc[row]}` in row {row + 1} of column `{name}` is "
+                             "no number", "leave the place empty where nothing was measured")  # fmt: skip
+        return np.asarray(values, dtype=np.float64)
