@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import shutil
-import stat
-import tempfile
-import zipfile
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy
 from fmpy.model_description import ModelDescription, read_model_description
 
 from cosim.errors import InputError
-
-#: An FMU that unpacks to more than this is refused [byte].
-MAXIMUM_UNPACKED_SIZE = 1 << 30
+from cosim.fmu.extraction import unpack
+from cosim.fmu.temporary import make_folder, remove_folder, remove_with
 
 
 @dataclass
 class FmuArchive:
-    """An FMU extracted to a temporary folder.
+    """An FMU extracted to a temporary folder, which is removed at the latest when this process ends.
 
     Args:
         path: The .fmu file.
@@ -34,53 +30,56 @@ class FmuArchive:
 
     def remove(self) -> None:
         """Delete the extracted files; safe to call twice."""
-        shutil.rmtree(self.directory, ignore_errors=True)
+        remove_folder(self.directory)
 
 
 def open_fmu(path: Path) -> FmuArchive:
     """Extract an FMU and read its description.
 
     Raises:
-        InputError: No such file, no zip, no valid modelDescription.xml, no binary for this platform, or an entry
-            that would leave the folder, is a symbolic link or unpacks beyond `MAXIMUM_UNPACKED_SIZE`.
+        InputError: No such file, no zip, no valid modelDescription.xml, no binary for this platform, or an archive
+            that `cosim.fmu.extraction` refuses.
     """
     if not path.is_file():
         raise InputError(path, "", "there is no such FMU", "build the FMUs with `make fmus`, or correct the path")
+    directory = make_folder()
     try:
-        with zipfile.ZipFile(path) as archive:
-            _check_entries(path, archive)
-    except zipfile.BadZipFile as error:
-        raise InputError(path, "", f"this is not an FMU: {error}",
-                         "an FMU is a zip archive; export it again") from error  # fmt: skip
+        unpack(path, directory)
+        description = _read(path, directory)
+        _check_platform(path, description)
+    except BaseException:
+        remove_folder(directory)
+        raise
+    archive = FmuArchive(path, directory, description)
+    remove_with(archive, directory)
+    return archive
+
+
+def _read(path: Path, directory: Path) -> ModelDescription:
+    if not (directory / "modelDescription.xml").is_file():
+        raise InputError(path, "", "there is no modelDescription.xml in it", "an FMU holds one at its top level")
     try:
-        description = read_model_description(str(path), validate=True)
+        description = read_model_description(directory, validate=True)
+        _complete_starts(description, directory)
     except Exception as error:  # fmpy raises bare Exception for most defects
         raise InputError(
             path, "modelDescription.xml", f"it cannot be read: {_first_line(error)}", "check it with `fmpy validate`"
         ) from error
-    _check_platform(path, description)
-    directory = Path(tempfile.mkdtemp(prefix="cosim-fmu-"))
-    fmpy.extract(str(path), unzipdir=str(directory))
-    return FmuArchive(path, directory, description)
+    return description
+
+
+def _complete_starts(description: ModelDescription, directory: Path) -> None:
+    """Start values of String and Binary arrays: fmpy keeps the first alone; `start` becomes the tuple of all."""
+    variables = {v.name: v for v in description.modelVariables}
+    root = ElementTree.parse(directory / "modelDescription.xml").getroot()
+    for element in root.iterfind("ModelVariables/*"):
+        starts = element.findall("Start")
+        if len(starts) > 1:
+            variables[element.attrib["name"]].start = tuple(start.attrib.get("value", "") for start in starts)
 
 
 def _first_line(error: Exception) -> str:
     return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-
-
-def _check_entries(path: Path, archive: zipfile.ZipFile) -> None:
-    total = 0
-    for entry in archive.infolist():
-        name = PurePosixPath(entry.filename.replace("\\", "/"))
-        if name.is_absolute() or ".." in name.parts or ":" in name.parts[0:1]:
-            raise InputError(path, entry.filename, "this entry would be written outside the FMU's folder", "refused")
-        if stat.S_ISLNK(entry.external_attr >> 16):
-            raise InputError(path, entry.filename, "this entry is a symbolic link", "refused; export the FMU again")
-        total += entry.file_size
-    if total > MAXIMUM_UNPACKED_SIZE:
-        raise InputError(path, "", f"it unpacks to {total / 1e9:.1f} GB", "refused: more than 1 GiB")
-    if "modelDescription.xml" not in archive.namelist():
-        raise InputError(path, "", "there is no modelDescription.xml in it", "an FMU holds one at its top level")
 
 
 def _check_platform(path: Path, description: ModelDescription) -> None:

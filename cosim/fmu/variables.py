@@ -160,8 +160,8 @@ def start_value(declared: Sequence[ModelVariable], vtype: VariableType, shape: t
     elif declared[0].start is None:
         return None
     elif vtype in (VariableType.STRING, VariableType.BINARY):
-        starts = getattr(declared[0], "starts", None) or [declared[0].start]
-        texts = list(starts)
+        start = declared[0].start
+        texts = [start] if isinstance(start, str) else list(start)
     else:
         texts = declared[0].start.split()
     try:
