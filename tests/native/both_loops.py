@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from cosim import programme
 from cosim.algorithms import gauss_seidel, jacobi
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
@@ -127,3 +128,20 @@ def _native(system: System, course: Course, trace: Trace, hand_over: int) -> tup
     except UnitError as error:
         return plan.index, f"{error} {error.time} {error.remedy}", plan.native_share
     return index, "", plan.native_share
+
+
+def compare(make: Callable[[], System], course: Course, hand_over: int = 0) -> Result:
+    """Run both loops and check that they agree; returns the native result."""
+    native = run(make, course, is_native=True, hand_over=hand_over)
+    native.check_equals(run(make, course, is_native=False))
+    return native
+
+
+def held(times: Sequence[int], values: Sequence[float]) -> programme.Course:
+    """A programme whose values hold from each time [ns] on."""
+    return programme.Course(tuple(times), np.array(values, dtype=float), "1", None, is_linear=False)
+
+
+def linear(times: Sequence[int], values: Sequence[float]) -> programme.Course:
+    """A programme interpolated between times [ns]."""
+    return programme.Course(tuple(times), np.array(values, dtype=float), "1", None, is_linear=True)
