@@ -21,7 +21,7 @@ from cosim.ssp.model import (
     Unit,
 )
 from cosim.ssp.namespaces import FLOAT_TYPES
-from cosim.ssp.units import UnitFault, convert
+from cosim.ssp.units import UnitFault, across, convert
 
 Path = tuple[str, ...]
 #: A connector: path of its element from the root system, which is `()`, and its name.
@@ -119,9 +119,26 @@ class Graph:
     def unit(self, node: Node) -> Unit | None:
         """Unit that holds at a node: its connector's, else that of the component's variable."""
         connector = self.connector(node)
-        if connector is not None and connector.unit is not None:
-            return connector.unit
-        return self._unit_of(*node) if isinstance(self.elements.get(node[0]), Component) else None
+        return connector.unit if connector is not None and connector.unit is not None else self.inner_unit(node)
+
+    def inner_unit(self, node: Node) -> Unit | None:
+        """Unit of the component's variable behind a connector; that of the connector where there is none."""
+        if not isinstance(self.elements.get(node[0]), Component):
+            return None
+        found = self._unit_of(*node)
+        connector = self.connector(node)
+        return found if found is not None or connector is None else connector.unit
+
+    def _crossed(self, node: Node, flow: Flow, inwards: bool) -> Flow:
+        """A flow behind the connector of a component: in the unit of the variable, or the other way round."""
+        inner, outer = self.inner_unit(node), self.unit(node)
+        try:
+            step = Linear(*(across(outer, inner) if inwards else across(inner, outer)))
+        except UnitFault as error:
+            raise flow.place.error(
+                f"connector `{node[1]}`: {error}", "give the connector the unit of its variable"
+            ) from error
+        return _converted(flow, step)
 
     def _edge(self, system: System, path: Path, c: Connection, dictionaries: Mapping[str, Path]) -> Edge:
         (start, gives), (end, takes) = (self._end(system, path, e, c.place, dictionaries) for e in (c.start, c.end))
@@ -188,7 +205,8 @@ class Graph:
             if edge.source in way:
                 raise edge.place.error("connections of systems form a ring without a component", "cut it")
             if edge.source[0] in self.components:
-                arriving = [Flow(edge.source, self.unit(edge.source), edge.place)]
+                origin = Flow(edge.source, self.unit(edge.source), edge.place)
+                arriving = [self._crossed(edge.source, origin, inwards=False)]
             else:
                 arriving = self.flows(edge.source, (*way, node))
             found += [self.through(edge, f) for f in _selected(arriving, edge)]
@@ -203,7 +221,7 @@ class Graph:
 
     def through(self, edge: Edge, flow: Flow) -> Flow:
         """A flow behind one more connection."""
-        unit, conversion, linear = self.unit(edge.target), flow.conversion, flow.linear
+        unit = self.unit(edge.target)
         if unit is not None and flow.unit is not None and not edge.suppress_unit_conversion:
             try:
                 step = Linear(*convert(flow.unit, unit))
@@ -211,14 +229,18 @@ class Graph:
                 raise edge.place.error(
                     str(error), "correct the units of the connectors, or set suppressUnitConversion"
                 ) from error
-            if linear == IDENTITY:
-                conversion = _after(conversion, step)
-            else:
-                linear = _after(linear, step)
+            flow = _converted(flow, step)
         if isinstance(edge.transformation, Linear):
-            linear = _after(linear, edge.transformation)
+            flow = replace(flow, linear=_after(flow.linear, edge.transformation))
         new = unit if unit is not None or edge.suppress_unit_conversion else flow.unit
-        return replace(flow, conversion=conversion, linear=linear, unit=new, place=edge.place)
+        flow = replace(flow, unit=new, place=edge.place)
+        return self._crossed(edge.target, flow, inwards=True) if edge.target[0] in self.components else flow
+
+
+def _converted(flow: Flow, step: Linear) -> Flow:
+    if flow.linear == IDENTITY:
+        return replace(flow, conversion=_after(flow.conversion, step))
+    return replace(flow, linear=_after(flow.linear, step))
 
 
 def _after(first: Linear, second: Linear) -> Linear:

@@ -24,6 +24,7 @@ from cosim.yaml_file import parse_yaml, read_text
 
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
 OWN_KEYS = ("tolerance", "isolation", "structure", "record")
+_EXACT = 2**53
 _WITHOUT_FMU = ("programme", "ngspice", "bullet_fabric", "hanging_mass")
 
 
@@ -139,19 +140,16 @@ class FmuImport:
         """The value as a scenario holds it."""
         if variable.type in FLOAT_TYPES:
             final = value.in_unit(variable.unit)
-            if (
-                not value.is_changed
-                and variable.unit is not None
-                and value.unit is not None
-                and means_the_same(value.unit)
-            ):
-                final = value
+            if final.is_changed and not value.is_changed and value.unit is not None and means_the_same(value.unit):
+                final = value  # as it is written: the FMU's layer converts it
             unit = variable.unit and final.unit
             texts = [_quantity(float(v), unit) for v in final.values]
             return _shaped(texts, value.parameter.shape)
         if variable.type == "Enumeration" and value.parameter.type == "Enumeration":
             return _shaped([self._item(value, variable, v) for v in value.values], value.parameter.shape)
-        return _shaped(list(value.values), value.parameter.shape)
+        # A whole number that a floating-point number cannot hold is written as text.
+        values = [str(v) if isinstance(v, int) and abs(v) > _EXACT else v for v in value.values]
+        return _shaped(values, value.parameter.shape)
 
     def _item(self, value: Value, variable: Variable, name: str) -> int:
         """Number of an enumeration's item: the variable's own items count (SSP, section Enumeration)."""

@@ -55,6 +55,21 @@ def convert(source: Unit, target: Unit) -> tuple[float, float]:
     return float(f"{factor:.15g}"), float(f"{offset:.15g}")
 
 
+def across(source: Unit | None, target: Unit | None) -> tuple[float, float]:
+    """The same between a connector and the variable behind it: no unit, or 1, on one side leaves the number as it is.
+
+    Raises:
+        UnitFault: They measure different things.
+    """
+    if source is None or target is None or _is_bare(source) or _is_bare(target):
+        return 1.0, 0.0
+    return convert(source, target)
+
+
+def _is_bare(unit: Unit) -> bool:
+    return (any(unit.exponents[:-1]), unit.factor, unit.offset) == (False, 1.0, 0.0) and bool(unit.exponents)
+
+
 def means_the_same(unit: Unit) -> bool:
     """Whether the name means to pint what this definition says."""
     try:

@@ -9,7 +9,7 @@ from typing import Any
 from cosim.ssp.graph import Edge, Flow, Graph, Node, Path
 from cosim.ssp.model import IDENTITY, Binding, Component, Linear, MappingEntry, Parameter, Place, System, Table, Unit
 from cosim.ssp.namespaces import FLOAT_TYPES
-from cosim.ssp.units import UnitFault, convert
+from cosim.ssp.units import UnitFault, across
 
 _TAKEN = frozenset({"input", "parameter", "structuralParameter"})
 
@@ -43,12 +43,12 @@ class Value:
         Raises:
             InputError: The units measure different things.
         """
-        if unit is None or self.unit is None or self.unit == unit:
-            return replace(self, unit=unit if self.unit is None else self.unit)
         try:
-            factor, offset = convert(self.unit, unit)
+            factor, offset = across(self.unit, unit)
         except UnitFault as error:
             raise self.place.error(f"`{self.parameter.name}`: {error}", "correct the unit") from error
+        if (factor, offset) == (1.0, 0.0):
+            return replace(self, unit=self.unit if unit is None else unit)
         return self.scaled(factor, offset, unit)
 
     def scaled(self, factor: float, offset: float, unit: Unit | None) -> Value:
@@ -101,7 +101,7 @@ class Bindings:
                     yield from self._nodes((*path, child), name.removeprefix(f"{child}."))
 
     def _transformed(self, parameter: Parameter, entry: MappingEntry | None, node: Node, set_name: str) -> Value:
-        unit = self._graph.unit(node)
+        unit = self._graph.inner_unit(node) or self._graph.unit(node)
         value = Value(parameter, parameter.values, parameter.unit, False, set_name)
         if entry is None:
             return value if unit is None or value.unit is not None else replace(value, unit=unit)
@@ -135,10 +135,11 @@ class Bindings:
         value = value.in_unit(self._graph.unit(edge.source))
         if value.parameter.type in FLOAT_TYPES:
             behind = self._graph.through(edge, Flow(edge.source, value.unit, edge.place))
+            unit = self._graph.inner_unit(edge.target) or behind.unit
             if behind.total != IDENTITY:
-                value = value.scaled(behind.total.factor, behind.total.offset, behind.unit)
+                value = value.scaled(behind.total.factor, behind.total.offset, unit)
             else:
-                value = replace(value, unit=behind.unit)
+                value = replace(value, unit=unit)
         self.values[edge.target] = value
 
 

@@ -1,0 +1,1 @@
+"""SSP: import, export, validation."""
