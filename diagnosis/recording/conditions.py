@@ -61,7 +61,8 @@ def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: 
     if output is None:
         raise InputError(recording.path / "recording.yaml", key, f"the programme has no output {recorded.output}",
                          f"it has: {', '.join(component.get('outputs', {}))}")  # fmt: skip
-    points, last_step = [], None
+    points: list[list[str]] = []
+    last_step = None
     for time, value in zip(recorded.times.tolist(), recorded.values.tolist()):
         step = round(time / macro)
         if points and step == last_step:  # two readings in one macro-step: the later one holds

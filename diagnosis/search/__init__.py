@@ -1,0 +1,1 @@
+"""Search for missing physics: recalibrate, score, refit, compete, accept."""

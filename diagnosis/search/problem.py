@@ -1,0 +1,146 @@
+"""What the search needs of a model: parameters with priors, terms that can be added, residuals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from cosim.unit import Array
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that the model already has, and how far it may be off.
+
+    The fit works in z, the distance from the nominal value in prior deviations: value = nominal * exp(deviation * z)
+    where `is_relative`, else nominal + deviation * z.
+
+    Args:
+        name: For example `coil[2,5].heat_transfer_coefficient`.
+        unit: SI unit.
+        nominal: Value in the scenario.
+        deviation: Prior standard deviation, of ln(value) or of the value.
+        is_relative: See above.
+        bounds: Largest departure from the nominal value in deviations.
+    """
+
+    name: str
+    unit: str
+    nominal: float
+    deviation: float
+    is_relative: bool = True
+    bounds: float = 6.0
+
+    def value(self, z: float) -> float:
+        """Value at a distance of z deviations."""
+        if self.is_relative:
+            return self.nominal * math.exp(self.deviation * z)
+        return self.nominal + self.deviation * z
+
+
+@dataclass(frozen=True)
+class TermParameter:
+    """A free number of a term.
+
+    Args:
+        name: Symbol in the term's law.
+        unit: SI unit.
+        lower: Smallest value (sign or passivity).
+        upper: Largest value.
+        starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
+    """
+
+    name: str
+    unit: str
+    lower: float
+    upper: float
+    starts: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Term:
+    """A law that may be missing, at a place.
+
+    Args:
+        identifier: Name in the catalogue; unnamed laws have one too.
+        place: For example `string[3]`, `coil[2,5]`, `all coils`, `supply`.
+        unit: electrical, thermal, stiffness, mechanical or measurement.
+        parameters: The first is the strength: at 0 the term is absent.
+        is_named: Whether it is an effect with a name.
+        law: Formula.
+    """
+
+    identifier: str
+    place: str
+    unit: str
+    parameters: tuple[TermParameter, ...]
+    is_named: bool = True
+    law: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.identifier} at {self.place}"
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values at which a model is evaluated.
+
+    Args:
+        base: z of every parameter, shape (parameters,).
+        terms: Terms that are present, with the values of their parameters.
+    """
+
+    base: Array
+    terms: Mapping[Term, tuple[float, ...]] = field(default_factory=dict)
+
+    def plus(self, term: Term, values: Sequence[float]) -> Point:
+        """The same with one term more, or with other values of one."""
+        return Point(self.base, {**self.terms, term: tuple(values)})
+
+    def without(self, term: Term) -> Point:
+        """The same with one term less."""
+        return Point(self.base, {t: v for t, v in self.terms.items() if t != term})
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What each residual belongs to.
+
+    Args:
+        channel: Number of its channel, shape (residuals,).
+        time: Its time [s], shape (residuals,).
+        names: Names of the channels.
+        units: Unit (electrical, ...) whose output each channel measures.
+    """
+
+    channel: Array
+    time: Array
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+
+
+class Model(Protocol):
+    """A simulator with the recordings that it is compared with."""
+
+    parameters: Sequence[Parameter]
+    layout: Layout
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """(measured - simulated) / deviation at each point, shape (points, residuals).
+
+        Samples that are not to be used have weight 0. What cannot be simulated is infinite.
+        """
+        ...
+
+    def base_jacobian(self, point: Point) -> Array:
+        """Derivative of the residuals by the z of every parameter, shape (residuals, parameters)."""
+        ...
+
+
+def one_residual(model: Model, point: Point) -> Array:
+    """Residuals at one point, shape (residuals,)."""
+    return np.asarray(model.residuals([point])[0])
