@@ -5,7 +5,6 @@ It imports no Bullet, no ngspice and no scenario, so that it starts in about 0.1
 
 from __future__ import annotations
 
-import ctypes
 import os
 import resource
 import signal
@@ -40,7 +39,6 @@ def serve(requests: int, replies: int, memory: int, parent: int, folder: str) ->
     header = Header(memory)
     watch = Watch(requests, parent, folder, header)
     watch.start()
-    _buffer_output_by_lines()
     note_calls(header)
     channel = Channel(requests, replies)
     try:
@@ -50,16 +48,6 @@ def serve(requests: int, replies: int, memory: int, parent: int, folder: str) ->
         watch.end()
     # Nothing of the FMU's library runs after this: no destructors, no exit handlers.
     os._exit(0)
-
-
-def _buffer_output_by_lines() -> None:
-    """What an FMU prints reaches the pipe line by line, or a crash would lose its last lines."""
-    try:
-        library = ctypes.CDLL(None)
-        stream = ctypes.c_void_p.in_dll(library, "__stdoutp" if sys.platform == "darwin" else "stdout")
-        library.setvbuf(stream, None, 1, 0)  # 1: _IOLBF of glibc, musl and macOS
-    except (OSError, ValueError, AttributeError):
-        return
 
 
 def _largest_resident() -> int:

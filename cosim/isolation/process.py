@@ -70,6 +70,7 @@ class IsolatedProcess:
         requests, replies, output = os.pipe(), os.pipe(), os.pipe()
         theirs = requests[0], replies[1], self.memory
         arguments = ", ".join(map(repr, (*theirs, os.getpid(), folder)))
+        # -u: what an FMU prints, in C as well, is in the pipe before it crashes.
         command = [sys.executable, "-u", "-c", _BOOT.format(path=_import_path(), arguments=arguments)]
         try:
             # A process group of its own: Ctrl-C in the terminal does not reach it, and all its children end with it.

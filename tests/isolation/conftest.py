@@ -41,6 +41,7 @@ def temporary(tmp_path, monkeypatch):
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     monkeypatch.setenv("TMPDIR", str(folder))
+    monkeypatch.delenv("PYTHONUNBUFFERED", raising=False)
     before = descriptors("pipe:"), descriptors("pidfd")
     yield folder
     assert list(folder.iterdir()) == []

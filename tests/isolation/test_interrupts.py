@@ -78,6 +78,7 @@ def test_a_second_ctrl_c_ends_an_endless_step(tmp_path, fmu, scenario, start):
     _, said = running.communicate()
     assert running.returncode == 130, said
     assert "interrupted at t = 0.05 s" in said
+    assert "warning" not in said
     assert xr.load_dataset(folder / "results.nc")["unruly.steps"].values.tolist() == [0, 1, 2, 3, 4, 5]
 
 
