@@ -11,6 +11,7 @@ import pydantic
 import yaml
 
 from cosim.components import Component as ScenarioComponent
+from cosim.errors import InputError
 from cosim.ssp.files import copy_once
 from cosim.ssp.fmus import Fmu, Variable
 from cosim.ssp.graph import Node
@@ -35,7 +36,10 @@ def own_component(component: Component, out: Path) -> dict[str, Any]:
         InputError: It is no component, is an FMU after all, or names a parameter set outside the package.
     """
     assert component.source is not None
-    data = parse_yaml(read_text(component.source), component.source)
+    try:
+        data = parse_yaml(read_text(component.source), component.source)
+    except InputError as error:  # it names the file where the package is unpacked for the moment
+        raise component.place.error(f"{component.source.name}: {error.key}: {error.problem}", error.remedy) from error
     try:
         pydantic.TypeAdapter(ScenarioComponent).validate_python(data)
     except pydantic.ValidationError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -69,11 +70,15 @@ def import_ssp(path: Path, out: Path, request: TimeRequest | None = None, varian
         raise InputError(out, "", "there is something here already", "give another folder with `--out`")
     with opened(path) as folder:
         system = _read(path, folder, variant)
-        data = _scenario(system, request or TimeRequest(), out)
-    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110)
-    file = out / "scenario.yaml"
-    parse_scenario(text, file)
-    file.write_text(text, encoding="utf-8")
+        try:
+            data = _scenario(system, request or TimeRequest(), out)
+            text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110)
+            file = out / "scenario.yaml"
+            parse_scenario(text, file)
+            file.write_text(text, encoding="utf-8")
+        except BaseException:
+            shutil.rmtree(out, ignore_errors=True)
+            raise
     names = {".".join(p): n for p, n in system.names.items() if ".".join(p) != n}
     return Imported(file, tuple(dict.fromkeys([*system.structure.notes, *system.notes])), names)
 

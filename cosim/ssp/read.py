@@ -136,7 +136,7 @@ class _Reader:
             if kind == SSP_TYPE:
                 folder = file.with_name(f"{file.name}.unpacked")
                 if not folder.is_dir():
-                    package.extract(file, folder)
+                    self._unpack(element, file, folder)
                 file = folder / (fragment or DEFAULT_SSD)
                 if not file.is_file():
                     raise place.error(f"there is no {file.name} in {uri}", "correct the reference")
@@ -146,6 +146,13 @@ class _Reader:
             element.get("name"), system.connectors, bindings, place, system.elements, system.connections,
             system.dictionaries,
         )  # fmt: skip
+
+    def _unpack(self, element: Any, file: Path, folder: Path) -> None:
+        try:
+            package.extract(file, folder)
+        except InputError as error:  # it names the file where the outer package is unpacked for the moment
+            where = f"{element.get('source')}: {error.key}: " if error.key else f"{element.get('source')}: "
+            raise self.document.place(element).error(where + error.problem, error.remedy) from error
 
     def _resolved(self, element: Any, uri: str) -> Path:
         try:

@@ -53,10 +53,9 @@ def linear(factor, offset):
 
 def system(name, *elements, interface=(), bindings="", connections=(), dictionaries="", attributes=""):
     wired = f"<ssd:Connections>{''.join(connections)}</ssd:Connections>" if connections else ""
-    return (
-        f'<ssd:System name="{name}" {attributes}>{connectors(*interface)}{bindings}'
-        f"<ssd:Elements>{''.join(elements)}</ssd:Elements>{wired}{dictionaries}</ssd:System>"
-    )
+    inside = f"<ssd:Elements>{''.join(elements)}</ssd:Elements>" if elements else ""
+    interface = connectors(*interface)
+    return f'<ssd:System name="{name}" {attributes}>{interface}{bindings}{inside}{wired}{dictionaries}</ssd:System>'
 
 
 def parameter(name, value, type_="Real", shape=(), **attributes):
