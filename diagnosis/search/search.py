@@ -1,0 +1,174 @@
+"""The search: forwards with a beam, all refitted together, then backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.search.fit import Fit, fit, fit_best
+from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.score import Score, Scoring, score
+from diagnosis.search.structure import Structure, structure
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the search may spend and what it must be shown.
+
+    Args:
+        level: Rate of false alarms that is allowed.
+        floor: Least gain, whatever chance would give: every real rig has many tiny effects.
+        beam: Models that are carried forward.
+        refits: Best-scored terms that are refitted per model.
+        most_terms: Terms that a model may have.
+        seed: Of all random numbers.
+    """
+
+    level: float = 0.05
+    floor: float = 12.0
+    beam: int = 2
+    refits: int = 6
+    most_terms: int = 3
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A model with terms that were fitted.
+
+    Args:
+        fit: Converged fit of everything together.
+        gains: Fall of -2 log posterior by each term, all others kept.
+    """
+
+    fit: Fit
+    gains: Mapping[Term, float] = field(default_factory=dict)
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """Its terms."""
+        return tuple(self.fit.point.terms)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a search found.
+
+    Args:
+        base: Recalibrated model without terms.
+        base_structure: What is left without terms.
+        best: The accepted explanation; without terms where none was earned.
+        left: What is left with it.
+        rivals: Other explanations with as many terms, best first (the accepted one is among them).
+        margin: Gain that a term had to exceed.
+        false_alarm_rate: Probability that chance alone gives the first accepted term its gain; 1 without one.
+        tried: Choices of terms and shapes that were simulated.
+    """
+
+    base: Fit
+    base_structure: Structure
+    best: Explanation
+    left: Structure
+    rivals: tuple[Explanation, ...]
+    margin: float
+    false_alarm_rate: float
+    tried: int
+
+
+OnProgress = Callable[[str], None]
+
+
+def recalibrate(model: Model) -> Fit:
+    """Fit what the model already has, within its priors, to the end: an unconverged base makes false gains."""
+    found = fit(model, Point(np.zeros(len(model.parameters))), iterations=200)
+    return fit(model, found.point, iterations=200)
+
+
+def search(
+    model: Model, terms: Sequence[Term], settings: Settings, groups: Mapping[str, Array] | None = None,
+    on_progress: OnProgress = lambda text: None,
+) -> Outcome:  # fmt: skip
+    """Find the terms that a model lacks.
+
+    Args:
+        model: Model and training recordings.
+        terms: Catalogue and unnamed terms at all their places.
+        settings: See there.
+        groups: Groups of channels for the search for structure.
+        on_progress: Told what is being done.
+    """
+    on_progress("recalibrating")
+    base = recalibrate(model)
+    left = structure(base.residuals, model.layout, groups)
+    current = [Explanation(base)]
+    best, rivals = current[0], (current[0],)
+    margin, rate, tried = settings.floor, 1.0, 0
+    for level in range(settings.most_terms):
+        on_progress(f"looking for effect {level + 1}")
+        grown, scoring = _grow(model, terms, current, settings)
+        tried += scoring.tried
+        if level == 0:
+            margin = max(settings.floor, scoring.margin(settings.level))
+        if not grown or current[0].fit.cost - grown[0].fit.cost <= margin:
+            break
+        if level == 0:
+            rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost)
+        current = grown[: settings.beam]
+        best, rivals = current[0], tuple(grown)
+        if structure(best.fit.residuals, model.layout, groups).is_noise and level + 1 >= settings.most_terms - 1:
+            break
+    on_progress("removing what is not needed")
+    best = _shrink(model, best, margin)
+    after = structure(best.fit.residuals, model.layout, groups)
+    return Outcome(base, left, best, after, rivals, margin, rate, tried)
+
+
+def _grow(
+    model: Model, terms: Sequence[Term], current: Sequence[Explanation], settings: Settings
+) -> tuple[list[Explanation], Scoring]:
+    """Explanations with one term more, best first, and the scoring of the first model."""
+    grown: dict[frozenset[Term], Explanation] = {}
+    scorings = []
+    for explanation in current:
+        scoring = score(model, explanation.fit, terms, seed=settings.seed)
+        scorings.append(scoring)
+        for candidate in _choice(scoring.ranked, settings.refits):
+            key = frozenset((*explanation.terms, candidate.term))
+            if key not in grown:
+                grown[key] = Explanation(_refit(model, explanation.fit, candidate))
+    return sorted(grown.values(), key=lambda e: e.fit.cost), scorings[0]
+
+
+def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
+    """The best scores, and the best of every effect that comes near them: places compete, and so do effects."""
+    chosen = list(ranked[:count])
+    for candidate in ranked[count : 6 * count]:
+        if candidate.gain > 0.3 * ranked[0].gain and all(
+            c.term.identifier != candidate.term.identifier for c in chosen
+        ):
+            chosen.append(candidate)
+    return chosen
+
+
+def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
+    """Fit all again with a term more, from the recalibrated and from the nominal point and from each start."""
+    term = candidate.term
+    points = [before.point.plus(term, candidate.values)]
+    nominal = Point(np.zeros_like(before.point.base), before.point.terms)
+    points.append(nominal.plus(term, candidate.values))
+    points.extend(nominal.plus(term, (start, *candidate.values[1:])) for start in term.parameters[0].starts[:2])
+    rough = min((fit(model, point, iterations=8) for point in points), key=lambda f: f.cost)
+    return fit_best(model, [rough.point], iterations=60)
+
+
+def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
+    """Take away terms whose absence costs less than the margin, the least needed first."""
+    while True:
+        without = {t: fit(model, explanation.fit.point.without(t)) for t in explanation.terms}
+        gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
+        if not gains or min(gains.values()) > margin:
+            return replace(explanation, gains=gains)
+        explanation = Explanation(without[min(gains, key=lambda t: gains[t])])

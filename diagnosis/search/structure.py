@@ -1,0 +1,72 @@
+"""Whether anything but noise is left in residuals: sums over channels and windows of time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.search.problem import Layout
+
+#: Samples per window.
+WINDOWS = (1, 4, 12)
+#: Largest z that counts as noise; a recording has thousands of windows.
+LIMIT = 4.5
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Where residuals are largest, in deviations of their own noise.
+
+    Args:
+        z: Largest standardised sum of residuals.
+        channels: Name of the channel or group of channels that it was found in.
+        begin: Begin of its window [s].
+        end: End of its window [s].
+    """
+
+    z: float
+    channels: str
+    begin: float
+    end: float
+
+    @property
+    def is_noise(self) -> bool:
+        """Whether nothing but noise is left."""
+        return abs(self.z) <= LIMIT
+
+
+def structure(residuals: Array, layout: Layout, groups: Mapping[str, Array] | None = None) -> Structure:
+    """Largest standardised sum of residuals over single channels, groups of channels, and windows.
+
+    Args:
+        residuals: Shape (residuals,), each with deviation 1 if it is noise; 0 where a sample is not used.
+        layout: What each belongs to.
+        groups: Name to numbers of channels whose residuals are averaged at equal times (a string, all coils).
+    """
+    found = Structure(0.0, "", 0.0, 0.0)
+    for number, name in enumerate(layout.names):
+        chosen = layout.channel == number
+        found = _larger(found, residuals[chosen], layout.time[chosen], name)
+    for name, members in (groups or {}).items():
+        chosen = np.isin(layout.channel, members)
+        times, place = np.unique(layout.time[chosen], return_inverse=True)
+        total = np.bincount(place, residuals[chosen])
+        count = np.bincount(place, residuals[chosen] != 0.0)
+        found = _larger(found, total / np.sqrt(np.maximum(count, 1)), times, name)
+    return found
+
+
+def _larger(best: Structure, values: Array, times: Array, name: str) -> Structure:
+    used = values != 0.0
+    values, times = values[used], times[used]
+    for window in WINDOWS:
+        if len(values) < window:
+            continue
+        sums = np.convolve(values, np.ones(window), mode="valid") / np.sqrt(window)
+        peak = int(np.argmax(np.abs(sums)))
+        if abs(sums[peak]) > abs(best.z):
+            best = Structure(float(sums[peak]), name, float(times[peak]), float(times[peak + window - 1]))
+    return best
