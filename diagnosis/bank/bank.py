@@ -1,0 +1,155 @@
+"""The coil bank: parameter sets in, sampled quantities out."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from diagnosis.bank.compiler import load
+from diagnosis.bank.inputs import BankInputs
+from diagnosis.bank.layout import QUANTITIES, Array, BankLayout
+from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
+from diagnosis.bank.plan import Plan
+from diagnosis.bank.source import generate
+from diagnosis.candidates.candidate import CandidateTerm
+
+
+class BankError(Exception):
+    """A simulation did not stay finite, or there was no memory for it.
+
+    Args:
+        what: The failure in a sentence.
+        parameter_set: Number of the set in its batch, from 0.
+        time: Simulated time [s], or None.
+    """
+
+    def __init__(self, what: str, parameter_set: int = 0, time: float | None = None) -> None:
+        super().__init__(what)
+        self.parameter_set, self.time = parameter_set, time
+
+
+class Bank:
+    """Coils (or lumped heaters) with circuit, heat, stiffness and load, and every candidate term compiled in.
+
+    Equations: `circuit.kirchhoff`, fmus/thermal_stiffness, `mechanics.hanging_mass`; terms: docs/candidates.md. It holds no
+    state between calls and may be used by several threads at once.
+
+    Args:
+        layout: Coils and strings.
+        terms: Candidates to compile in; compiled once, then taken from the cache.
+        is_midpoint: Take what depends on the temperature at the middle of a step (second order in the step). False
+            takes it at the begin, as the co-simulation does: then equal steps give equal results.
+
+    Raises:
+        CompilerError: There is no usable C compiler.
+        ValueError: Two candidates have one identifier.
+    """
+
+    def __init__(
+        self, layout: BankLayout, terms: Sequence[CandidateTerm] = (), is_midpoint: bool = True
+    ) -> None:  # fmt: skip
+        self.layout, self.terms, self.is_midpoint = layout, tuple(terms), is_midpoint
+        if len({t.identifier for t in terms}) != len(terms):
+            raise ValueError("two candidates have the same identifier")
+        self._library = load(generate(self.terms))
+        self._library.bank_simulate.restype = ctypes.c_int
+
+    def simulate(
+        self, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array]
+    ) -> dict[str, Array]:
+        """One simulation.
+
+        Args:
+            parameters: Values, SI.
+            inputs: Grid of steps and what drives them.
+            times: Sample times [s] of each quantity wanted, or one array for all quantities that this bank has.
+                Values between the ends of steps are interpolated linearly. Electrical flows never across a switch.
+
+        Returns:
+            `temperature` [K], `extension` [m], `length` [m], `stiffness` [N/m], `resistance` [ohm], `power` [W] with shape
+            (samples, coils); `current` [A], (samples, strings); `supply_current` [A], (samples, 1): of all sources.
+
+        Raises:
+            BankError: A value stopped being finite.
+            KeyError: An unknown parameter or candidate.
+            ValueError: Wrong shapes, sample times outside the grid.
+        """
+        plan = self.plan(inputs, times)
+        packing = self.packing(active_terms(self.terms, parameters))
+        vectors = pack(packing, self.terms, parameters)[None]
+        return {n: v[0] for n, v in plan.split(self.run(plan, packing, vectors)).items()}
+
+    def simulate_batch(
+        self,
+        parameters: Sequence[BankParameters],
+        inputs: BankInputs,
+        times: Array | Mapping[str, Array],
+        threads: int = 1,
+    ) -> dict[str, Array]:
+        """Many simulations over the same inputs; see `simulate`.
+
+        Args:
+            parameters: One for each set.
+            inputs: Grid of steps and what drives them.
+            times: As for `simulate`.
+            threads: Threads that share the sets (the C function runs without Python's lock).
+
+        Returns:
+            As `simulate`, with the set as first dimension.
+        """
+        plan = self.plan(inputs, times)
+        active: frozenset[str] = frozenset().union(*(active_terms(self.terms, p) for p in parameters))
+        packing = self.packing(active)
+        vectors = np.stack([pack(packing, self.terms, p) for p in parameters])
+        return plan.split(self.run(plan, packing, vectors, threads))
+
+    def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
+        """Inputs and samples ready for `run`."""
+        if not isinstance(times, Mapping):
+            times = {q: times for q in QUANTITIES if self.layout.elements(q)}
+        return Plan(self.layout, inputs, times, self.is_midpoint)
+
+    def packing(self, active: frozenset[str]) -> Packing:
+        """Places of the parameters where the candidates `active` are switched on."""
+        return Packing(self.layout, self.terms, active)
+
+    def run(self, plan: Plan, packing: Packing, vectors: Array, threads: int = 1) -> Array:
+        """Simulate packed sets: shape (sets, packing.size) to (sets, plan.out_size); `plan.split` names the outputs.
+
+        Raises:
+            BankError: A value stopped being finite in one of them.
+        """
+        vectors = np.ascontiguousarray(vectors)
+        out = np.empty((len(vectors), plan.out_size))
+        plan_structure = type(plan.structure).from_buffer_copy(plan.structure)
+        plan_structure.term_offset = packing.term_offset.ctypes.data
+        bounds = np.linspace(0, len(vectors), min(threads, len(vectors)) + 1).astype(int)
+
+        def part(n: int) -> None:
+            self._call(
+                plan, plan_structure, vectors[bounds[n] : bounds[n + 1]], out[bounds[n] : bounds[n + 1]], int(bounds[n])
+            )
+
+        if len(bounds) == 2:
+            part(0)
+        else:
+            with ThreadPoolExecutor(len(bounds) - 1) as pool:
+                list(pool.map(part, range(len(bounds) - 1)))
+        return out
+
+    def _call(self, plan: Plan, structure: ctypes.Structure, vectors: Array, out: Array, first: int) -> None:
+        failure = np.zeros(2, dtype=np.int64)
+        pointer = ctypes.c_void_p
+        result = self._library.bank_simulate(
+            ctypes.byref(structure), ctypes.c_int64(len(vectors)), pointer(vectors.ctypes.data),
+            ctypes.c_int64(vectors.shape[1]), pointer(out.ctypes.data), ctypes.c_int64(out.shape[1]),
+            pointer(failure.ctypes.data),
+        )  # fmt: skip
+        if result == 2:
+            raise BankError("there is no memory for the traces of the coil bank; use a longer step")
+        if result:
+            number, time = first + int(failure[0]), float(plan.time_after(int(failure[1])))
+            raise BankError(f"the coil bank stopped being finite at t = {time:g} s (set {number})", number, time)

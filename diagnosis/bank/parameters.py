@@ -1,0 +1,130 @@
+"""Parameters of a bank, and their place in the vector that its C function reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from diagnosis.bank.layout import AXIS_OF_FIELD, COIL_FIELDS, SOURCE_FIELDS, STRING_FIELDS, Array, BankLayout
+from diagnosis.candidates.candidate import Axis, CandidateTerm
+
+_DEFAULTS = {n: v for fields in (COIL_FIELDS, STRING_FIELDS, SOURCE_FIELDS) for n, (v, _) in fields.items()}
+
+
+@dataclass(frozen=True)
+class BankParameters:
+    """Values of a bank's parameters, SI.
+
+    Args:
+        base: Name (see `layout.COIL_FIELDS`, `STRING_FIELDS`, `SOURCE_FIELDS`) to a number or an array over the coils,
+            strings or sources; what is left out has its default.
+        terms: Candidate to its parameters, each a number or an array over the candidate's axis. A candidate that is left
+            out, or whose amplitudes are all 0, is switched off. Parameters left out have their first start value;
+            amplitudes left out are 0.
+    """
+
+    base: Mapping[str, float | Array] = field(default_factory=dict)
+    terms: Mapping[str, Mapping[str, float | Array]] = field(default_factory=dict)
+
+    def with_base(self, **values: float | Array) -> BankParameters:
+        """The same with other values of base parameters."""
+        return replace(self, base={**self.base, **values})
+
+    def with_term(self, identifier: str, **values: float | Array) -> BankParameters:
+        """The same with other values of one candidate's parameters."""
+        own = {**self.terms.get(identifier, {}), **values}
+        return replace(self, terms={**self.terms, identifier: own})
+
+
+class Packing:
+    """Where the values of each parameter lie in the vector of a set.
+
+    Args:
+        layout: The bank's coils and strings.
+        terms: Candidates compiled into the bank.
+        active: Identifiers of those that are switched on.
+    """
+
+    def __init__(self, layout: BankLayout, terms: Sequence[CandidateTerm], active: frozenset[str]) -> None:
+        self.layout = layout
+        self.axes: dict[str, Axis] = {}
+        self._begin: dict[str, int] = {}
+        self.size = 0
+        for name, axis in AXIS_OF_FIELD.items():
+            self._place(name, axis)
+        self.term_offset = np.full(max(len(terms), 1), -1, dtype=np.int64)
+        for number, term in enumerate(terms):
+            if term.identifier in active:
+                self.term_offset[number] = self.size
+                for parameter in term.parameters:
+                    self._place(f"{term.identifier}.{parameter.name}", term.axis)
+
+    def _place(self, name: str, axis: Axis) -> None:
+        self.axes[name] = axis
+        self._begin[name] = self.size
+        self.size += self.layout.stride(axis)
+
+    def where(self, name: str) -> slice:
+        """Place of a parameter, without the padding.
+
+        Raises:
+            KeyError: There is no such parameter, or its candidate is switched off.
+        """
+        begin = self._begin[name]
+        return slice(begin, begin + self.layout.size(self.axes[name]))
+
+    def write(self, vector: Array, name: str, value: float | Array) -> None:
+        """Write a parameter into a vector; padded coils repeat the last one."""
+        place = self.where(name)
+        size = place.stop - place.start
+        array = np.asarray(value, dtype=np.float64)
+        if array.shape not in ((), (size,)):
+            raise ValueError(f"{name} has the shape {array.shape}; it needs one number or {size}")
+        if not np.isfinite(array).all():
+            raise ValueError(f"{name} holds a value that is not finite")
+        vector[place] = array
+        if size:
+            vector[place.stop : place.start + self.layout.stride(self.axes[name])] = vector[place.stop - 1]
+
+
+def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> frozenset[str]:
+    """Candidates with an amplitude that is not 0.
+
+    Raises:
+        KeyError: A candidate is not in the bank.
+    """
+    known = {t.identifier: t for t in terms}
+    for identifier in parameters.terms:
+        if identifier not in known:
+            raise KeyError(f"the candidate {identifier} is not in this bank")
+    return frozenset(
+        i for i, values in parameters.terms.items() if any(np.any(np.asarray(values.get(a, 0.0))) for a in known[i].amplitudes)
+    )  # fmt: skip
+
+
+def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters) -> Array:
+    """Vector of one set, shape (packing.size,).
+
+    Raises:
+        KeyError: An unknown parameter.
+        ValueError: A wrong shape or a value that is not finite.
+    """
+    unknown = sorted(set(parameters.base) - set(_DEFAULTS))
+    if unknown:
+        raise KeyError(f"{unknown[0]} is no parameter of the bank; there are {', '.join(_DEFAULTS)}")
+    vector = np.zeros(packing.size)
+    for name, default in _DEFAULTS.items():
+        packing.write(vector, name, parameters.base.get(name, default))
+    for number, term in enumerate(terms):
+        if packing.term_offset[number] < 0:
+            continue
+        values = parameters.terms.get(term.identifier, {})
+        surplus = sorted(set(values) - {p.name for p in term.parameters})
+        if surplus:
+            raise KeyError(f"{term.identifier} has no parameter {surplus[0]}")
+        for p in term.parameters:
+            default = 0.0 if p.is_amplitude else p.starts[0]
+            packing.write(vector, f"{term.identifier}.{p.name}", values.get(p.name, default))
+    return vector

@@ -1,0 +1,290 @@
+/* Run of one parameter set, its trace on the grid of steps, and the samples of every channel through its sensor. */
+
+#define SCAN_POINTS 8192
+
+/* Highest temperature [degC] at which the cooling branch passes below the heating branch; infinite if it stays above it.
+ * The same search as in fmus/thermal_stiffness/model.c. */
+static double find_crossing(const double *up, const double *down)
+{
+    const double absolute_zero = -CELSIUS;
+    double high = fmax((log(up[1]) + 40.0) / up[2], (log(down[1]) + 40.0) / down[2]);
+#define GAP(x) (gompertz(down[0], down[1], down[2], down[3], x) - gompertz(up[0], up[1], up[2], up[3], x))
+    if (!(GAP(high) < 0.0)) {
+        return INFINITY;
+    }
+    const double width = (high - absolute_zero) / SCAN_POINTS;
+    double low = high;
+    for (int i = 0; GAP(low) < 0.0; i++) {
+        if (i == SCAN_POINTS) {
+            return absolute_zero; /* below everywhere: the heating branch alone */
+        }
+        high = low;
+        low = high - width;
+    }
+    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
+        if (GAP(middle) < 0.0) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+#undef GAP
+    return high;
+}
+
+static void find_crossings(Step *s)
+{
+    double last[8] = {NAN};
+    for (int64_t i = 0; i < s->width; i++) {
+        double shape[8];
+        for (int64_t j = 0; j < 8; j++) {
+            shape[j] = COIL(heating_a)[j * s->width + i]; /* heating_a to cooling_d follow each other */
+        }
+        s->crossing[i] = i > 0 && !memcmp(shape, last, sizeof shape) ? s->crossing[i - 1] : find_crossing(shape, shape + 4);
+        memcpy(last, shape, sizeof shape);
+    }
+}
+
+static void begin(Step *s)
+{
+    const Plan *plan = s->plan;
+    const double *start = plan->given ? plan->given : COIL(initial_temperature);
+    for (int64_t i = 0; i < s->width; i++) {
+        s->temperature[i] = s->before[i] = s->middle[i] = start[i];
+        s->rate[i] = s->energy[i] = s->power[i] = s->current[i] = s->phase[i] = 0.0;
+        s->ambient[i] = plan->ambient[0] + COIL(ambient_offset)[i];
+        s->tension[i] = COIL(load)[i];
+        s->extension[i] = 0.0;
+        s->heating[i] = s->cooling[i] = s->remembered[i] = 0.0;
+    }
+    find_crossings(s);
+    s->t = s->t_begin = s->t_end = plan->time[0];
+    s->dt = s->dt_middle = 0.0;
+    s->felt = s->temperature;
+    START_states(s);
+    find_resistance(s, s->temperature);
+    find_stiffness(s);
+    for (int64_t i = 0; i < s->width; i++) { /* a coil that was never heated is on the heating branch */
+        s->remembered[i] = s->heating[i];
+    }
+    find_stiffness(s);
+    find_length(s);
+}
+
+static void keep(Step *s, double *const *trace, int64_t row)
+{
+    double *const from[QUANTITIES] = {QUANTITY_ARRAYS};
+    for (int q = 0; q < QUANTITIES; q++) {
+        if (trace[q]) {
+            const int64_t elements = quantity_elements(s, q);
+            memcpy(trace[q] + row * elements, from[q], elements * sizeof(double));
+        }
+    }
+}
+
+/* Rows and weight for a sample at `time`: value = (1 - w) trace[a] + w trace[b]. `hint` moves up with the samples. */
+static double locate(const Plan *plan, int is_flow, double time, int64_t *hint, int64_t *a, int64_t *b)
+{
+    const double *grid = plan->time;
+    int64_t k = *hint;
+    while (k < plan->steps - 1 && grid[k + 1] < time) {
+        k++;
+    }
+    while (k > 0 && grid[k] >= time) {
+        k--;
+    }
+    *hint = k;
+    *a = k;
+    *b = k + 1;
+    if (!is_flow) {
+        return clip((time - grid[k]) / (grid[k + 1] - grid[k]), 0.0, 1.0);
+    }
+    /* A flow belongs to its whole step; its value at the middle is joined to that of a neighbour without a jump. */
+    *a = *b = k + 1;
+    if (!plan->is_midpoint) {
+        return 0.0;
+    }
+    const double middle = 0.5 * (grid[k] + grid[k + 1]);
+    const int can_rise = k + 1 < plan->steps && !plan->is_switch[k + 1], can_fall = k > 0 && !plan->is_switch[k];
+    const int64_t other = (time > middle && can_rise) || !can_fall ? k + 1 : k - 1;
+    if (other > k ? !can_rise : !can_fall) {
+        return 0.0;
+    }
+    *b = other + 1;
+    return (time - middle) / (0.5 * (grid[other] + grid[other + 1]) - middle);
+}
+
+/* First-order lag, exact for values that run straight (or, for a flow, stand still) between the rows. */
+static void lag_column(const Plan *plan, int is_flow, double lag, double *column)
+{
+    double y = column[0], last = -1.0, decay = 0.0, before = column[0];
+    for (int64_t k = 0; k < plan->steps; k++) {
+        const double dt = plan->time[k + 1] - plan->time[k], now = column[k + 1];
+        if (dt != last) {
+            decay = bank_exp(-dt / lag);
+            last = dt;
+        }
+        const double behind = is_flow ? 0.0 : (now - before) / dt * lag;
+        y = now - behind + (y - (is_flow ? now : before) + behind) * decay;
+        before = now;
+        column[k + 1] = y;
+    }
+}
+
+static void sample_channel(const Step *s, int q, const double *trace, Sensor *sensor, double *column)
+{
+    const Plan *plan = s->plan;
+    const int64_t elements = quantity_elements(s, q), element = sensor->channel - quantity_channel(s, q);
+    const int is_flow = quantity_is_flow[q];
+    sensor->partner = element;
+    HOOK_channel(sensor);
+    const int64_t partner = sensor->partner < 0 || sensor->partner >= elements ? element : sensor->partner;
+    for (int64_t k = 0; k <= plan->steps; k++) {
+        const double own = trace[k * elements + element];
+        column[k] = own + sensor->share * (trace[k * elements + partner] - own);
+    }
+    if (sensor->lag > 0.0) {
+        lag_column(plan, is_flow, sensor->lag, column);
+    }
+    int64_t hint = 0, a, b;
+    for (int64_t n = 0; n < sensor->samples; n++) {
+        const double w = locate(plan, is_flow && sensor->lag <= 0.0, sensor->time[n] - sensor->offset, &hint, &a, &b);
+        sensor->value[n] = column[a] + w * (column[b] - column[a]);
+    }
+    HOOK_sensor(sensor);
+}
+
+static void sample(const Step *s, int q, const double *trace, double *out, double *work)
+{
+    const Plan *plan = s->plan;
+    const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
+    const double *time = plan->sample_time[q];
+    if (!HAS_SENSOR(plan)) {
+        int64_t hint = 0, a, b;
+        for (int64_t n = 0; n < samples; n++) {
+            const double w = locate(plan, quantity_is_flow[q], time[n], &hint, &a, &b);
+            const double *low = trace + a * elements, *high = trace + b * elements;
+            for (int64_t i = 0; i < elements; i++) {
+                out[n * elements + i] = low[i] + w * (high[i] - low[i]);
+            }
+        }
+        return;
+    }
+    double *column = work, *value = work + plan->steps + 1;
+    for (int64_t i = 0; i < elements; i++) {
+        Sensor sensor = {.set = s->set, .channel = quantity_channel(s, q) + i, .samples = samples, .time = time,
+                         .value = value};
+        sample_channel(s, q, trace, &sensor, column);
+        for (int64_t n = 0; n < samples; n++) {
+            out[n * elements + i] = value[n];
+        }
+    }
+}
+
+/* Rows of the trace up to `row` hold the state at the end of each step, and flows of the step that ends there. */
+static void keep_start(Step *s, double *const *trace)
+{
+    for (int q = 0; q < QUANTITIES; q++) {
+        const int64_t elements = quantity_elements(s, q);
+        if (trace[q] && quantity_is_flow[q]) {
+            memcpy(trace[q], trace[q] + elements, elements * sizeof(double));
+        }
+    }
+}
+
+static int is_all_finite(const double *values, int64_t count)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < count; i++) {
+        sum += values[i] * 0.0; /* 0, or not a number */
+    }
+    return sum == 0.0;
+}
+
+/* Places the arrays of a step in memory; returns what is left of it. */
+static double *place(Step *s, double *memory)
+{
+    for (double **a = &s->temperature; a <= &s->length; a++) {
+        *a = memory;
+        memory += s->width;
+    }
+    for (double **a = &s->string_resistance; a <= &s->supply_current; a++) {
+        *a = memory;
+        memory += s->strings + s->sources + 1;
+    }
+    s->state = memory;
+    s->state_rate = memory + STATES * s->width;
+    return memory + 2 * STATES * s->width;
+}
+
+/* Simulates one set. Returns -1, or the step in which a temperature or an extension stopped being finite. */
+static int64_t run(const Plan *plan, const double *set, double *out, double *memory)
+{
+    Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
+                 .sources = plan->sources, .set = set, .coil = set};
+    Step *s = &step;
+    s->string = set + COIL_FIELDS * plan->width;
+    s->source = s->string + STRING_FIELDS * plan->strings;
+    memory = place(s, memory);
+    double *trace[QUANTITIES];
+    for (int q = 0; q < QUANTITIES; q++) {
+        trace[q] = plan->samples[q] ? memory : NULL;
+        memory += plan->samples[q] ? (plan->steps + 1) * quantity_elements(s, q) : 0;
+    }
+    begin(s);
+    keep(s, trace, 0);
+    for (int64_t k = 0; k < plan->steps; k++) {
+        advance(s, k);
+        if (!is_all_finite(s->temperature, s->coils) || !is_all_finite(s->length, s->coils)) {
+            return k;
+        }
+        if (trace[QUANTITY_resistance]) {
+            find_resistance(s, s->temperature);
+        }
+        keep(s, trace, k + 1);
+    }
+    keep_start(s, trace);
+    for (int q = 0; q < QUANTITIES; q++) {
+        if (trace[q]) {
+            sample(s, q, trace[q], out + plan->out_offset[q], memory);
+        }
+    }
+    return -1;
+}
+
+/* Simulates `sets` parameter sets one after the other; the number of the first that failed and its step are reported.
+ * Returns 0, 1: not finite, 2: no memory. Keeps nothing between calls, so that threads may call it at once. */
+int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t stride, double *out, int64_t out_stride,
+                  int64_t *failure)
+{
+    int64_t size = 64 * plan->width + 16 * (plan->strings + plan->sources + 1) + 2 * STATES * plan->width;
+    int64_t most_samples = 0;
+    for (int q = 0; q < QUANTITIES; q++) {
+        size += (plan->steps + 1) * (plan->coils + plan->strings + 1);
+        most_samples = plan->samples[q] > most_samples ? plan->samples[q] : most_samples;
+    }
+    size += plan->steps + 1 + most_samples;
+    double *memory = malloc(size * sizeof(double));
+    if (!memory) {
+        return 2;
+    }
+    int result = 0;
+    for (int64_t n = 0; n < sets && !result; n++) {
+        const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory);
+        if (step >= 0) {
+            failure[0] = n;
+            failure[1] = step;
+            result = 1;
+        }
+    }
+    free(memory);
+    return result;
+}
+
+/* exp of `count` numbers, for its test. */
+void bank_exponentials(int64_t count, const double *x, double *y)
+{
+    for (int64_t i = 0; i < count; i++) {
+        y[i] = bank_exp(x[i]);
+    }
+}

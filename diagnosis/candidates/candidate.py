@@ -1,0 +1,123 @@
+"""What every candidate effect states about itself, and the hooks of a model at which its C lines may act."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
+#: Where a candidate can act. An `instant` place is a coil or string from an instant on, which is then a parameter.
+PlaceKind = Literal[
+    "coil", "string", "all", "row_gradient", "column_gradient", "supply", "channel", "quantity", "instant"
+]
+Axis = Literal["coil", "string", "source", "channel"]
+StateKind = Literal["continuous", "memory", "shared"]
+
+#: Hooks over one axis each, in the order in which a step comes to them.
+HOOK_AXES: Mapping[str, Axis] = {
+    "resistance": "coil", "string": "string", "supply": "source", "pairs": "coil", "heat": "coil", "state": "coil",
+    "gather": "coil", "shared": "coil", "stiffness": "coil", "play": "coil", "load": "coil", "length": "coil",
+    "accept": "coil", "channel": "channel", "sensor": "channel",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of a candidate; in the bank an array over the axis of the candidate.
+
+    Args:
+        name: As used in the C lines and in the law.
+        unit: SI unit.
+        lower: Least value.
+        upper: Greatest value.
+        reason: Why these bounds: sign or passivity.
+        starts: Sensible values to start a fit from, within the bounds, smallest effect first.
+        is_amplitude: Whether 0 switches the effect off (at that coil, string or channel).
+    """
+
+    name: str
+    unit: str
+    lower: float
+    upper: float
+    reason: str
+    starts: tuple[float, ...]
+    is_amplitude: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.lower < self.upper:
+            raise ValueError(f"{self.name}: the bounds {self.lower:g} to {self.upper:g} leave no room")
+        outside = [v for v in self.starts if not self.lower <= v <= self.upper]
+        if not self.starts or outside:
+            raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside or 'none'}")
+
+
+@dataclass(frozen=True)
+class State:
+    """A state that a candidate adds.
+
+    Args:
+        name: As used in the C lines.
+        unit: SI unit.
+        start: C expression of its value at the start.
+        kind: `continuous`: the lines of the hook `state` set `<name>_inflow` and `<name>_rate` of
+            d name/dt = inflow - rate * name, which is stepped exactly. `shared`: the same, one for all coils, in the hook
+            `shared`. `memory`: the lines of the hook `accept` set it at the end of each step.
+    """
+
+    name: str
+    unit: str
+    start: str
+    kind: StateKind = "continuous"
+
+
+@dataclass(frozen=True)
+class CandidateTerm:
+    """An effect that a model may lack.
+
+    Args:
+        identifier: Stable name, also of its file.
+        name: In plain words.
+        unit: Part of the model that it belongs to.
+        law: Formula with the names of the parameters; `=` between two expressions of Python's syntax.
+        source: Where the law comes from.
+        parameters: Its numbers; at least one is an amplitude.
+        places: Where it can act.
+        lines: Hook to C lines; see docs/candidates.md for the names that a hook offers.
+        signature: What it leaves in the residuals.
+        confused_with: Identifiers (or `base:<parameter>`) that data often cannot tell from it, with what decides.
+        states: States that it adds.
+        is_named: False for a generic term, which stands for a law that nobody named.
+    """
+
+    identifier: str
+    name: str
+    unit: Unit
+    law: str
+    source: str
+    parameters: tuple[Parameter, ...]
+    places: tuple[PlaceKind, ...]
+    lines: Mapping[str, str]
+    signature: str
+    confused_with: Mapping[str, str] = field(default_factory=dict)
+    states: tuple[State, ...] = ()
+    is_named: bool = True
+
+    def __post_init__(self) -> None:
+        unknown = sorted(set(self.lines) - set(HOOK_AXES))
+        if unknown:
+            raise ValueError(f"{self.identifier}: there is no hook {unknown[0]}")
+        if len({HOOK_AXES[h] for h in self.lines}) != 1:
+            raise ValueError(f"{self.identifier}: its hooks lie on different axes; make two candidates")
+        if not any(p.is_amplitude for p in self.parameters):
+            raise ValueError(f"{self.identifier}: no parameter switches it off")
+
+    @property
+    def axis(self) -> Axis:
+        """What its parameters are arrays over."""
+        return HOOK_AXES[next(iter(self.lines))]
+
+    @property
+    def amplitudes(self) -> tuple[str, ...]:
+        """Parameters that switch it off where they are 0."""
+        return tuple(p.name for p in self.parameters if p.is_amplitude)

@@ -1,0 +1,107 @@
+"""The bank against the co-simulation of the shipped units, at the same step."""
+
+import numpy as np
+import pytest
+
+from cosim.run import run
+from cosim.scenario import load_scenario, parse_scenario
+from diagnosis.bank.bank import Bank
+from diagnosis.bank.inputs import Drive, Programme, grid
+from diagnosis.bank.layout import BankLayout
+from diagnosis.bank.parameters import BankParameters
+
+#: Both make the same exact steps; the bank's exp is right to 1e-15 and rounding adds up over some thousand steps.
+TOLERANCE = 1e-9
+
+NETWORK = """
+title: network under load
+time: {{stop: 40 s, macro_step: 20 ms, output_step: 100 ms, checkpoint_step: 20 s}}
+algorithm: {{kind: gauss_seidel, order: [supply, room, circuit, actuator, load]}}
+components:
+  supply: {{kind: programme, outputs: {{voltage: {voltage}}}}}
+  room:
+    kind: programme
+    outputs: {{temperature: {{unit: K, points: [[0 s, 295 K], [40 s, 299 K]], interpolation: linear}}}}
+  circuit:
+    kind: ngspice
+    strings: [6, 6, 6, 6, 6, 6]
+    supply: {supply}
+    supply_resistance: 0.4 ohm
+    string_resistance: 0.2 ohm
+    start: {{resistance: 2.2 ohm}}
+  actuator:
+    kind: actuator
+    fmu: thermal_stiffness
+    electrical: circuit
+    ambient: room
+    mechanical: load
+    parameters: {{resistance_temperature_coefficient: 0.002 1/K, use_regressed_cooling_rate: {regressed}}}
+  load: {{kind: hanging_mass, coils: 36, mass: 100 g}}
+connections:
+  - supply.voltage -> circuit.supply_voltage
+"""
+COMMON = "{unit: V, points: [[0 s, 0 V], [1 s, 9 V], [15 s, 0 V], [17 s, 5 V], [24 s, 2 V]]}"
+PER_STRING = (
+    "{unit: V, dim: string, points: [[0 s, [0 V, 0 V, 0 V, 0 V, 0 V, 0 V]], [1 s, [3 V, 4 V, 5 V, 6 V, 7 V, 8 V]], "
+    "[15 s, [1 V, 0 V, 1 V, 0 V, 1 V, 0 V]]]}"
+)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _fmus(shipped_fmus):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
+        yield
+
+
+def assert_equal(result, dataset, names):
+    for quantity, variable in names.items():
+        wanted = dataset[variable].values.reshape(len(dataset.time), -1)
+        scale = np.abs(wanted).max()
+        np.testing.assert_allclose(result[quantity], wanted, rtol=TOLERANCE, atol=TOLERANCE * scale, err_msg=quantity)
+
+
+def simulate(layout, drive, step, stop, times, parameters):
+    inputs = drive.on_grid(grid(0.0, stop, step))
+    return Bank(layout, is_midpoint=False).simulate(BankParameters(parameters), inputs, times)
+
+
+def test_single_coils_follow_the_shipped_scenario():
+    dataset = run(load_scenario("single_coil_heating"))
+    voltage = Programme(np.array([0.0, 40.0]), np.array([[0.5, 0.7, 0.8, 0.9, 1.0, 1.2], [0.0] * 6]))
+    result = simulate(
+        BankLayout(6, (1,) * 6, "per_string"), Drive(Programme.constant(295.15), voltage), 0.1, 80.0,
+        dataset.time.values, {},
+    )  # fmt: skip
+    assert dataset["actuator.temperature"].values.max() > 350.0
+    assert_equal(
+        result, dataset, {"temperature": "actuator.temperature", "stiffness": "actuator.stiffness", "power": "circuit.power",
+                          "current": "circuit.string_current", "supply_current": "circuit.supply_current",
+                          "resistance": "actuator.resistance"},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("supply", ["common", "per_string"])
+@pytest.mark.parametrize("regressed", ["true", "false"])
+def test_loaded_networks_follow_the_co_simulation(tmp_path, supply, regressed):
+    text = NETWORK.format(voltage=COMMON if supply == "common" else PER_STRING, supply=supply, regressed=regressed)
+    dataset = run(parse_scenario(text, tmp_path / "network.yaml"))
+    if supply == "common":
+        voltage = Programme(np.array([0.0, 1.0, 15.0, 17.0, 24.0]), np.array([0.0, 9.0, 0.0, 5.0, 2.0]))
+    else:
+        voltage = Programme(
+            np.array([0.0, 1.0, 15.0]),
+            np.array([[0.0] * 6, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0], [1.0, 0.0, 1.0, 0.0, 1.0, 0.0]]),
+        )
+    room = Programme(np.array([0.0, 40.0]), np.array([295.0, 299.0]), is_linear=True)
+    result = simulate(
+        BankLayout(36, (6,) * 6, supply), Drive(room, voltage), 0.02, 40.0, dataset.time.values,
+        {"supply_resistance": 0.4, "string_resistance": 0.2, "resistance_temperature_coefficient": 0.002,
+         "use_regressed_cooling_rate": float(regressed == "true"), "load": 0.1 * 9.81},
+    )  # fmt: skip
+    assert np.ptp(dataset["actuator.stiffness"].values) > 100.0
+    assert_equal(
+        result, dataset, {"temperature": "actuator.temperature", "stiffness": "actuator.stiffness", "power": "circuit.power",
+                          "current": "circuit.string_current", "supply_current": "circuit.supply_current",
+                          "resistance": "actuator.resistance", "extension": "load.extension", "length": "load.length"},
+    )  # fmt: skip
