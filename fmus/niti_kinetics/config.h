@@ -69,7 +69,7 @@
       "Shear modulus of austenite") \
     V(coil_rest_length, "coil_rest_length", PARAMETER, SCALAR, "m", 0.0094, POSITIVE, 0.01, "", \
       "Length without load of a coil of austenite") \
-    V(transformation_strain, "transformation_strain", PARAMETER, SCALAR, "1", 0.005, NON_NEGATIVE, 0.01, "", \
+    V(transformation_strain, "transformation_strain", PARAMETER, SCALAR, "1", 0.002, NON_NEGATIVE, 0.01, "", \
       "Shear strain at the wire's surface that martensite keeps without load") \
     V(martensite_resistivity, "martensite_resistivity", PARAMETER, SCALAR, "ohm*m", 1.02e-6, POSITIVE, 1e-6, "", \
       "Resistivity of martensite; only its ratio to austenite_resistivity counts") \

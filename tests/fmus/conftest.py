@@ -60,10 +60,10 @@ def make_unit(fmu_file: Callable[..., Path]) -> Iterator[UnitMaker]:
 
     def make(
         model: str = "thermal_stiffness", version: int = 3, interface: str = "co_simulation", coils: int = 36,
-        parameters: Mapping[str, Any] | None = None, **settings: float,
+        parameters: Mapping[str, Any] | None = None, **settings: Any,
     ) -> FmuUnit:  # fmt: skip
         archive = open_fmu(fmu_file(model, version, coils))
-        unit = INTERFACES[interface]("actuator", archive, FmuSettings({"coils": coils}, parameters or {}), **settings)
+        unit = INTERFACES[interface]("actuator", archive, FmuSettings({"coils": coils}, parameters or {}, **settings))
         units.append(unit)
         return unit
 

@@ -92,9 +92,7 @@ def test_a_tighter_tolerance_brings_cvode_closer(make_unit):
     reference = advance(exact, powers, OUTPUTS)
     errors = []
     for tolerance in (1e-6, 1e-8, 1e-10):
-        unit = make_unit(
-            interface="model_exchange", coils=6, relative_tolerance=tolerance, absolute_tolerance=1e-2 * tolerance
-        )
+        unit = make_unit(interface="model_exchange", coils=6, tolerance=tolerance)
         unit.initialise(0)
         errors.append(np.abs(advance(unit, powers, OUTPUTS) - reference)[:, 0].max())
     assert errors[0] > errors[1] > errors[2]
