@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 import shutil
 import tempfile
@@ -31,13 +32,17 @@ def build_python(folder: Path, version: int, coils: int, target: Path) -> list[s
         from pythonfmu3.builder import FmuBuilder
     except ImportError as error:
         raise InputError(folder, "", "pythonfmu3 is not installed", "pip install pythonfmu3") from error
+    name, source = class_name(folder), (folder / "actuator.py").read_bytes()
     with tempfile.TemporaryDirectory(prefix="cosim-build-") as scratch:
         size = Path(scratch) / "coils.txt"
         size.write_text(f"{coils}\n")
+        # Python keeps one module per name: two FMUs in one process must not both bring an `actuator`.
+        module = Path(scratch) / f"{name}_{hashlib.sha256(source).hexdigest()[:8]}.py"
+        module.write_bytes(source)
         others = [p for p in folder.glob("*.py") if p.name != "actuator.py"]
         options = {"needsExecutionTool": False, "canGetAndSetFMUState": True, "canSerializeFMUState": True}
         try:
-            made = FmuBuilder.build_FMU(folder / "actuator.py", scratch, [*others, size], **options)
+            made = FmuBuilder.build_FMU(module, scratch, [*others, size], **options)
         except InputError:
             raise
         except Exception as error:  # whatever the user's module raises

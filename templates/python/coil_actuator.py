@@ -67,7 +67,7 @@ class CoilActuator(Fmi3Slave):
         self._declare(self._size_at_build())
 
     def _size_at_build(self) -> int:
-        file = Path(__file__).parent / "coils.txt"  # written by `cosim fmu build --coils N`
+        file = Path(self.resources or ".") / "coils.txt"  # written by `cosim fmu build --coils N`
         return int(file.read_text()) if file.is_file() else 36
 
     def _declare(self, coils: int) -> None:
