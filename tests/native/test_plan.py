@@ -40,7 +40,7 @@ def loop_of_two(scripted, version, **fault):
                 Connection(("second", "ya"), ("first", "ua"), source_element=(2,), target_element=(0,)),
                 Connection(("second", "y"), ("first", "ua"), 2.0, 0.0, target_element=(1,)),
                 Connection(("second", "z"), ("first", "ua"), target_element=(2,)),
-                Connection(("first", "yf"), ("second", "uf"), 0.25, 0.125),
+                Connection(("first", "yf"), ("second", "uf"), 0.3, 0.1),
                 Connection(("second", "yf"), ("first", "uf")),
                 Connection(("first", "yi"), ("second", "ui")),
                 Connection(("second", "yb"), ("first", "ub")),
