@@ -104,7 +104,8 @@ def search(
     base = recalibrate(model)
     left = structure(base.residuals, model.layout, groups)
     current = [Explanation(base)]
-    best, rivals = current[0], (current[0],)
+    best = current[0]
+    rivals: tuple[Explanation, ...] = (best,)
     margin, rate, tried = settings.floor, 1.0, 0
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
