@@ -105,7 +105,7 @@ def _description(path: Path) -> ModelDescription:
     try:
         return read_model_description(str(path), validate=True)
     except Exception as error:  # fmpy raises bare Exception for most defects
-        what = next(iter(str(error).strip().splitlines()), type(error).__name__)
+        what = " ".join(str(error).split()[:40]) or type(error).__name__
         raise InputError(
             path, "modelDescription.xml", f"it cannot be read: {what}", "check it with `fmpy validate`"
         ) from error

@@ -115,6 +115,8 @@ def _read(path: Path, folder: Path, variant: str) -> _System:
                 known[source] = _read_fmu(path, component, source)
             fmus[element] = known[source]
             _check_connectors(component, fmus[element])
+    if not graph.components:
+        raise structure.place.error("there is no component in it", "give a system with components")
     notes: list[str] = []
 
     def has_variable(element: ElementPath, name: str) -> bool:

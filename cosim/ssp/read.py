@@ -185,7 +185,7 @@ class _Reader:
                 raise self.document.place(element).error(
                     f"{side}Indices is `{indices}`", "indices count from 1 (docs/ssp.md)"
                 )
-            ends.append(End(element.get(f"{side}Element"), element.get(f"{side}Connector"), numbers))
+            ends.append(End(element.get(f"{side}Element") or None, element.get(f"{side}Connector"), numbers))
         return Connection(
             ends[0], ends[1], is_true(element, "suppressUnitConversion"), transformation(self.document, element),
             self.document.place(element),

@@ -42,21 +42,13 @@ class Definitions:
         }
 
     def unit(self, element: Any) -> Unit | None:
-        """Unit that an element names; one that the file does not define is taken by its name, with a note."""
+        """Unit that an element names; one that the file fails to define is taken by its name, with a note."""
         name = element.get("unit")
         if name is None:
             return None
         if name not in self.units:
-            try:
-                self.units[name] = known_unit(name)
-            except UnitFault as error:
-                raise self._document.place(element).error(
-                    f"the unit `{name}` is not defined in the file, and {error}", "define it under Units"
-                ) from error
-            note = (
-                f"{self._document.file}: the unit `{name}` is not defined there; it was taken for what its name means"
-            )
-            self._document.notes.append(note)
+            self.units[name], meaning = _undefined(name)
+            self._document.notes.append(f"{self._document.file}: the unit `{name}` is not defined there; {meaning}")
         return self.units[name]
 
     def enumeration(self, element: Any) -> Mapping[str, int] | None:
@@ -69,6 +61,13 @@ class Definitions:
                 f"the enumeration `{name}` is not defined in the file", "define it under Enumerations"
             )
         return self.enumerations[name]
+
+
+def _undefined(name: str) -> tuple[Unit, str]:
+    try:
+        return known_unit(name), "it was taken for what its name means"
+    except UnitFault:
+        return Unit(name, ()), "it fits variables with a unit of the same name only"
 
 
 def _unit(element: Any) -> Unit:

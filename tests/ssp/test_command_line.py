@@ -64,9 +64,7 @@ def test_notes_say_what_the_file_leaves_open(cosim, ssp, tmp_path):
     assert err == "note: algorithm jacobi: SSP does not say how the components are stepped\n"
 
 
-def test_a_run_of_an_ssp_is_refused_where_a_run_is_and_can_begin_again_where_it_could_not(
-    cosim, ssp, tmp_path, monkeypatch
-):
+def test_a_second_run_of_an_ssp_into_one_folder_is_refused(cosim, ssp, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert cosim("run", ssp, "--no-plots")[0] == 2  # no step
     other = ssp.with_name("other.ssp")

@@ -8,6 +8,7 @@ import zipfile
 
 import pytest
 
+from cosim.ssp.importer import import_ssp
 from tests.ssp import packages as p
 from tests.ssp.runs import STEP, final, imported
 
@@ -199,3 +200,41 @@ def test_arrays_connect_whole_and_by_elements_counted_from_1(pack, tmp_path):
 
 def test_the_algorithm_is_jacobi_where_nothing_says_another(pack, tmp_path):
     assert imported(pack(chain()), tmp_path / "in", STEP).algorithm.kind == "jacobi"
+
+
+def test_a_connector_in_another_unit_than_its_variable_is_converted_at_its_component(pack, tmp_path):
+    """The chassis stands at z = 1 m at rest under its own spring (FMU in m); its connector says mm."""
+    listed = p.connector("z", "output", unit="mm")
+    ssd = p.description(
+        p.system(
+            "root",
+            p.component("c", "chassis_fmi2.fmu", listed),
+            p.feedthrough("f", u="mm"),
+            connections=[p.connection("c.z", "f.u")],
+        ),
+        after=LENGTHS,
+    )
+    z, y = final(pack(ssd, fmus=("feedthrough_fmi2", "chassis_fmi2")), tmp_path / "in", "c.z", "f.y")
+    assert 0.9 < z < 1.1
+    assert y == pytest.approx(1000 * z, rel=1e-14)
+
+
+def test_an_empty_start_element_is_the_system_itself_as_some_tools_write_it(pack, tmp_path):
+    nested = p.system(
+        "B",
+        p.feedthrough("f"),
+        interface=[p.connector("in", "input")],
+        connections=['<ssd:Connection startElement="" startConnector="in" endElement="f" endConnector="u"/>'],
+    )
+    root = p.system("A", nested, p.feedthrough("g", THREE), connections=[p.connection("g.y", "B.in")])
+    assert final(pack(p.description(root)), tmp_path / "in", "B_f.y") == [3.0]
+
+
+def test_a_unit_that_the_file_fails_to_define_is_taken_by_its_name_with_a_note(pack, tmp_path):
+    result = import_ssp(pack(chain(y="mm", u="m", after="")), tmp_path / "in", STEP)
+    assert (
+        "SystemStructure.ssd: the unit `mm` is not defined there; it was taken for what its name means" in result.notes
+    )
+    assert final(pack(chain(y="mm", u="m", after="")), tmp_path / "run", "second.y") == [
+        pytest.approx(0.003, rel=1e-15)
+    ]
