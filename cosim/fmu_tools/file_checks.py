@@ -17,6 +17,21 @@ from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu_tools.info import looks_like_actuator
 from cosim.fmu_tools.isolated import Skipped
+from cosim.unit import Variable
+
+_CONTINUOUS = {"EnterContinuousTimeMode", "CompletedIntegratorStep", "SetTime", "SetContinuousStates",
+               "GetEventIndicators", "GetContinuousStates", "GetNominalsOfContinuousStates"}  # fmt: skip
+#: Functions that only one interface has, by version (FMI 2.0.4, sections 3.2 and 4.2; FMI 3.0, sections 3.2 and 4.2).
+MODEL_EXCHANGE = {
+    "2": _CONTINUOUS | {"EnterEventMode", "NewDiscreteStates", "GetDerivatives"},
+    "3": _CONTINUOUS | {"InstantiateModelExchange", "GetContinuousStateDerivatives", "GetNumberOfContinuousStates",
+                        "GetNumberOfEventIndicators"},
+}  # fmt: skip
+CO_SIMULATION = {
+    "2": {"SetRealInputDerivatives", "GetRealOutputDerivatives", "DoStep", "CancelStep", "GetStatus", "GetRealStatus",
+          "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus"},
+    "3": {"InstantiateCoSimulation", "EnterStepMode", "GetOutputDerivatives", "DoStep"},
+}  # fmt: skip
 
 
 def description(path: Path) -> str:
@@ -58,13 +73,29 @@ def symbols(path: Path) -> str:
         archive.remove()
     exported = {line.split()[-1] for line in listing.splitlines() if line}
     version = archive.description.fmiVersion[0]
-    header = (Path(fmpy.__file__).parent / "c-code" / f"fmi{version}Functions.h").read_text()
-    wanted = set(re.findall(rf"#define (fmi{version}\w+)\s+fmi{version}FullName\(fmi{version}\w+\)", header))
+    standard = _standard(version)
+    wanted = standard - {f"fmi{version}{name}" for name in _not_offered(archive, version)}
     missing = sorted(wanted - exported)
     if missing:
         raise ValueError(f"{len(missing)} of {len(wanted)} functions are missing: {', '.join(missing[:4])}")
-    others = len(exported - wanted)
+    others = len(exported - standard)
     return f"all {len(wanted)} functions of FMI {version}" + (f", and {others} other symbols" if others else "")
+
+
+def _standard(version: str) -> set[str]:
+    """All functions of a version of FMI, from its header."""
+    header = (Path(fmpy.__file__).parent / "c-code" / f"fmi{version}Functions.h").read_text()
+    return set(re.findall(rf"#define (fmi{version}\w+)\s+fmi{version}FullName\(fmi{version}\w+\)", header))
+
+
+def _not_offered(archive: FmuArchive, version: str) -> set[str]:
+    """Functions that belong to interfaces which the FMU does not declare, so that it need not have them."""
+    d, left = archive.description, set()
+    if d.modelExchange is None:
+        left |= MODEL_EXCHANGE[version]
+    if d.coSimulation is None:
+        left |= CO_SIMULATION[version]
+    return left | ({"InstantiateScheduledExecution", "ActivateModelPartition"} if version == "3" else set())
 
 
 def libraries(path: Path) -> str:
@@ -83,26 +114,26 @@ def libraries(path: Path) -> str:
     return "needs " + (", ".join(needed) or "nothing")
 
 
-def is_actuator(path: Path) -> bool:
-    """Whether its outputs say that it is meant to be an actuator."""
+def _variables(path: Path) -> dict[str, Variable]:
     archive = open_fmu(path)
     try:
         found = fmu_variables(archive.description, {}, UnitNames(archive.description))
     finally:
         archive.remove()
-    return looks_like_actuator(set(found))
+    return {n: v.variable for n, v in found.items()}
+
+
+def is_actuator(path: Path) -> bool:
+    """Whether its outputs say that it is meant to be an actuator."""
+    return looks_like_actuator(_variables(path))
 
 
 def interface(path: Path) -> str:
     """It has the interface of an actuator."""
-    if not is_actuator(path):
+    variables = _variables(path)
+    if not looks_like_actuator(variables):
         raise Skipped("no actuator: it has none of the outputs stiffness, rest_length, resistance")
-    archive = open_fmu(path)
-    try:
-        found = fmu_variables(archive.description, {}, UnitNames(archive.description))
-    finally:
-        archive.remove()
-    wrong = faults({n: v.variable for n, v in found.items()})
+    wrong = faults(variables)
     if wrong:
         raise ValueError("; ".join(wrong))
     return "interchangeable with the shipped actuators"

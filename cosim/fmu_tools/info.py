@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import Causality
+from cosim.unit import Causality, Variable
 
 _CAPABILITIES = (
     "canHandleVariableCommunicationStepSize", "canGetAndSetFMUstate", "canSerializeFMUstate", "hasEventMode",
@@ -60,9 +61,10 @@ def read_info(path: Path) -> FmuInfo:
     return FmuInfo(general, rows, faults({n: v.variable for n, v in variables.items()}))
 
 
-def looks_like_actuator(names: set[str]) -> bool:
-    """Whether the outputs say that it is meant to be an actuator."""
-    return bool({p.name for p in PORTS if p.causality is Causality.OUTPUT and p.is_required and p.unit != "K"} & names)
+def looks_like_actuator(variables: Mapping[str, Variable]) -> bool:
+    """Whether the outputs say that it is meant to be an actuator; a temperature alone does not."""
+    telling = {p.name for p in PORTS if p.causality is Causality.OUTPUT and p.is_required} - {"temperature"}
+    return any(n in telling and v.causality is Causality.OUTPUT for n, v in variables.items())
 
 
 def _general(archive: FmuArchive, variables: dict[str, FmuVariable]) -> dict[str, str]:
