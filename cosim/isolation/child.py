@@ -42,8 +42,9 @@ def serve(requests: int, replies: int, memory: int, parent: int, folder: str) ->
     note_calls(header)
     channel = Channel(requests, replies)
     try:
+        build = channel.receive().payload  # imports what the unit needs
         channel.send(Frame(Kind.READY, memory_in_use(), _largest_resident()))
-        Server(channel, memory, watch).run()
+        Server(channel, memory, watch, build).run()
     except Closed:
         watch.end()
     # Nothing of the FMU's library runs after this: no destructors, no exit handlers.
@@ -63,13 +64,14 @@ class Server:
         channel: Connection to the simulation.
         memory: Descriptor of the shared memory.
         watch: Notes the memory in use after a failure.
+        build: Makes the unit.
     """
 
     unit: Unit
     shared: SharedArrays
 
-    def __init__(self, channel: Channel, memory: int, watch: Watch) -> None:
-        self.channel, self.memory, self.watch = channel, memory, watch
+    def __init__(self, channel: Channel, memory: int, watch: Watch, build: Callable[[], Unit]) -> None:
+        self.channel, self.memory, self.watch, self.build = channel, memory, watch, build
         self.kept: list[str] = []
         self.saved: dict[int, Any] = {}
         self.tokens = 0
@@ -104,10 +106,9 @@ class Server:
 
     def construct(self, request: Frame) -> Frame:
         """Build the unit under the memory limit and describe it."""
-        build, limit = request.payload
         if sys.platform == "linux":
-            resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
-        self.unit = unit = build()
+            resource.setrlimit(resource.RLIMIT_DATA, (request.first, request.first))
+        self.unit = unit = self.build()
         self.shared = SharedArrays(self.memory, unit.variables, is_owner=True)
         self.put_inputs()
         return Frame(Kind.DONE, payload={

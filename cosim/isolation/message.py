@@ -31,7 +31,7 @@ _give_way = getattr(os, "sched_yield", lambda: clock.sleep(0))
 
 
 class Kind(IntEnum):
-    """What a frame says; the first ones are the replies."""
+    """What a frame says; the first ones are the replies. LOAD is the first request, TERMINATE the last."""
 
     READY = 0
     DONE = 1
@@ -48,6 +48,7 @@ class Kind(IntEnum):
     CHECKPOINT = 12
     RESUME = 13
     TERMINATE = 14
+    LOAD = 15
 
 
 _KINDS = list(Kind)

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time as clock
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,9 @@ from cosim.isolation.ending import Ending, last_lines, memory_used
 from cosim.isolation.limits import Limits, memory_text
 from cosim.isolation.message import Channel, Closed, Frame, Kind, raised
 from cosim.isolation.shared import Header, create_memory
-from cosim.unit import UnitError
+from cosim.unit import Unit, UnitError
 
-#: Wall time that the interpreter and its imports may take [s]: about 0.15, much more on a loaded machine.
+#: Wall time that the interpreter and its imports may take [s]: about 0.5, much more on a loaded machine.
 START_LIMIT = 60.0
 #: Wall time for a process that has closed its connection to end [s].
 _END_LIMIT = 2.0
@@ -30,6 +31,7 @@ class IsolatedProcess:
 
     Args:
         unit: Name of the unit.
+        build: Makes the unit there.
         limits: What it may take.
         folder: Folder that the process removes if the simulation is killed.
 
@@ -37,7 +39,7 @@ class IsolatedProcess:
         UnitError: It cannot be started.
     """
 
-    def __init__(self, unit: str, limits: Limits, folder: Path | None) -> None:
+    def __init__(self, unit: str, build: Callable[[], Unit], limits: Limits, folder: Path | None) -> None:
         if os.name != "posix":
             raise UnitError(unit, "isolation needs Linux or macOS", remedy="use `isolation: none`")
         self.unit, self.limits = unit, limits
@@ -50,6 +52,8 @@ class IsolatedProcess:
         self._largest, self._first_largest = 0, sys.maxsize
         self._start("" if folder is None else str(folder.resolve()))
         try:
+            # Loading the modules that the unit needs is not the FMU's time.
+            self.send(Frame(Kind.LOAD, payload=build), "its start", None)
             ready = self._receive("its start", None, START_LIMIT)
         except BaseException:
             self.end()

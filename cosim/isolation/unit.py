@@ -43,11 +43,11 @@ class IsolatedUnit(Unit):
 
     def __init__(self, name: str, build: Callable[[], Unit], limits: Limits, archive: FmuArchive | None = None) -> None:
         self.name, self.archive = name, archive
-        self._process = IsolatedProcess(name, limits, None if archive is None else archive.directory)
+        self._process = IsolatedProcess(name, build, limits, None if archive is None else archive.directory)
         self._time: int | None = None
         self._is_stepping = False
         try:
-            request = Frame(Kind.CONSTRUCT, payload=(build, limits.memory_limit))
+            request = Frame(Kind.CONSTRUCT, limits.memory_limit)
             facts = self._process.ask(request, "its construction", None).payload
         except BaseException:
             self._process.end()

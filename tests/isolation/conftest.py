@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import tempfile
 import time
 from functools import partial
@@ -19,6 +21,7 @@ from cosim.scenario import parse_scenario
 
 from .fmus import Builder
 
+ROOT = Path(__file__).resolve().parents[2]
 SCENARIO = """
 title: An FMU that misbehaves
 time: {{stop: {stop} s, macro_step: 10 ms, output_step: 10 ms, checkpoint_step: {checkpoint}}}
@@ -119,3 +122,24 @@ def scenario(tmp_path):
         return parse_scenario(text, tmp_path / "scenario.yaml")
 
     return make
+
+
+@pytest.fixture
+def start(temporary):
+    """`start(*arguments)` starts the command line in a process group of its own, as a shell does."""
+    started = []
+
+    def call(*arguments):
+        environment = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+        process = subprocess.Popen(
+            [sys.executable, "-m", "cosim.cli", *map(str, arguments)], env=environment, text=True, process_group=0,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        )  # fmt: skip
+        started.append(process)
+        return process
+
+    yield call
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()

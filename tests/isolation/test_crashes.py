@@ -67,6 +67,17 @@ def test_a_crash_at_the_end_is_a_warning_and_the_results_are_complete(tmp_path, 
     assert f"unruly at t = 0.1 s: its process crashed with SIGSEGV (segmentation fault) in {function}" in line
 
 
+def test_a_crash_at_the_end_is_one_line_on_the_command_line(tmp_path, fmu, scenario, start):
+    scenario({"unruly": fmu("segfault", "free_instance")})
+    done = start("run", tmp_path / "scenario.yaml", "--out", tmp_path / "run", "--no-plots")
+    _, said = done.communicate()
+    assert done.returncode == 0
+    lines = [line for line in said.splitlines() if "SIGSEGV" in line]
+    assert len(lines) == 1
+    assert lines[0].startswith("warning: unruly at t = 0.1 s: its process crashed with SIGSEGV")
+    assert "Traceback" not in said
+
+
 def test_a_process_that_is_killed_between_two_steps_is_an_error_of_the_next(isolate, fmu, temporary):
     unit = isolate(fmu())
     unit.initialise(0)

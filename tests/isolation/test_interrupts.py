@@ -2,10 +2,7 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -13,29 +10,6 @@ import xarray as xr
 from cosim.run import run
 
 from .conftest import processes, remaining
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture
-def start(temporary):
-    """`start(*arguments)` starts the command line in a process group of its own, as a shell does."""
-    started = []
-
-    def call(*arguments):
-        environment = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
-        process = subprocess.Popen(
-            [sys.executable, "-m", "cosim.cli", *map(str, arguments)], env=environment, text=True, process_group=0,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        )  # fmt: skip
-        started.append(process)
-        return process
-
-    yield call
-    for process in started:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
 
 
 def wait_for(condition, process):
