@@ -34,8 +34,8 @@ class BankError(Exception):
 class Bank:
     """Coils (or lumped heaters) with circuit, heat, stiffness and load, and every candidate term compiled in.
 
-    Equations: `circuit.kirchhoff`, fmus/thermal_stiffness, `mechanics.hanging_mass`; terms: docs/candidates.md. It holds no
-    state between calls and may be used by several threads at once.
+    Equations: `circuit.kirchhoff`, fmus/thermal_stiffness, `mechanics.hanging_mass`; terms: docs/candidates.md. It
+    holds no state between calls and may be used by several threads at once.
 
     Args:
         layout: Coils and strings.
@@ -69,8 +69,9 @@ class Bank:
                 Values between the ends of steps are interpolated linearly. Electrical flows never across a switch.
 
         Returns:
-            `temperature` [K], `extension` [m], `length` [m], `stiffness` [N/m], `resistance` [ohm], `power` [W] with shape
-            (samples, coils); `current` [A], (samples, strings); `supply_current` [A], (samples, 1): of all sources.
+            `temperature` [K], `extension` [m], `length` [m], `stiffness` [N/m], `resistance` [ohm], `power` [W] with
+            shape (samples, coils); `current` [A], (samples, strings); `supply_current` [A], (samples, 1): of all
+            sources.
 
         Raises:
             BankError: A value stopped being finite.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -136,7 +137,7 @@ def grid(start: float, stop: float, step: float, switches: Sequence[float] = ())
     inner = sorted({float(v) for v in switches if start < v < stop})
     knots = [start, *inner, stop]
     parts = []
-    for low, high in zip(knots[:-1], knots[1:]):
+    for low, high in itertools.pairwise(knots):
         count = max(1, int(np.ceil((high - low) / step - 1e-9)))
         parts.append(low + (high - low) / count * np.arange(count))
     return np.concatenate([*parts, [stop]])

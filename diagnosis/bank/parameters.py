@@ -20,9 +20,9 @@ class BankParameters:
     Args:
         base: Name (see `layout.COIL_FIELDS`, `STRING_FIELDS`, `SOURCE_FIELDS`) to a number or an array over the coils,
             strings or sources; what is left out has its default.
-        terms: Candidate to its parameters, each a number or an array over the candidate's axis. A candidate that is left
-            out, or whose amplitudes are all 0, is switched off. Parameters left out have their first start value;
-            amplitudes left out are 0.
+        terms: Candidate to its parameters, each a number or an array over the candidate's axis. A candidate that is
+            left out, or whose amplitude is 0 everywhere, is switched off. Parameters left out have their first start
+            value; amplitudes left out are 0.
     """
 
     base: Mapping[str, float | Array] = field(default_factory=dict)
@@ -90,7 +90,7 @@ class Packing:
 
 
 def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> frozenset[str]:
-    """Candidates with an amplitude that is not 0.
+    """Candidates whose amplitude is not 0 everywhere.
 
     Raises:
         KeyError: A candidate is not in the bank.
@@ -99,9 +99,11 @@ def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> 
     for identifier in parameters.terms:
         if identifier not in known:
             raise KeyError(f"the candidate {identifier} is not in this bank")
-    return frozenset(
-        i for i, values in parameters.terms.items() if any(np.any(np.asarray(values.get(a, 0.0))) for a in known[i].amplitudes)
-    )  # fmt: skip
+
+    def is_on(identifier: str, values: Mapping[str, float | Array]) -> bool:
+        return bool(np.any(np.asarray(values.get(known[identifier].amplitude.name, 0.0))))
+
+    return frozenset(i for i, values in parameters.terms.items() if is_on(i, values))
 
 
 def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters) -> Array:

@@ -26,7 +26,7 @@ typedef struct {
 
 typedef struct {
     const Plan *plan;
-    int64_t width, coils, strings, sources;
+    int64_t width, coils, strings, sources, row; /* row: number of the step */
     double t, t_begin, t_end, dt, dt_middle; /* t: instant that a hook's values belong to; dt_middle: 0 or dt / 2 */
     const double *coil, *string, *source;    /* parameters */
     const double *set;                       /* parameters of the whole set */

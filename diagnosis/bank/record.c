@@ -57,6 +57,9 @@ static void begin(Step *s)
         s->extension[i] = 0.0;
         s->heating[i] = s->cooling[i] = s->remembered[i] = 0.0;
     }
+    for (int64_t n = 0; n < s->strings; n++) {
+        s->string_current[n] = 0.0;
+    }
     find_crossings(s);
     s->t = s->t_begin = s->t_end = plan->time[0];
     s->dt = s->dt_middle = 0.0;
@@ -68,6 +71,7 @@ static void begin(Step *s)
         s->remembered[i] = s->heating[i];
     }
     find_stiffness(s);
+    START_states(s); /* again: some states begin at the phase */
     find_length(s);
 }
 

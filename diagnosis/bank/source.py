@@ -18,7 +18,7 @@ READABLE: Mapping[str, str] = {
     "stiffness": "s->stiffness[i]", "extension": "s->extension[i]", "extension_before": "s->extension_before[i]",
     "tension": "s->tension[i]", "heating": "s->heating[i]", "cooling": "s->cooling[i]",
     "heating_before": "s->heating_before[i]", "cooling_before": "s->cooling_before[i]",
-    "crossing": "s->crossing[i]",
+    "crossing": "s->crossing[i]", "shift": "s->shift[i]", "remembered": "s->remembered[i]",
 }  # fmt: skip
 #: What the lines of a hook may change: name to C expression.
 WRITABLE: Mapping[str, Mapping[str, str]] = {
@@ -136,7 +136,7 @@ def _state_locals(term: CandidateTerm, hook: str, used: set[str]) -> tuple[list[
                 f"s->state[{at}] = {name} + s->dt * {name}_slope;",
                 f"s->state_rate[{at}] = {name}_slope;",
             ]
-        elif hook == "accept" and state.kind == "memory":
+        elif state.name in used and state.kind == "memory":
             after.append(f"s->state[{at}] = {state.name};")
         if state.name in used or is_stepped:
             ahead = f" + s->dt_middle * s->state_rate[{at}]" if hook in _BEFORE_STEP else ""
@@ -168,9 +168,9 @@ def _function(term: CandidateTerm, hook: str) -> str:
         loop = f"for (int64_t i = 0; i < s->{HOOK_AXES[hook]}s; i++)"
     sums = ", double *sums" if hook in ("gather", "shared") else ""
     body = "\n        ".join([*state_before, *before, *lines, *after, *state_after])
+    arguments = f"Step *s, const double *restrict p{sums}"
     return (
-        f"{head}Step *s, const double *restrict p{sums})\n{{\n    {open_sums}\n    {loop}\n    {{\n        {body}\n    }}\n"
-        f"    {close_sums}\n}}\n"
+        f"{head}{arguments})\n{{\n    {open_sums}\n    {loop}\n    {{\n        {body}\n    }}\n    {close_sums}\n}}\n"
     )
 
 
@@ -202,7 +202,8 @@ def _sensor_function(term: CandidateTerm, hook: str, head: str) -> str:
         loop = "for (int64_t n = 0; n < sensor->samples; n++)"
         before += ["const double t = sensor->time[n];"] if "t" in used else []
     body = "\n        ".join([*before, *term.lines[hook].strip().splitlines(), *after])
-    return f"{head}Sensor *sensor, const double *restrict p, int64_t channels)\n{{\n    {loop}\n    {{\n        {body}\n    }}\n}}\n"
+    arguments = "Sensor *sensor, const double *restrict p, int64_t channels"
+    return f"{head}{arguments})\n{{\n    {loop}\n    {{\n        {body}\n    }}\n}}\n"
 
 
 def _start(term: CandidateTerm) -> str:
@@ -231,6 +232,10 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
         out.append(f"#define HOOK_{hook}({argument}) do {{ {' '.join(calls)} }} while (0)")
     starts = [f"if (ON({n})) start_{t.identifier}(s, VALUES({n}));" for n, t in enumerate(terms) if t.states]
     out.append(f"#define START_states(s) do {{ {' '.join(starts)} }} while (0)")
+    feedback = [
+        f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if "I" in words(t.lines.get("string", ""))
+    ]
+    out.append(f"#define HAS_CURRENT_FEEDBACK(plan) ({' || '.join(feedback) or '0'})")
     sensors = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if t.axis == "channel"]
     out.append(f"#define HAS_SENSOR(plan) ({' || '.join(sensors) or '0'})")
     return "\n".join(out) + "\n"

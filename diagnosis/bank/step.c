@@ -18,7 +18,7 @@ static void find_resistance(Step *s, const double *temperature)
 }
 
 /* Strings in parallel behind the supply's resistance; a limit of the current lowers the voltage at the terminals. */
-static void solve_circuit(Step *s)
+static void solve_once(Step *s)
 {
     const Plan *plan = s->plan;
     double conductance[s->strings], total = 0.0;
@@ -52,6 +52,18 @@ static void solve_circuit(Step *s)
         }
     }
     s->supply_current[0] = total;
+}
+
+/* Where a string's resistance depends on its current the two are found in turn; each turn makes the error smaller by the
+ * share that this resistance has in the string. */
+static void solve_circuit(Step *s)
+{
+    const Plan *plan = s->plan;
+    const int turns = HAS_CURRENT_FEEDBACK(plan) ? 12 : 1;
+    for (int n = 0; n < turns; n++) {
+        memcpy(s->supply_voltage, plan->voltage + s->row * s->sources, s->sources * sizeof(double));
+        solve_once(s);
+    }
     for (int64_t n = 0; n < s->strings; n++) {
         for (int64_t i = plan->first[n]; i < plan->first[n + 1]; i++) {
             s->current[i] = s->string_current[n];
@@ -66,7 +78,6 @@ static void find_power(Step *s, int64_t k)
     const int64_t width = s->width;
     double *restrict power = s->power;
     if (plan->has_circuit) {
-        memcpy(s->supply_voltage, plan->voltage + k * s->sources, s->sources * sizeof(double));
         solve_circuit(s);
     }
     if (plan->power) {
@@ -167,6 +178,7 @@ static void advance(Step *s, int64_t k)
 {
     const Plan *plan = s->plan;
     const int64_t width = s->width;
+    s->row = k;
     s->t_begin = plan->time[k];
     s->t_end = plan->time[k + 1];
     s->dt = s->t_end - s->t_begin;

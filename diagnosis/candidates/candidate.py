@@ -7,10 +7,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
-#: Where a candidate can act. An `instant` place is a coil or string from an instant on, which is then a parameter.
-PlaceKind = Literal[
-    "coil", "string", "all", "row_gradient", "column_gradient", "supply", "channel", "quantity", "instant"
-]
+#: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other.
+PlaceKind = Literal["coil", "string", "all", "row_gradient", "column_gradient", "supply", "channel", "quantity", "swap"]
 Axis = Literal["coil", "string", "source", "channel"]
 StateKind = Literal["continuous", "memory", "shared"]
 
@@ -33,7 +31,8 @@ class Parameter:
         upper: Greatest value.
         reason: Why these bounds: sign or passivity.
         starts: Sensible values to start a fit from, within the bounds, smallest effect first.
-        is_amplitude: Whether 0 switches the effect off (at that coil, string or channel).
+        is_amplitude: Whether 0 switches the effect off (at that coil, string or channel); the first one, and it alone.
+        is_fixed: Given with the place, never fitted (the scale of a channel).
     """
 
     name: str
@@ -43,6 +42,7 @@ class Parameter:
     reason: str
     starts: tuple[float, ...]
     is_amplitude: bool = False
+    is_fixed: bool = False
 
     def __post_init__(self) -> None:
         if not self.lower < self.upper:
@@ -61,8 +61,9 @@ class State:
         unit: SI unit.
         start: C expression of its value at the start.
         kind: `continuous`: the lines of the hook `state` set `<name>_inflow` and `<name>_rate` of
-            d name/dt = inflow - rate * name, which is stepped exactly. `shared`: the same, one for all coils, in the hook
-            `shared`. `memory`: the lines of the hook `accept` set it at the end of each step.
+            d name/dt = inflow - rate * name, which is stepped exactly. `shared`: the same, one for all coils, in the
+            hook `shared`; the hook `gather` gives it `gathered` and `weight`, summed over the coils. `memory`: set by
+            the lines of any hook, once in each step.
     """
 
     name: str
@@ -81,13 +82,14 @@ class CandidateTerm:
         unit: Part of the model that it belongs to.
         law: Formula with the names of the parameters; `=` between two expressions of Python's syntax.
         source: Where the law comes from.
-        parameters: Its numbers; at least one is an amplitude.
+        parameters: Its numbers, the amplitude first.
         places: Where it can act.
         lines: Hook to C lines; see docs/candidates.md for the names that a hook offers.
         signature: What it leaves in the residuals.
         confused_with: Identifiers (or `base:<parameter>`) that data often cannot tell from it, with what decides.
         states: States that it adds.
         is_named: False for a generic term, which stands for a law that nobody named.
+        rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
     """
 
     identifier: str
@@ -102,6 +104,7 @@ class CandidateTerm:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     states: tuple[State, ...] = ()
     is_named: bool = True
+    rank: int = 0
 
     def __post_init__(self) -> None:
         unknown = sorted(set(self.lines) - set(HOOK_AXES))
@@ -109,8 +112,8 @@ class CandidateTerm:
             raise ValueError(f"{self.identifier}: there is no hook {unknown[0]}")
         if len({HOOK_AXES[h] for h in self.lines}) != 1:
             raise ValueError(f"{self.identifier}: its hooks lie on different axes; make two candidates")
-        if not any(p.is_amplitude for p in self.parameters):
-            raise ValueError(f"{self.identifier}: no parameter switches it off")
+        if [p.is_amplitude for p in self.parameters] != [True] + [False] * (len(self.parameters) - 1):
+            raise ValueError(f"{self.identifier}: its first parameter, and it alone, must be the amplitude")
 
     @property
     def axis(self) -> Axis:
@@ -118,6 +121,6 @@ class CandidateTerm:
         return HOOK_AXES[next(iter(self.lines))]
 
     @property
-    def amplitudes(self) -> tuple[str, ...]:
-        """Parameters that switch it off where they are 0."""
-        return tuple(p.name for p in self.parameters if p.is_amplitude)
+    def amplitude(self) -> Parameter:
+        """The parameter that switches it off where it is 0."""
+        return self.parameters[0]

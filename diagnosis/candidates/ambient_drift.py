@@ -1,0 +1,31 @@
+"""Surroundings whose temperature drifts."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="ambient_drift",
+    name="drifting ambient temperature",
+    unit="thermal",
+    law="T_ambient = T_ambient_0 + drift * t",
+    source="First term of a Taylor series in time of an unrecorded room temperature",
+    parameters=(
+        Parameter(
+            "drift",
+            "K/s",
+            -0.1,
+            0.1,
+            "a room changes by kelvins within minutes",
+            (0.01, -0.01, 0.05, -0.05),
+            is_amplitude=True,
+        ),
+    ),
+    places=("all", "string"),
+    lines={
+        "heat": "T_ambient += drift * t;",
+    },
+    signature="All temperatures leave the model slowly, powered or not, with no link to power.",
+    confused_with={
+        "second_mass": "a long soak decides",
+        "sensor_drift": "an unpowered coil at known temperature, or stiffness, decides",
+    },
+)

@@ -1,0 +1,23 @@
+"""Lost motion between coil and marker."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="backlash",
+    name="backlash",
+    unit="mechanical",
+    law="abs(extension_marker - extension) <= 0.5 * gap",
+    source=(
+        "G. Tao and P. V. Kokotovic, Adaptive Control of Systems with Actuator and Sensor "
+        "Nonlinearities, Wiley 1996, chapter 2"
+    ),
+    parameters=(Parameter("gap", "m", 0.0, 0.005, "a gap is positive", (5e-05, 0.0002, 0.001), is_amplitude=True),),
+    places=("coil", "all", "string"),
+    lines={
+        "length": "extension = clip(extension_before, extension - 0.5 * gap, extension + 0.5 * gap);",
+    },
+    signature="Extension stands still after each reversal for a constant length.",
+    confused_with={
+        "slide_friction": "coils of different stiffness or load decide",
+    },
+)

@@ -1,0 +1,32 @@
+"""Slow stretch under load."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="creep",
+    name="creep under load",
+    unit="mechanical",
+    law="extension = extension_0 + crept; tau * d(crept) = compliance * tension - crept",
+    source=(
+        "Kelvin-Voigt element; W. N. Findley, J. S. Lai and K. Onaran, Creep and Relaxation of "
+        "Nonlinear Viscoelastic Materials, North-Holland 1976, chapter 5"
+    ),
+    parameters=(
+        Parameter("compliance", "m/N", 0.0, 0.005, "a load stretches", (5e-05, 0.0003, 0.001), is_amplitude=True),
+        Parameter("tau", "s", 0.5, 10000.0, "a time constant is positive", (10.0, 60.0, 400.0)),
+    ),
+    places=("all", "coil"),
+    lines={
+        "state": """
+            crept_inflow = compliance * tension / tau;
+            crept_rate = 1.0 / tau;
+        """,
+        "length": "extension += crept;",
+    },
+    signature="Extension grows slowly at constant temperature.",
+    confused_with={
+        "thermal_contraction": "cooling decides",
+        "sensor_drift": "an unloaded coil decides",
+    },
+    states=(State("crept", "m", "0.0"),),
+)

@@ -1,0 +1,26 @@
+"""Heat transfer that changes at an instant."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="draught",
+    name="draught from an instant on",
+    unit="thermal",
+    law="heat = -hA * amount * (T - T_ambient) * step(t - instant)",
+    source=(
+        "Newton's law of cooling with another coefficient; F. P. Incropera et al., Fundamentals of "
+        "Heat and Mass Transfer, 7th ed., Wiley 2011, section 1.2.2"
+    ),
+    parameters=(
+        Parameter("amount", "1", -0.8, 5.0, "heat transfer stays positive", (0.2, -0.2, 0.6, 1.5), is_amplitude=True),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+    ),
+    places=("all", "string", "coil"),
+    lines={
+        "heat": "conductance *= 1.0 + amount * share_after(instant, t_begin, t_end);",
+    },
+    signature="Temperatures bend at one instant in proportion to T - T_ambient.",
+    confused_with={
+        "ambient_step": "coils at different temperatures decide",
+    },
+)

@@ -1,0 +1,38 @@
+"""Transformation that fades with every cycle."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="fatigue",
+    name="fatigue per cycle",
+    unit="stiffness",
+    law="fraction = 1 - loss * cycles; d(cycles) = 0.5 * abs(d(phase))",
+    source=(
+        "G. Eggeler et al., Structural and functional fatigue of NiTi shape memory alloys, Mater. "
+        "Sci. Eng. A 378 (2004) 24-33"
+    ),
+    parameters=(
+        Parameter(
+            "loss",
+            "1",
+            0.0,
+            0.3,
+            "cycling fades the effect; it never adds to it",
+            (0.01, 0.04, 0.12),
+            is_amplitude=True,
+        ),
+    ),
+    places=("all", "coil"),
+    lines={
+        "stiffness": "fraction *= most(1.0 - loss * cycles, 0.0);",
+        "accept": """
+            cycles += 0.5 * fabs(phase - phase_last);
+            phase_last = phase;
+        """,
+    },
+    signature="Stiffness when hot falls from cycle to cycle; the first cycle is right.",
+    confused_with={
+        "incomplete_transformation": "many cycles decide, never one pulse",
+    },
+    states=(State("cycles", "1", "0.0", "memory"), State("phase_last", "1", "phase", "memory")),
+)

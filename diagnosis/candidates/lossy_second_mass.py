@@ -1,0 +1,36 @@
+"""A second thermal mass that itself loses heat to the surroundings."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="lossy_second_mass",
+    name="second thermal mass with a loss of its own",
+    unit="thermal",
+    law="heat = -g * (T - mass); C2 * d(mass) = g * (T - mass) - loss * (mass - T_ambient)",
+    source=(
+        "Two lumped capacitances; F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th"
+        " ed., Wiley 2011, chapter 5"
+    ),
+    parameters=(
+        Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.004, 0.02), is_amplitude=True),
+        Parameter("C2", "J/K", 0.001, 100.0, "a heat capacity is positive", (0.02, 0.1, 0.5, 3.0)),
+        Parameter("loss", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.005, 0.03)),
+    ),
+    places=("all", "coil", "string"),
+    lines={
+        "heat": """
+            conductance += g;
+            heat += g * (mass - T_ambient);
+        """,
+        "state": """
+            mass_inflow = (g * T + loss * T_ambient) / C2;
+            mass_rate = (g + loss) / C2;
+        """,
+    },
+    signature="As a second mass; the plateau itself is lower too.",
+    confused_with={
+        "second_mass": "needs a plateau that is really reached",
+        "base:conductance": "only the slow part tells",
+    },
+    states=(State("mass", "K", "T"),),
+)

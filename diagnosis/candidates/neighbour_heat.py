@@ -1,0 +1,26 @@
+"""Heat between coils that touch."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="neighbour_heat",
+    name="heating between neighbours",
+    unit="thermal",
+    law="heat_a = -0.5 * (g_a + g_b) * (T_a - T_b); heat_b = -heat_a",
+    source=(
+        "F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th ed., Wiley 2011, section"
+        " 3.1 (conductance of a contact)"
+    ),
+    parameters=(
+        Parameter("g", "W/K", 0.0, 0.02, "heat flows from hot to cold", (0.0003, 0.001, 0.004), is_amplitude=True),
+    ),
+    places=("all", "string"),
+    lines={
+        "pairs": "flow = 0.5 * (g_a + g_b) * (T_a - T_b);",
+    },
+    signature="Unpowered coils warm up beside powered ones, with a delay; inner coils hotter than outer ones.",
+    confused_with={
+        "uneven_cooling": "strings powered one at a time decide",
+        "shared_mass": "distant coils decide",
+    },
+)

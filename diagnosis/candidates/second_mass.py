@@ -1,0 +1,36 @@
+"""A second thermal mass behind each coil."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="second_mass",
+    name="second thermal mass",
+    unit="thermal",
+    law="heat = -g * (T - mass); C2 * d(mass) = g * (T - mass)",
+    source=(
+        "Two lumped capacitances; F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th"
+        " ed., Wiley 2011, chapter 5"
+    ),
+    parameters=(
+        Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.004, 0.02), is_amplitude=True),
+        Parameter("C2", "J/K", 0.001, 100.0, "a heat capacity is positive", (0.02, 0.1, 0.5, 3.0)),
+    ),
+    places=("all", "coil", "string"),
+    lines={
+        "heat": """
+            conductance += g;
+            heat += g * (mass - T_ambient);
+        """,
+        "state": """
+            mass_inflow = g * T / C2;
+            mass_rate = g / C2;
+        """,
+    },
+    signature="Fast rise, then a slow creep to the plateau; a slow tail after the power is cut.",
+    confused_with={
+        "temperature_dependent_convection": "a long soak decides",
+        "ambient_drift": "a long soak decides",
+        "sensor_lag": "stiffness or current decide: a lag leaves them alone",
+    },
+    states=(State("mass", "K", "T"),),
+)

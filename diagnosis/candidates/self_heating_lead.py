@@ -1,0 +1,28 @@
+"""Leads that warm up and gain resistance."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="self_heating_lead",
+    name="leads that warm up with the current",
+    unit="electrical",
+    law="R_string = R_string_0 + rise * I**2",
+    source=(
+        "Linear resistance of a lead at its own steady heating: R = R_0 (1 + alpha Theta I**2 R_0); "
+        "C. Kittel, Introduction to Solid State Physics, 8th ed., Wiley 2005, chapter 6"
+    ),
+    parameters=(
+        Parameter(
+            "rise", "ohm/A^2", 0.0, 20.0, "metals gain resistance when they warm up", (0.1, 0.5, 2.0), is_amplitude=True
+        ),
+    ),
+    places=("string",),
+    lines={
+        "string": "R_string += rise * I * I;",
+    },
+    signature="Current of a string too small, more than in proportion at high voltage.",
+    confused_with={
+        "contact_resistance": "several levels of voltage decide",
+        "temperature_dependent_resistance": "no thermal time constant here",
+    },
+)

@@ -1,0 +1,24 @@
+"""A sensor with a constant offset."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="sensor_bias",
+    name="bias of a sensor",
+    unit="measurement",
+    law="value = truth + bias * scale",
+    source="JCGM 200:2012, International Vocabulary of Metrology, 4.20 (instrument bias)",
+    parameters=(
+        Parameter("bias", "1", -5.0, 5.0, "larger ones are seen by eye", (0.1, -0.1, 0.5, -0.5), is_amplitude=True),
+        Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),
+    ),
+    places=("channel", "quantity"),
+    lines={
+        "sensor": "value += bias * scale;",
+    },
+    signature="One channel off by the same at all times, the rest before the first pulse included.",
+    confused_with={
+        "base:initial_temperature": "the end of a run decides",
+        "transformation_shift": "a soak decides",
+    },
+)

@@ -1,0 +1,26 @@
+"""A channel whose clock is late."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="sensor_clock_offset",
+    name="clock offset of a sensor",
+    unit="measurement",
+    law="value = truth(t - delay)",
+    source="JCGM 200:2012, International Vocabulary of Metrology, and the definition of a time shift",
+    parameters=(
+        Parameter(
+            "delay", "s", -10.0, 10.0, "clocks are set within seconds", (0.1, -0.1, 0.5, -0.5, 2.0), is_amplitude=True
+        ),
+    ),
+    places=("channel", "quantity"),
+    lines={
+        "channel": "offset += delay;",
+    },
+    signature=(
+        "Residual like the rate of change, largest right after switches, the same on all channels of one logger."
+    ),
+    confused_with={
+        "sensor_lag": "sharp edges decide",
+    },
+)

@@ -1,0 +1,26 @@
+"""A sensor whose offset grows with time."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="sensor_drift",
+    name="drift of a sensor",
+    unit="measurement",
+    law="value = truth + drift * scale * t / 60",
+    source="JCGM 200:2012, International Vocabulary of Metrology, 4.21 (instrumental drift)",
+    parameters=(
+        Parameter(
+            "drift", "1/min", -5.0, 5.0, "larger ones are seen by eye", (0.05, -0.05, 0.3, -0.3), is_amplitude=True
+        ),
+        Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),
+    ),
+    places=("channel", "quantity"),
+    lines={
+        "sensor": "value += drift * scale * t / 60.0;",
+    },
+    signature="One channel leaves the model steadily, powered or not.",
+    confused_with={
+        "ambient_drift": "several channels together decide",
+        "creep": "an unloaded coil decides",
+    },
+)

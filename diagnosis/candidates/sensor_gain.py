@@ -1,0 +1,34 @@
+"""A sensor with a wrong gain."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="sensor_gain",
+    name="gain of a sensor",
+    unit="measurement",
+    law="value = truth + gain * (truth - pivot)",
+    source="JCGM 200:2012, International Vocabulary of Metrology, 4.12 (sensitivity)",
+    parameters=(
+        Parameter(
+            "gain", "1", -0.5, 0.5, "a calibration is never off by more", (0.02, -0.02, 0.1, -0.1), is_amplitude=True
+        ),
+        Parameter(
+            "pivot",
+            "unit of the channel",
+            -1000.0,
+            1000.0,
+            "where the sensor is right; given",
+            (0.0, 295.15),
+            is_fixed=True,
+        ),
+    ),
+    places=("channel", "quantity"),
+    lines={
+        "sensor": "value += gain * (value - pivot);",
+    },
+    signature="One channel departs in proportion to its own reading; its neighbours and other quantities fit.",
+    confused_with={
+        "base:conductance": "an isothermal soak or a stiffness reading decides",
+        "base:capacity": "as above",
+    },
+)

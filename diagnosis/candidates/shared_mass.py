@@ -1,0 +1,41 @@
+"""One thermal mass, the chassis, that all coils share."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="shared_mass",
+    name="thermal mass shared by all coils (chassis)",
+    unit="thermal",
+    law=("heat = -g * (T - chassis); C_chassis * d(chassis) = sum(g * (T - chassis)) - loss * (chassis - T_ambient)"),
+    source=(
+        "Lumped capacitances; F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th "
+        "ed., Wiley 2011, chapter 5"
+    ),
+    parameters=(
+        Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.0005, 0.002, 0.01), is_amplitude=True),
+        Parameter("C_chassis", "J/K", 0.01, 10000.0, "a heat capacity is positive", (1.0, 5.0, 50.0)),
+        Parameter("loss", "W/K", 0.0, 10.0, "heat flows from hot to cold", (0.01, 0.1)),
+    ),
+    places=("all", "string"),
+    lines={
+        "heat": """
+            conductance += g;
+            heat += g * (chassis - T_ambient);
+        """,
+        "gather": """
+            gathered = g * T;
+            weight = g;
+        """,
+        "shared": """
+            chassis_inflow = (gathered + loss * T_ambient) / C_chassis;
+            chassis_rate = (weight + loss) / C_chassis;
+        """,
+    },
+    signature="Unpowered coils creep up together with the powered ones, all with one slow time constant.",
+    confused_with={
+        "second_mass": "one string alone powered decides",
+        "neighbour_heat": "distant coils decide",
+        "ambient_drift": "a rest before decides",
+    },
+    states=(State("chassis", "K", "T", "shared"),),
+)

@@ -1,0 +1,31 @@
+"""Gravity that pulls at an angle."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="tilt",
+    name="tilt against gravity",
+    unit="mechanical",
+    law="tension = load * (1 - loss)",
+    source="Component of the weight along the coil: loss = 1 - cos(angle)",
+    parameters=(
+        Parameter(
+            "loss",
+            "1",
+            0.0,
+            0.9,
+            "the component along the coil is never more than the weight",
+            (0.01, 0.05, 0.2),
+            is_amplitude=True,
+        ),
+    ),
+    places=("all", "string", "coil"),
+    lines={
+        "load": "tension *= 1.0 - loss;",
+    },
+    signature="Extension too small by one share at every temperature.",
+    confused_with={
+        "base:load": "never told apart: the same number",
+        "supply_wire_stiffness": "two stiffnesses decide",
+    },
+)

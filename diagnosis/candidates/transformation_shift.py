@@ -1,0 +1,28 @@
+"""Transformation temperatures of another alloy or heat treatment."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="transformation_shift",
+    name="shifted transformation temperatures",
+    unit="stiffness",
+    law="shift = offset",
+    source=(
+        "K. Otsuka and C. M. Wayman, Shape Memory Materials, Cambridge 1998, section 1.2 (composition"
+        " and heat treatment)"
+    ),
+    parameters=(
+        Parameter(
+            "offset", "K", -30.0, 30.0, "a batch differs by some kelvins", (3.0, -3.0, 8.0, -8.0), is_amplitude=True
+        ),
+    ),
+    places=("coil", "string", "all"),
+    lines={
+        "stiffness": "shift += offset;",
+    },
+    signature="Both branches of the loop displaced by the same temperature on one coil.",
+    confused_with={
+        "stress_dependent_transformation": "several loads decide",
+        "sensor_bias": "a thermometer off by as much: current through R(T) or a soak decides",
+    },
+)

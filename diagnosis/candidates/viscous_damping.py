@@ -1,0 +1,25 @@
+"""Viscous damping of a coil's motion."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="viscous_damping",
+    name="viscous damping",
+    unit="mechanical",
+    law="damping * d(extension) = tension - stiffness * extension",
+    source="L. Meirovitch, Fundamentals of Vibrations, McGraw-Hill 2001, section 1.9",
+    parameters=(
+        Parameter(
+            "damping", "N*s/m", 0.0, 10000.0, "damping only takes energy", (50.0, 300.0, 1500.0), is_amplitude=True
+        ),
+    ),
+    places=("coil", "all", "string"),
+    lines={
+        "length": "extension += (extension_before - extension) * exp(-stiffness * dt / most(damping, 1e-9));",
+    },
+    signature="Extension follows with a time constant of damping over stiffness, both ways.",
+    confused_with={
+        "sensor_lag": "one channel's lag is the same at every stiffness",
+        "creep": "a long rest decides",
+    },
+)

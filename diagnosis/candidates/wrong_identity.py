@@ -1,0 +1,26 @@
+"""Two channels that were mistaken for each other."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+
+CANDIDATE = CandidateTerm(
+    identifier="wrong_identity",
+    name="wrong identity of two channels",
+    unit="measurement",
+    law="value = truth + exchange * (truth_of_other - truth)",
+    source="Permutation of channels",
+    parameters=(
+        Parameter("exchange", "1", 0.0, 1.0, "1: exchanged", (1.0,), is_amplitude=True),
+        Parameter("other", "1", 0.0, 1000000.0, "the other element; given", (0.0,), is_fixed=True),
+    ),
+    places=("swap",),
+    lines={
+        "channel": """
+            share += exchange;
+            partner = (int64_t)other;
+        """,
+    },
+    signature="Two channels each fit the other's element.",
+    confused_with={
+        "sensor_bias": "a change of power decides",
+    },
+)
