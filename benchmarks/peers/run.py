@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -121,7 +122,8 @@ def report(cells: list[Cell], ends: list[Cell], chosen: list[Tool], rounds: int)
         heading("Speed and end time beside other tools", "python -m benchmarks.peers.run"),
         f"Microseconds per macro-step and FMU: median of {rounds} rounds that go over all tools in turn, in brackets",
         "the smallest and the largest. The stepping loop alone: loading and unpacking are left out. A blank cell: the",
-        "tool has no such FMI version or records nothing. What `recording` is differs: benchmarks/peers/README.md.", "",
+        "tool has no such FMI version or records nothing. What `recording` is differs: benchmarks/peers/README.md.",
+        f"Load average of the machine at the end of the run: {os.getloadavg()[0]:.1f}.", "",
         "## Two chained feedthrough FMUs\n", *timing_table(cells, chosen, "chain"), "",
         "## Quarter truck, three FMUs in a loop, step 1 ms\n", *timing_table(cells, chosen, "quarter_truck"), "",
         "The C floor of the truck contains what the FMUs themselves take.", "",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -61,7 +62,8 @@ def ending(done: subprocess.CompletedProcess[str]) -> str:
     if done.returncode < 0:
         return f"killed by signal {-done.returncode}"
     lines = [line for line in done.stderr.splitlines() if line.strip() and not line.startswith("[20")]
-    return f"exit code {done.returncode}: {lines[-1].strip()[:160] if lines else 'no message'}"
+    last = re.sub(r"/[\w./+-]*/", "", lines[-1].strip())[:160] if lines else "no message"  # folders of this machine
+    return f"exit code {done.returncode}: {last}"
 
 
 def ask(tool: Tool, question: str) -> str:
