@@ -12,7 +12,7 @@ from lxml import etree
 
 from cosim.errors import InputError
 from cosim.ssp.model import Place
-from cosim.ssp.namespaces import PREFIXES, SSD, SSM, SSV, tag
+from cosim.ssp.namespaces import PREFIXES, SSB, SSD, SSM, SSV, tag
 
 #: An XML file larger than this is refused [byte].
 MAXIMUM_SIZE = 64 << 20
@@ -22,6 +22,7 @@ SCHEMAS = {
     tag(SSD, "SystemStructureDescription"): "SystemStructureDescription",
     tag(SSV, "ParameterSet"): "SystemStructureParameterValues",
     tag(SSM, "ParameterMapping"): "SystemStructureParameterMapping",
+    tag(SSB, "SignalDictionary"): "SystemStructureSignalDictionary",
 }
 _UNDECLARED = re.compile(r"Namespace prefix (\w+) ")
 _ROOT = re.compile(rb"<(?![?!])[^\s/>]+")

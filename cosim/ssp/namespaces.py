@@ -20,6 +20,7 @@ FMU_TYPE = "application/x-fmu-sharedlibrary"
 SSD_TYPE = "application/x-ssp-definition"
 SSP_TYPE = "application/x-ssp-package"
 SSV_TYPE = "application/x-ssp-parameter-set"
+SSB_TYPE = "application/x-ssp-signal-dictionary"
 SSM_TYPE = "application/x-ssp-parameter-mapping"
 #: A component of ours that is no FMU: its source is the YAML that a scenario holds for it.
 OWN_TYPE = "application/vnd.active-chainmail.component+yaml"

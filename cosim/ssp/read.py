@@ -27,6 +27,8 @@ from cosim.ssp.namespaces import (
     DEFAULT_SSD,
     FLOAT_TYPES,
     FMU_TYPE,
+    SSB,
+    SSB_TYPE,
     SSC,
     SSD,
     SSD_TYPE,
@@ -99,9 +101,12 @@ class _Reader:
                 raise read.place.error(f"two elements of one system are named `{read.name}`", "rename one of them")
             elements[read.name] = read
         connections = element.iterfind(f"{tag(SSD, 'Connections')}/{tag(SSD, 'Connection')}")
-        dictionaries = element.iterfind(f"{tag(SSD, 'SignalDictionaries')}/{tag(SSD, 'SignalDictionary')}")
+        dictionaries = list(element.iterfind(f"{tag(SSD, 'SignalDictionaries')}/{tag(SSD, 'SignalDictionary')}"))
+        for dictionary in dictionaries:
+            self._expect_type(dictionary, SSB_TYPE)
+            validate(*self._referred(dictionary, dictionary), tag(SSB, "SignalDictionary"))
         return System(
-            element.get("name"), self._connectors(element), self._bindings(element, None), place, elements,
+            element.get("name"), self._connectors(element), self._bindings(element), place, elements,
             tuple(self._connection(c) for c in connections), frozenset(d.get("name") for d in dictionaries),
         )  # fmt: skip
 
@@ -116,7 +121,7 @@ class _Reader:
             return self._nested(element, kind, uri, depth)
         source = None if uri is None else self._resolved(element, uri)
         return Component(
-            name, self._connectors(element), self._bindings(element, source), place, kind, source,
+            name, self._connectors(element), self._bindings(element), place, kind, source,
             element.get("implementation", "any"), own_settings(self.document, element),
         )  # fmt: skip
 
@@ -141,7 +146,7 @@ class _Reader:
                 if not file.is_file():
                     raise place.error(f"there is no {file.name} in {uri}", "correct the reference")
             system = _Reader(self._path, self._root, file, self._notes, depth + 1).structure().system
-        bindings = system.bindings + self._bindings(element, None)
+        bindings = system.bindings + self._bindings(element)
         return System(
             element.get("name"), system.connectors, bindings, place, system.elements, system.connections,
             system.dictionaries,
@@ -191,20 +196,20 @@ class _Reader:
             self.document.place(element),
         )  # fmt: skip
 
-    def _bindings(self, element: Any, component: Path | None) -> tuple[Binding, ...]:
+    def _bindings(self, element: Any) -> tuple[Binding, ...]:
         listed = element.iterfind(f"{tag(SSD, 'ParameterBindings')}/{tag(SSD, 'ParameterBinding')}")
-        return tuple(self._binding(b, component) for b in listed)
+        return tuple(self._binding(b) for b in listed)
 
-    def _binding(self, element: Any, component: Path | None) -> Binding:
+    def _binding(self, element: Any) -> Binding:
         place = self.document.place(element)
         self._expect_type(element, SSV_TYPE)
-        document, top = self._referred(element, element.find(tag(SSD, "ParameterValues")), component)
+        document, top = self._referred(element, element.find(tag(SSD, "ParameterValues")))
         parameters: ParameterSet = read_parameter_set(document, top)
         mapping: tuple[MappingEntry, ...] | None = None
         given = element.find(tag(SSD, "ParameterMapping"))
         if given is not None:
             self._expect_type(given, SSM_TYPE)
-            document, top = self._referred(given, given, component)
+            document, top = self._referred(given, given)
             mapping = read_mapping(document, top)
         return Binding(parameters, mapping, element.get("prefix", ""), place)
 
@@ -214,7 +219,7 @@ class _Reader:
                 f"the type `{element.get('type')}` is not read", f"give it as {expected}"
             )
 
-    def _referred(self, element: Any, container: Any, component: Path | None) -> tuple[Document, Any]:
+    def _referred(self, element: Any, container: Any) -> tuple[Document, Any]:
         """What a binding or mapping applies: a file where it has a source, else its content."""
         uri = element.get("source")
         if uri is None:

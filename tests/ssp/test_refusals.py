@@ -222,3 +222,10 @@ def test_a_component_of_ours_is_checked_before_it_is_taken(pack, tmp_path, text,
 def test_an_inner_package_that_is_none_is_named(pack, tmp_path):
     inner = '<ssd:Component name="a" type="application/x-ssp-package" source="resources/inner.ssp"/>'
     assert "resources/inner.ssp: this is not an SSP" in refused(pack(root(inner), inner_ssp="x"), tmp_path).problem
+
+
+def test_signal_dictionaries_are_validated_too(pack, tmp_path):
+    wrong = '<ssb:SignalDictionary version="1.0"><ssb:DictionaryEntry name="s"/></ssb:SignalDictionary>'
+    listed = f'<ssd:SignalDictionary name="bus">{wrong}</ssd:SignalDictionary>'
+    listed = f"<ssd:SignalDictionaries>{listed}</ssd:SignalDictionaries>"
+    assert "Element 'ssb:DictionaryEntry'" in refused(pack(root(*TWO, dictionaries=listed)), tmp_path).problem
