@@ -57,6 +57,11 @@ class Bank:
         self._library = load(generate(self.terms))
         self._library.bank_simulate.restype = ctypes.c_int
 
+    @property
+    def quantities(self) -> list[str]:
+        """Quantities that this bank has."""
+        return [q for q in QUANTITIES if self.layout.elements(q) and q != "string_share"]
+
     def simulate(
         self, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array]
     ) -> dict[str, Array]:
@@ -110,7 +115,7 @@ class Bank:
     def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
         """Inputs and samples ready for `run`."""
         if not isinstance(times, Mapping):
-            times = {q: times for q in QUANTITIES if self.layout.elements(q)}
+            times = dict.fromkeys(self.quantities, times)
         return Plan(self.layout, inputs, times, self.is_midpoint)
 
     def packing(self, active: frozenset[str]) -> Packing:

@@ -72,6 +72,8 @@ QUANTITIES: Mapping[str, Quantity] = {
     "resistance": Quantity("ohm", "coil", False, "resistance"),
     "power": Quantity("W", "coil", True, "power"),
     "length": Quantity("m", "coil", False, "length"),
+    # The current of every string at the sample times of the supply's current, for its derivatives.
+    "string_share": Quantity("A", "string", True, "string_current"),
 }
 
 VECTOR = 8  # doubles in the widest vector register (AVX-512)

@@ -24,7 +24,10 @@ READABLE: Mapping[str, str] = {
 WRITABLE: Mapping[str, Mapping[str, str]] = {
     "resistance": {"R": "s->resistance[i]"},
     "string": {"R_string": "s->string_resistance[i]"},
-    "supply": {"V": "s->supply_voltage[i]", "R_supply": "s->supply_resistance[i]", "I_limit": "s->current_limit[i]"},
+    "supply": {
+        "V": "s->supply_voltage[i]", "R_supply": "s->supply_resistance[i]", "I_limit": "s->current_limit[i]",
+        "limited": "s->limited[i]",
+    },
     "pairs": {},
     "heat": {
         "heat": "s->heat[i]", "conductance": "s->conductance[i]", "capacity": "s->capacity[i]",

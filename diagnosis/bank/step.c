@@ -27,7 +27,8 @@ static void solve_once(Step *s)
     }
     for (int64_t n = 0; n < s->sources; n++) {
         s->supply_resistance[n] = SOURCE(supply_resistance)[n];
-        s->current_limit[n] = INFINITY;
+        s->current_limit[n] = 1e300;
+        s->limited[n] = 0.0;
     }
     HOOK_string(s);
     HOOK_supply(s);
@@ -45,7 +46,8 @@ static void solve_once(Step *s)
             sum += conductance[m];
         }
         const double free = s->supply_voltage[n] * sum / (1.0 + s->supply_resistance[n] * sum);
-        const double current = clip(free, -s->current_limit[n], s->current_limit[n]);
+        const double kept = clip(free, -s->current_limit[n], s->current_limit[n]);
+        const double current = free + s->limited[n] * (kept - free);
         total += current;
         for (int64_t m = begin; m < end; m++) {
             s->string_current[m] = current * (conductance[m] / sum);

@@ -44,6 +44,11 @@ class Parameter:
     is_amplitude: bool = False
     is_fixed: bool = False
 
+    @property
+    def is_instant(self) -> bool:
+        """Whether it is an instant, for which start values are to be spread over the recording."""
+        return self.name == "instant"
+
     def __post_init__(self) -> None:
         if not self.lower < self.upper:
             raise ValueError(f"{self.name}: the bounds {self.lower:g} to {self.upper:g} leave no room")
@@ -89,6 +94,7 @@ class CandidateTerm:
         confused_with: Identifiers (or `base:<parameter>`) that data often cannot tell from it, with what decides.
         states: States that it adds.
         is_named: False for a generic term, which stands for a law that nobody named.
+        keeps_sums: A sensor that is linear in the signal of its own channel: a sum passes it as its parts do.
         rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
     """
 
@@ -104,6 +110,7 @@ class CandidateTerm:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     states: tuple[State, ...] = ()
     is_named: bool = True
+    keeps_sums: bool = False
     rank: int = 0
 
     def __post_init__(self) -> None:

@@ -30,7 +30,8 @@ CANDIDATE = CandidateTerm(
                                  bank_relaxation(conductance / capacity * dt);
             double change = reach;
             used = 0.0;
-            for (int n = 0; n < 6; n++) {
+            #pragma GCC unroll 4
+            for (int n = 0; n < 4; n++) {
                 const double far = fabs(change) > 1e-9 ? change : 1e-9;
                 const double celsius = T_begin + far - 273.15 - shift;
                 const double up = gompertz(heating_a, heating_b, heating_c, heating_d, celsius);

@@ -21,4 +21,5 @@ CANDIDATE = CandidateTerm(
         "base:initial_temperature": "the end of a run decides",
         "transformation_shift": "a soak decides",
     },
+    keeps_sums=True,
 )

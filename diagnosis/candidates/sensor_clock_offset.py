@@ -23,4 +23,5 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "sensor_lag": "sharp edges decide",
     },
+    keeps_sums=True,
 )

@@ -23,4 +23,5 @@ CANDIDATE = CandidateTerm(
         "ambient_drift": "several channels together decide",
         "creep": "an unloaded coil decides",
     },
+    keeps_sums=True,
 )

@@ -31,4 +31,5 @@ CANDIDATE = CandidateTerm(
         "base:conductance": "an isothermal soak or a stiffness reading decides",
         "base:capacity": "as above",
     },
+    keeps_sums=True,
 )

@@ -22,4 +22,5 @@ CANDIDATE = CandidateTerm(
         "sensor_clock_offset": "sharp edges decide",
         "second_mass": "stiffness or current decide",
     },
+    keeps_sums=True,
 )

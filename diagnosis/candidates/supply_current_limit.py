@@ -6,22 +6,20 @@ CANDIDATE = CandidateTerm(
     identifier="supply_current_limit",
     name="current limit of the supply",
     unit="electrical",
-    law="I_supply = min(I_free, 1 / inverse_limit)",
+    law="I_supply = I_free + share * (min(I_free, limit) - I_free)",
     source="P. Horowitz and W. Hill, The Art of Electronics, 3rd ed., Cambridge 2015, section 9.13",
     parameters=(
         Parameter(
-            "inverse_limit",
-            "1/A",
-            0.0,
-            100.0,
-            "a limit is positive; 0 is no limit",
-            (0.2, 0.35, 0.5, 1.0, 3.0),
-            is_amplitude=True,
+            "share", "1", 0.0, 1.0, "1: the limit holds; less: a limit that gives way", (1.0,), is_amplitude=True
         ),
+        Parameter("limit", "A", 0.01, 1000.0, "a limit is positive", (2.0, 0.3, 0.7, 1.2, 3.0, 5.0)),
     ),
     places=("supply", "all"),
     lines={
-        "supply": "if (inverse_limit > 0.0) I_limit = least(I_limit, 1.0 / inverse_limit);",
+        "supply": """
+            I_limit = share > 0.0 ? limit : I_limit;
+            limited = share;
+        """,
     },
     signature="Supply current flat at one value while the voltage is high; nothing below it.",
     confused_with={

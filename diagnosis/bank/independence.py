@@ -1,0 +1,49 @@
+"""Which parts of a bank leave each other alone, so that several derivatives come from one simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diagnosis.bank.layout import Array, BankLayout
+from diagnosis.bank.parameters import BankParameters
+from diagnosis.candidates.candidate import Axis, CandidateTerm
+
+#: Hooks through which coils of different strings feel each other.
+_JOINING_HOOKS = frozenset({"pairs", "shared"})
+_ELECTRICAL = frozenset({"reference_resistance", "resistance_temperature_coefficient", "reference_temperature"})
+
+
+class Independence:
+    """Whether coils, or strings, can be perturbed together.
+
+    Strings are apart where their supply has no resistance (or each has its own) and no candidate joins them. Coils are
+    apart where moreover no coil's temperature acts on its resistance and the parameter is not an electrical one.
+
+    Args:
+        layout: Coils and strings.
+        active: Candidates that are switched on, or about to be.
+        parameters: Values of the base.
+    """
+
+    def __init__(self, layout: BankLayout, active: Sequence[CandidateTerm], parameters: BankParameters) -> None:
+        self._layout = layout
+        hooks = {h for t in active for h in t.lines}
+        joined = bool(hooks & _JOINING_HOOKS) or any(t.axis == "channel" and not t.keeps_sums for t in active)
+        supply = np.any(np.asarray(parameters.base.get("supply_resistance", 0.0))) or "supply" in hooks
+        slope = np.any(np.asarray(parameters.base.get("resistance_temperature_coefficient", 0.0)))
+        self.are_strings_apart = bool(layout.strings) and not joined and (not supply or layout.supply == "per_string")
+        self.are_coils_apart = not joined and (not layout.strings or not (slope or "resistance" in hooks))
+
+    def part(self, parameter: str, axis: Axis, mask: Array) -> tuple[str, int]:
+        """Level (`coil` or `string`) and number of the only part that a direction touches; number -1: several parts."""
+        touched = np.flatnonzero(mask)
+        is_electrical = parameter in _ELECTRICAL
+        if axis == "coil" and touched.size == 1 and self.are_coils_apart and not is_electrical:
+            return "coil", int(touched[0])
+        if axis in ("coil", "string") and self.are_strings_apart:
+            strings = np.unique(self._layout.string_of_coil[touched]) if axis == "coil" else touched
+            if strings.size == 1:
+                return "string", int(strings[0])
+        return "all", -1

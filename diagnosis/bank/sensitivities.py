@@ -1,0 +1,155 @@
+"""Derivatives of all outputs, by differences, in one batch; parts that do not feel each other share a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from diagnosis.bank.bank import Bank
+from diagnosis.bank.independence import Independence
+from diagnosis.bank.inputs import BankInputs
+from diagnosis.bank.layout import QUANTITIES, Array
+from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
+from diagnosis.bank.plan import Plan
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A direction in the space of the parameters.
+
+    Args:
+        parameter: Base parameter, or `candidate.parameter`.
+        mask: Change per unit along the direction at every element of its axis; an array of the values themselves gives
+            the derivative with respect to the logarithm.
+        step: Length of the difference along the direction.
+        is_central: Two simulations and second order, else one (needed where the base lies at a bound).
+    """
+
+    parameter: str
+    mask: Array
+    step: float
+    is_central: bool = True
+
+
+@dataclass
+class _Group:
+    """Directions of one parameter, step and kind that are simulated together; each has a part of the bank."""
+
+    level: str
+    members: dict[int, int]  # part to number of the direction; -1: a direction alone
+
+    def takes(self, level: str, part: int) -> bool:
+        return self.level == level and part not in self.members
+
+
+def sensitivities(
+    bank: Bank,
+    parameters: BankParameters,
+    inputs: BankInputs,
+    times: Array | Mapping[str, Array],
+    directions: Sequence[Direction],
+    threads: int = 1,
+) -> tuple[dict[str, Array], dict[str, Array]]:  # fmt: skip
+    """Outputs and their derivatives along directions.
+
+    Args:
+        bank: The bank.
+        parameters: Where.
+        inputs: Grid of steps and what drives them.
+        times: As for `Bank.simulate`.
+        directions: See `Direction`. Directions of the same parameter, step and kind that touch one coil or one string
+            each are simulated together where coils or strings do not feel each other (`Independence`).
+        threads: Threads that share the simulations.
+
+    Returns:
+        Outputs, as `Bank.simulate`; derivatives by quantity, shape (directions, samples, elements).
+
+    Raises:
+        BankError: A value stopped being finite.
+        KeyError: A direction along a parameter that the bank does not have.
+    """
+    wanted = times if isinstance(times, Mapping) else dict.fromkeys(bank.quantities, times)
+    active = active_terms(bank.terms, parameters)
+    active |= {d.parameter.split(".")[0] for d in directions if "." in d.parameter}
+    packing = bank.packing(active)
+    apart = Independence(bank.layout, [t for t in bank.terms if t.identifier in active], parameters)
+    if "supply_current" in wanted and bank.layout.strings:
+        wanted = {**wanted, "string_share": wanted["supply_current"]}
+    plan = bank.plan(inputs, wanted)
+    groups = _groups(apart, packing, directions)
+    base = pack(packing, bank.terms, parameters)
+    if "string_share" in wanted:
+        _share_sensor(packing, base)
+    rows = _perturbed(packing, base, directions, groups)
+    out = bank.run(plan, packing, np.concatenate([base[None], rows]), threads)
+    derivatives = plan.split(_slopes(plan, out, directions, groups))
+    result = {n: v[0] for n, v in plan.split(out[:1]).items()}
+    if "string_share" in wanted:
+        grouped = [n for g in groups for part, n in g.members.items() if part >= 0]
+        derivatives["supply_current"][grouped] = derivatives["string_share"][grouped].sum(axis=2, keepdims=True)
+        del derivatives["string_share"], result["string_share"]
+    return result, derivatives
+
+
+def _share_sensor(packing: Packing, base: Array) -> None:
+    """Let every string's share pass through the sensor of the supply's current."""
+    layout = packing.layout
+    supply, first = layout.channel("supply_current"), layout.channel("string_share")
+    for name, axis in packing.axes.items():
+        if axis == "channel":
+            values = base[packing.where(name)]
+            values[first : first + layout.elements("string_share")] = values[supply]
+
+
+def _groups(apart: Independence, packing: Packing, directions: Sequence[Direction]) -> list[_Group]:
+    families: dict[tuple[str, float, bool], list[_Group]] = {}
+    for number, direction in enumerate(directions):
+        level, part = apart.part(direction.parameter, packing.axes[direction.parameter], direction.mask)
+        family = families.setdefault((direction.parameter, direction.step, direction.is_central), [])
+        group = next((g for g in family if part >= 0 and g.takes(level, part)), None)
+        if group is None:
+            family.append(group := _Group(level, {}))
+        group.members[part] = number
+    return [g for family in families.values() for g in family]
+
+
+def _perturbed(packing: Packing, base: Array, directions: Sequence[Direction], groups: Sequence[_Group]) -> Array:
+    rows = []
+    for group in groups:
+        members = [directions[n] for n in group.members.values()]
+        mask = np.sum([d.mask for d in members], axis=0)
+        place = packing.where(members[0].parameter)
+        for sign in (1.0, -1.0) if members[0].is_central else (1.0,):
+            rows.append(base.copy())
+            packing.write(rows[-1], members[0].parameter, base[place] + sign * members[0].step * mask)
+    return np.array(rows).reshape(len(rows), packing.size)
+
+
+def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Sequence[_Group]) -> Array:
+    owners = {level: _owners(plan, level) for level in ("coil", "string")}
+    slopes = np.zeros((len(directions), plan.out_size))
+    row = 1
+    for group in groups:
+        first = directions[next(iter(group.members.values()))]
+        other = out[row + 1] if first.is_central else out[0]
+        slope = (out[row] - other) / (first.step * (2.0 if first.is_central else 1.0))
+        row += 2 if first.is_central else 1
+        for part, number in group.members.items():
+            slopes[number] = slope if part < 0 else np.where(owners[group.level] == part, slope, 0.0)
+    return slopes
+
+
+def _owners(plan: Plan, level: str) -> npt.NDArray[np.int64]:
+    """Coil or string that every number of a set's output belongs to; -1 where there is none."""
+    owners = np.full((1, plan.out_size), -1.0)
+    for name, view in plan.split(owners).items():
+        axis = QUANTITIES[name].axis
+        if axis == level:
+            view[...] = np.arange(view.shape[2])
+        elif axis == "coil" and level == "string":
+            view[...] = plan.layout.string_of_coil
+    result: npt.NDArray[np.int64] = owners[0].astype(np.int64)
+    return result
