@@ -14,8 +14,9 @@ from cosim.paper.measures import half_way_delay, plateau
 NAN = float("nan")
 #: A quantity that moves by less than this share of itself has not moved: no delay is given.
 MOVED = 0.01
-#: Windows over which levels are averaged [s]: before a switch, and at the end of the run.
-BEFORE, LAST = 1.0, 2.0
+#: Windows over which levels are averaged [s]: before a switch, and at the end of the run; at most this share of the
+#: phase that they end, so that a short phase is read where it has got to.
+BEFORE, LAST, SHARE = 1.0, 2.0, 0.1
 
 
 @dataclass(frozen=True)
@@ -100,9 +101,9 @@ def _levels(values: xr.DataArray | None, layout: Layout) -> tuple[float, float, 
         return NAN, NAN, NAN
     begin, end = float(values["time"][0]), float(values["time"][-1])
     on, off = (begin if layout.on is None else layout.on), (end if layout.off is None else layout.off)
-    cold = plateau(values, max(begin, on - BEFORE), on)
-    driven = plateau(values, max(on, off - BEFORE), off)
-    return cold, driven, NAN if layout.off is None else plateau(values, max(off, end - LAST), end)
+    cold = plateau(values, on - min(BEFORE, SHARE * (on - begin)), on)
+    driven = plateau(values, off - min(BEFORE, SHARE * (off - on)), off)
+    return cold, driven, NAN if layout.off is None else plateau(values, end - min(LAST, SHARE * (end - off)), end)
 
 
 def _delays(values: xr.DataArray | None, layout: Layout) -> tuple[float, float]:

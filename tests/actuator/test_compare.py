@@ -3,6 +3,11 @@
 import csv
 import json
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -14,6 +19,7 @@ from cosim.run import run
 from cosim.run_folder import RunFolder
 from cosim.scenario import load_scenario
 
+from .conftest import ROOT
 from .scenarios import changed, quantity, short
 
 LAYOUT = Layout("actuator", "circuit", "load", 1.0, 21.0)
@@ -137,6 +143,32 @@ def test_a_comparison_goes_on_from_what_is_there(cosim, scenario_file, tmp_path)
     assert kept.stat().st_mtime_ns == before
     resumed = xr.load_dataset(begun.results)
     assert json.loads(begun.summary.read_text())["resumed"]
+    for name in whole.data_vars:
+        assert np.array_equal(whole[name], resumed[name]), name
+
+
+def test_ctrl_c_keeps_what_is_computed_and_the_same_command_goes_on(tmp_path, fmus):
+    """A run of 300 s that is interrupted after its first checkpoint."""
+    file, out = tmp_path / "long.yaml", tmp_path / "out"
+    long = short("300 s")
+    file.write_text(long.to_yaml())
+    program = [sys.executable, "-c", "from cosim.cli import main; main()", "compare", str(file), "--actuators",
+               "thermal_stiffness,tcp_muscle", "--out", str(out), "--jobs", "1"]  # fmt: skip
+    environment = {**os.environ, "COSIM_FMU_PATH": str(fmus), "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+    process = subprocess.Popen(program, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True)  # fmt: skip
+    while process.poll() is None and not RunFolder(out / "thermal_stiffness").checkpoints():
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to every process of the group
+    _, err = process.communicate()
+    assert process.returncode == 130, err
+    assert "the same command goes on from here" in err
+    assert "Traceback" not in err
+    assert not RunFolder(out / "thermal_stiffness").is_complete()
+    again = subprocess.run(program, env=environment, capture_output=True, text=True, check=False)
+    assert again.returncode == 0, again.stderr
+    assert json.loads(RunFolder(out / "thermal_stiffness").summary.read_text())["resumed"]
+    resumed, whole = xr.load_dataset(out / "thermal_stiffness" / "results.nc"), run(long)
     for name in whole.data_vars:
         assert np.array_equal(whole[name], resumed[name]), name
 
