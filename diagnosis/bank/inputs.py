@@ -83,6 +83,11 @@ class Drive:
     power: Programme | None = None
     temperature: Programme | None = None
 
+    def switches(self) -> list[float]:
+        """Instants at which a programme that is held jumps [s], those of linear ones at which it bends."""
+        programmes = (self.ambient, self.voltage, self.power)
+        return sorted({float(t) for p in programmes if p is not None for t in p.times[1:]})
+
     def on_grid(self, time: Array) -> BankInputs:
         """Inputs over given steps.
 

@@ -54,7 +54,8 @@ static void begin(Step *s)
         s->rate[i] = s->energy[i] = s->power[i] = s->current[i] = s->phase[i] = 0.0;
         s->ambient[i] = plan->ambient[0] + COIL(ambient_offset)[i];
         s->tension[i] = COIL(load)[i];
-        s->extension[i] = 0.0;
+        s->extension[i] = s->shift[i] = 0.0;
+        s->stiffness[i] = COIL(heating_d)[i];
         s->heating[i] = s->cooling[i] = s->remembered[i] = 0.0;
     }
     for (int64_t n = 0; n < s->strings; n++) {

@@ -1,0 +1,159 @@
+"""Generic terms: a dimensioned amplitude times a dimensionless function, for laws that nobody named.
+
+Each acts on one equation (heat, resistance, stiffness, length). Its function phi takes variables made dimensionless
+with the scales stated here, so that amplitudes are comparable and formulas dimensionally consistent (E. Buckingham,
+Phys. Rev. 4 (1914) 345-376). A small library of functions of one or two variables is what sparse regression uses (S. L.
+Brunton, J. L. Proctor and J. N. Kutz, PNAS 113 (2016) 3932-3937); here each is a term of the running model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
+
+_SOURCE = (
+    "library: Brunton, Proctor and Kutz, PNAS 113 (2016) 3932-3937; scales: Buckingham, Phys. Rev. 4 (1914) 345-376"
+)
+_REASON = "size only: nothing is known about the sign of a law without a name"
+_PLACES: tuple[PlaceKind, ...] = ("all", "string", "coil", "row_gradient", "column_gradient")
+
+#: Variable: formula that makes it dimensionless (in C and in Python alike), and its name in words.
+VARIABLES: Mapping[str, tuple[str, str]] = {
+    "excess": ("(T - T_ambient) / 30.0", "temperature above the surroundings"),
+    "power": ("P / 0.4", "electrical power"),
+    "rate": ("dTdt / 5.0", "rate of the temperature"),
+    "time": ("t / 60.0", "time"),
+    "energy": ("energy / 10.0", "electrical energy so far"),
+    "stretch": ("extension / 0.005", "extension"),
+    "phase": ("phase", "share of austenite"),
+    "amperes": ("I / 0.4", "current"),
+    "pull": ("tension", "tension (scale 1 N)"),
+}
+
+#: Function of one variable: formula.
+FORMS: Mapping[str, str] = {
+    "linear": "{v}",
+    "square": "({v}) * ({v})",
+    "cube": "({v}) * ({v}) * ({v})",
+    "absolute": "fabs({v})",
+    "saturating": "3.0 * ({v}) / (1.0 + 2.0 * fabs({v}))",
+}
+
+
+@dataclass(frozen=True)
+class Target:
+    """An equation that a generic term may act on.
+
+    Args:
+        unit: Part of the model.
+        hook: Hook of the bank.
+        line: C line that adds `a * phi`.
+        law: Formula of the same.
+        amplitude: Unit of the amplitude.
+        bound: Its largest size.
+        starts: Start values.
+        single: Variable to forms of it. What a base parameter or a named candidate is already is left out: heat linear
+            in the excess is h A, resistance linear in it the temperature coefficient.
+        products: Pairs of variables.
+        delayed: Variables that act through a first-order delay.
+    """
+
+    unit: Unit
+    hook: str
+    line: str
+    law: str
+    amplitude: str
+    bound: float
+    starts: tuple[float, ...]
+    single: Mapping[str, tuple[str, ...]]
+    products: tuple[tuple[str, str], ...]
+    delayed: tuple[str, ...]
+
+
+TARGETS: Mapping[str, Target] = {
+    "heat": Target(
+        "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, (0.02, -0.02, 0.1, -0.1),
+        {
+            "excess": ("square", "cube", "saturating"), "power": ("square", "saturating"),
+            "rate": ("linear", "absolute"), "time": ("linear", "square"), "energy": ("linear", "saturating"), "stretch": ("linear", "square"),
+            "phase": ("linear", "square"), "amperes": ("linear",),
+        },
+        (("excess", "time"), ("excess", "energy"), ("excess", "stretch"), ("excess", "phase"), ("excess", "power"),
+         ("excess", "rate"), ("power", "time"), ("power", "energy"), ("power", "phase")),
+        ("excess", "power", "stretch", "phase"),
+    ),
+    "resistance": Target(
+        "electrical", "resistance", "R += a * reference_resistance * ({phi});",
+        "R = R_0 + a * reference_resistance * ({phi})", "1", 0.5, (0.01, -0.01, 0.05, -0.05),
+        {
+            "excess": ("square", "saturating"), "rate": ("linear",), "time": ("linear", "square"),
+            "energy": ("linear", "saturating"), "stretch": ("linear", "square"), "power": ("linear",),
+            "phase": ("square",), "amperes": ("linear", "square"), "pull": ("linear",),
+        },
+        (("excess", "phase"), ("excess", "stretch"), ("excess", "time"), ("stretch", "phase")),
+        ("excess", "stretch", "phase"),
+    ),
+    "stiffness": Target(
+        "stiffness", "stiffness", "added += a * ({phi});", "stiffness = stiffness_0 + a * ({phi})", "N/m", 100.0,
+        (2.0, -2.0, 10.0, -10.0),
+        {
+            "excess": ("linear", "square"), "rate": ("linear",), "time": ("linear",), "energy": ("linear",),
+            "stretch": ("linear", "square"), "power": ("linear",), "phase": ("linear", "square"), "pull": ("linear",),
+        },
+        (("excess", "phase"), ("excess", "time"), ("stretch", "phase")),
+        ("excess", "phase"),
+    ),
+    "length": Target(
+        "mechanical", "length", "extension += a * ({phi});", "extension = extension_0 + a * ({phi})", "m", 0.01,
+        (5e-5, -5e-5, 5e-4, -5e-4),
+        {
+            "excess": ("square",), "rate": ("linear",), "time": ("linear", "square"), "energy": ("linear",),
+            "power": ("linear",), "phase": ("linear", "square"), "stretch": ("square",), "pull": ("square",),
+        },
+        (("excess", "phase"), ("excess", "stretch")),
+        ("excess", "stretch", "phase"),
+    ),
+}  # fmt: skip
+
+
+def _term(equation: str, name: str, phi: str, words: str, delay: Parameter | None = None) -> CandidateTerm:
+    target = TARGETS[equation]
+    amplitude = Parameter("a", target.amplitude, -target.bound, target.bound, _REASON, target.starts, is_amplitude=True)
+    lines = {target.hook: target.line.format(phi="delayed" if delay else phi)}
+    law = target.law.format(phi="delayed" if delay else phi.replace("fabs", "abs"))
+    if delay:
+        lines["state"] = f"delayed_inflow = ({phi}) / tau;\ndelayed_rate = 1.0 / tau;"
+        law += f"; tau * d(delayed) = {phi} - delayed"
+    return CandidateTerm(
+        identifier=f"unnamed_{equation}_{name}",
+        name=f"unnamed term in {equation}: {words}",
+        unit=target.unit,
+        law=law,
+        source=_SOURCE,
+        parameters=(amplitude, delay) if delay else (amplitude,),
+        places=_PLACES,
+        lines=lines,
+        signature=f"What is missing in {equation} follows {words}.",
+        states=(State("delayed", "1", "0.0"),) if delay else (),
+        is_named=False,
+    )
+
+
+def _terms(equation: str) -> Iterator[CandidateTerm]:
+    target = TARGETS[equation]
+    for variable, forms in target.single.items():
+        formula, words = VARIABLES[variable]
+        for form in forms:
+            yield _term(equation, f"{form}_{variable}", FORMS[form].format(v=formula), f"{words}, {form}")
+    for one, other in target.products:
+        phi = f"({VARIABLES[one][0]}) * ({VARIABLES[other][0]})"
+        yield _term(equation, f"{one}_times_{other}", phi, f"{VARIABLES[one][1]} times {VARIABLES[other][1]}")
+    tau = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 100.0))
+    for variable in target.delayed:
+        formula, words = VARIABLES[variable]
+        yield _term(equation, f"delayed_{variable}", formula, f"{words}, delayed", tau)
+
+
+CANDIDATES = tuple(term for equation in TARGETS for term in _terms(equation))
