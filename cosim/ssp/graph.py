@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from cosim.ssp.model import (
     IDENTITY,
@@ -92,7 +93,7 @@ class Graph:
         self.outgoing: dict[Node, list[Edge]] = {}
         self._add(system, (), {})
 
-    @property
+    @cached_property
     def components(self) -> Mapping[Path, Component]:
         """Every component by its path, in the order of the file."""
         return {path: e for path, e in self.elements.items() if isinstance(e, Component)}

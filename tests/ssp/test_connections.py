@@ -8,6 +8,8 @@ import zipfile
 
 import pytest
 
+from cosim.run import run
+from cosim.scenario import load_scenario
 from cosim.ssp.importer import import_ssp
 from tests.ssp import packages as p
 from tests.ssp.runs import STEP, final, imported
@@ -238,3 +240,41 @@ def test_a_unit_that_the_file_fails_to_define_is_taken_by_its_name_with_a_note(p
     assert final(pack(chain(y="mm", u="m", after="")), tmp_path / "run", "second.y") == [
         pytest.approx(0.003, rel=1e-15)
     ]
+
+
+def test_a_local_variable_that_is_connected_is_read_like_an_output(pack, tmp_path):
+    """SSP, section Connectors: kind local. The spring carries 400 kg at rest, so it is compressed by m g / k."""
+    ssd = p.description(
+        p.system(
+            "root",
+            p.component("c", "chassis_fmi2.fmu", p.connector("compression", "local", unit="m")),
+            p.feedthrough("f", u="m"),
+            connections=[p.connection("c.compression", "f.u")],
+        ),
+        after=LENGTHS,
+        version="2.0",
+    )
+    path = pack(ssd, fmus=("feedthrough_fmi2", "chassis_fmi2"))
+    assert imported(path, tmp_path / "in").components["c"].record == ["compression"]
+    compression, y = final(path, tmp_path / "run", "c.compression", "f.y")
+    assert compression == pytest.approx(400 * 9.81 / 15e3, rel=1e-3)  # 10 ms after the start, nearly at rest
+    assert y == compression
+
+
+@pytest.mark.parametrize(
+    ("annotation", "type_"),
+    [
+        ('<o:Algorithm xmlns:o="http://opensimulationplatform.com/SSP/OSPAnnotations"><o:FixedStepAlgorithm '
+         'baseStepSize="2e-3"/></o:Algorithm>', "com.opensimulationplatform"),
+        ('<o:SimulationInformation xmlns:o="urn:oms"><o:FixedStepMaster description="oms-ma" stepSize="0.002000"/>'
+         "</o:SimulationInformation>", "org.openmodelica"),
+    ],
+)  # fmt: skip
+def test_the_step_of_another_tools_annotation_is_taken_with_a_note(pack, tmp_path, annotation, type_):
+    annotated = f'<ssd:Annotations><ssc:Annotation type="{type_}">{annotation}</ssc:Annotation></ssd:Annotations>'
+    experiment = f'<ssd:DefaultExperiment startTime="1" stopTime="1.01">{annotated}</ssd:DefaultExperiment>'
+    path = pack(p.description(p.system("root", p.feedthrough("f", THREE)), experiment=experiment))
+    result = import_ssp(path, tmp_path / "in")
+    assert "macro_step 0.002 s: from another tool's annotation" in result.notes
+    times = run(load_scenario(result.scenario))["time"].values
+    assert times.tolist() == [1.0, 1.002, 1.004, 1.006, 1.008, 1.01]
