@@ -138,7 +138,8 @@ class NativeLoop(Loop):
 
 def choose_loop(watched: Watched, algorithm: Algorithm, kind: str) -> Loop:
     """The loop in C where there is one for this system and algorithm; else that in Python, and why, said once."""
-    if isinstance(algorithm, Plain):
+    is_parallel = kind == "jacobi" and watched.system.has_parallel_units
+    if isinstance(algorithm, Plain) and not is_parallel:
         try:
             return NativeLoop(watched, kind)
         except LibraryAbsent as reason:

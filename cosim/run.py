@@ -146,6 +146,8 @@ def _begin(scenario: Scenario, assembly: Assembly, resumed: RunFolder | None) ->
     output = nanoseconds(scenario.time.output_step)
     macro = nanoseconds(scenario.time.macro_step)
     trace, meter = _trace(scenario, assembly.system, range(start, stop + 1, output)), EnergyMeter(assembly.system)
+    if assembly.algorithm.divides_steps:
+        meter.units = []
     watched = Watched(assembly.system, trace, meter, Grid(start, macro, output // macro))
     # A run that was interrupted before its first checkpoint starts once more.
     files = resumed.checkpoints() if resumed is not None else []

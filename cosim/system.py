@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from cosim.connection import Connection, ConnectionFault, Element, Transfer
 from cosim.loops import AlgebraicLoop, Propagation
-from cosim.unit import AnyArray, Causality, StepOutcome, Unit, Variable
+from cosim.unit import AnyArray, Causality, ParallelUnit, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 __all__ = ["Connection", "ConnectionFault", "System"]
 
@@ -33,9 +34,11 @@ class System:
     connections: Sequence[Connection]
     sources: frozenset[str] = frozenset()
     wall_time: dict[str, float] = field(init=False)
+    has_parallel_units: bool = field(init=False)
     transfers: dict[str, list[Transfer]] = field(init=False)
 
     def __post_init__(self) -> None:
+        self.has_parallel_units = sum(isinstance(u, ParallelUnit) for u in self.units.values()) > 1
         self.wall_time = dict.fromkeys(self.units, 0.0)
         inputs: dict[tuple[str, str], Transfer] = {}
         for connection in self.connections:
@@ -163,6 +166,45 @@ class System:
         """Let the functions of time take their values for a step."""
         for name in self.sources:
             self.step(name, time, size)
+
+    def step_together(self, names: Sequence[str], time: int, size: int) -> StepOutcome:
+        """Step units that do not wait for each other; those in processes of their own step at the same time.
+
+        Returns:
+            The first outcome that is not OK, in the order of `names`, or the last.
+
+        Raises:
+            UnitError: A unit cannot go on; every step that had begun has ended.
+        """
+        elsewhere = [n for n in names if isinstance(self.units[n], ParallelUnit)] if self.has_parallel_units else []
+        if len(elsewhere) < 2:
+            return self._in_turn(names, time, size)
+        begun: list[ParallelUnit] = []
+        outcomes: dict[str, StepOutcome] = {}
+        try:
+            for name in elsewhere:
+                remote = self.units[name]
+                assert isinstance(remote, ParallelUnit)
+                remote.begin_step(time, size)
+                begun.append(remote)
+            here = self._in_turn([n for n in names if n not in elsewhere], time, size)
+            for name in elsewhere:
+                begin = clock.perf_counter()
+                outcomes[name] = begun.pop(0).finish_step()
+                self.wall_time[name] += clock.perf_counter() - begin
+        finally:
+            for remote in begun:  # only after an error, which is the one to be told
+                with suppress(UnitError):
+                    remote.finish_step()
+        return next((o for o in (here, *outcomes.values()) if o.status is not StepStatus.OK), here)
+
+    def _in_turn(self, names: Sequence[str], time: int, size: int) -> StepOutcome:
+        outcome = StepOutcome(StepStatus.OK, time + size)
+        for name in names:
+            outcome = self.step(name, time, size)
+            if outcome.status is not StepStatus.OK:
+                return outcome
+        return outcome
 
     @property
     def movers(self) -> list[str]:

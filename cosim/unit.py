@@ -19,8 +19,8 @@ import numpy.typing as npt
 from cosim.variable import AnyArray, Array, Causality, Coordinate, Variable, VariableType
 
 __all__ = [
-    "NANOSECONDS", "AnyArray", "Array", "ArrayStore", "Causality", "Coordinate", "StepOutcome", "StepStatus", "Unit",
-    "UnitError", "Variable", "VariableType", "seconds",
+    "NANOSECONDS", "AnyArray", "Array", "ArrayStore", "Causality", "Coordinate", "ParallelUnit", "StepOutcome",
+    "StepStatus", "Unit", "UnitError", "Variable", "VariableType", "seconds",
 ]  # fmt: skip
 
 #: Simulated time is an integer number of nanoseconds, so that steps never drift and the end is met exactly.
@@ -150,6 +150,19 @@ class Unit(Protocol):
 
     def terminate(self) -> None:
         """Free what the unit holds; safe to call twice."""
+        ...
+
+
+@runtime_checkable
+class ParallelUnit(Protocol):
+    """A unit whose step can go on elsewhere (in a process of its own) while others step."""
+
+    def begin_step(self, time: int, size: int) -> None:
+        """Begin what `do_step` does; nothing else may be asked of the unit before `finish_step`."""
+        ...
+
+    def finish_step(self) -> StepOutcome:
+        """Wait for the end of the step; raises UnitError as `do_step` does."""
         ...
 
 

@@ -15,6 +15,9 @@ from cosim.unit import StepOutcome
 class Algorithm(Protocol):
     """Makes macro-steps. One that names this protocol as its base inherits the defaults: no memory, nothing to tell."""
 
+    #: Whether inputs change inside a macro-step; then energies cannot be added up from one value per step.
+    divides_steps: bool = False
+
     def __call__(self, system: System, time: int, size: int) -> StepOutcome:
         """Advance all units from `time` by `size` [ns]."""
         ...

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cosim.system import System
-from cosim.unit import StepOutcome, StepStatus
+from cosim.unit import StepOutcome
 
 
 def step(system: System, time: int, size: int) -> StepOutcome:
@@ -27,8 +27,4 @@ def step(system: System, time: int, size: int) -> StepOutcome:
     movers = system.movers
     for name in movers:
         system.exchange(name)
-    for name in movers:
-        outcome = system.step(name, time, size)
-        if outcome.status is not StepStatus.OK:
-            return outcome
-    return StepOutcome(StepStatus.OK, time + size)
+    return system.step_together(movers, time, size)

@@ -54,6 +54,8 @@ class StepDoubling(Algorithm):
     co-simulation Schierz, Arnold, Clauss, 9th Modelica Conference (2012) 205-214.
     """
 
+    divides_steps = True
+
     def __init__(
         self, system: System, inner: Callable[[System, int, int], StepOutcome], control: ErrorControl, size: int
     ) -> None:
@@ -134,4 +136,5 @@ class StepDoubling(Algorithm):
         return error
 
     def _outputs(self, system: System) -> list[Array]:
+        system.propagate()  # else outputs with direct feedthrough would still show the inputs of the begin
         return [np.asarray(system.value(*end), dtype=np.float64) for end in self._watched]

@@ -21,6 +21,8 @@ class Synchronised(Algorithm):
         CannotRestore: A unit cannot return to a saved state.
     """
 
+    divides_steps = True
+
     def __init__(self, system: System, inner: Callable[[System, int, int], StepOutcome]) -> None:
         require_restoring(system, system.movers, "on_event: synchronise")
         self._inner = inner

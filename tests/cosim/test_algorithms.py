@@ -167,3 +167,40 @@ def test_a_value_that_is_not_finite_is_caught_on_its_way_and_the_connection_name
     system.units["x"].get("state")[...] = math.nan
     with pytest.raises(UnitError, match=r"input input.* is not a finite number, through x\.state -> y\.input"):
         ALGORITHMS[algorithm](system, 0, 10)
+
+
+class Remote(Relaxation):
+    """Its step has a begin and an end, and a log tells in which order they came."""
+
+    def __init__(self, name, log, fails=False):
+        super().__init__(name, 1.0, 1.0, 0.0)
+        self.log, self.fails = log, fails
+
+    def begin_step(self, time, size):
+        self.log.append(f"{self.name} begins")
+        self._asked = time, size
+
+    def finish_step(self):
+        self.log.append(f"{self.name} ends")
+        if self.fails:
+            raise UnitError(self.name, "it crashed", self._asked[0])
+        return super().do_step(*self._asked)
+
+
+def test_jacobi_lets_units_in_other_processes_step_at_the_same_time():
+    log = []
+    units = {"a": Remote("a", log), "b": Remote("b", log), "c": Relaxation("c", 1.0, 1.0, 0.0)}
+    system = System(units, [])
+    system.initialise(0, {})
+    assert jacobi.step(system, 0, 1_000_000_000) == StepOutcome(StepStatus.OK, 1_000_000_000)
+    assert log == ["a begins", "b begins", "a ends", "b ends"]
+    assert {n: float(u.get("state")) for n, u in units.items()} == dict.fromkeys("abc", math.exp(-1.0))
+
+
+def test_a_step_that_has_begun_is_ended_when_another_unit_fails():
+    log = []
+    system = System({"a": Remote("a", log, fails=True), "b": Remote("b", log)}, [])
+    system.initialise(0, {})
+    with pytest.raises(UnitError, match="a at t = 0 s: it crashed"):
+        jacobi.step(system, 0, 10)
+    assert log == ["a begins", "b begins", "a ends", "b ends"]
