@@ -76,34 +76,34 @@ def run(make: Callable[[], System], course: Course, is_native: bool, hand_over: 
         loop = _native if is_native else _python
         with np.errstate(invalid="ignore", over="ignore"):  # values that are not finite are found and named anyway
             index, ending, share = loop(system, course, trace, hand_over)
-        count = index // course.per_record + 1
-        rows = {c.name: trace._data[c.name][:count].copy() for c in trace.channels}
+        rows = {c.name: trace._data[c.name][: trace.count].copy() for c in trace.channels}
         now = {f"{n}.{v}": np.array(u.get(v)) for n, u in system.units.items() for v in u.variables}
         return Result(rows, now, index, ending, share, dict(system.wall_time))
     finally:
         system.terminate()
 
 
-def _one_in_python(system: System, course: Course, trace: Trace, index: int) -> str:
-    now = course.start + index * course.size
-    outcome = STEP[course.kind](system, now, course.size)
-    if outcome.status is not StepStatus.OK:
-        return f"{outcome.status} {outcome.time} {outcome.message}"
-    if (index + 1) % course.per_record == 0:
+def _step_in_python(system: System, course: Course, index: int) -> str:
+    outcome = STEP[course.kind](system, course.start + index * course.size, course.size)
+    return "" if outcome.status is StepStatus.OK else f"{outcome.status} {outcome.time} {outcome.message}"
+
+
+def _record_in_python(system: System, course: Course, trace: Trace, index: int) -> None:
+    if index % course.per_record == 0:
         system.propagate()
-        trace.count = (index + 1) // course.per_record
-        trace.record(now + course.size)
-    return ""
+        trace.count = index // course.per_record
+        trace.record(course.start + index * course.size)
 
 
 def _python(system: System, course: Course, trace: Trace, _hand_over: int) -> tuple[int, str, float]:
     index = 0
     try:
         while index < course.steps:
-            ending = _one_in_python(system, course, trace, index)
+            ending = _step_in_python(system, course, index)
             if ending:
                 return index, ending, 0.0
             index += 1
+            _record_in_python(system, course, trace, index)
     except UnitError as error:
         return index, f"{error} {error.time} {error.remedy}", 0.0
     return index, "", 0.0
@@ -115,18 +115,21 @@ def _native(system: System, course: Course, trace: Trace, hand_over: int) -> tup
     try:
         while index < course.steps:
             if hand_over and index % hand_over == hand_over - 1:
-                ending = _one_in_python(system, course, trace, index)
+                ending = _step_in_python(system, course, index)
                 if ending:
                     return index, ending, plan.native_share
                 index += 1
+                _record_in_python(system, course, trace, index)
                 continue
             stop = min(course.steps, (index // hand_over + 1) * hand_over - 1) if hand_over else course.steps
-            outcome = plan.advance(index, stop)
-            index = plan.index
+            try:
+                outcome = plan.advance(index, stop)
+            finally:
+                index, trace.count = plan.index, plan.recorded
             if outcome.status is not StepStatus.OK:
                 return index, f"{outcome.status} {outcome.time} {outcome.message}", plan.native_share
     except UnitError as error:
-        return plan.index, f"{error} {error.time} {error.remedy}", plan.native_share
+        return index, f"{error} {error.time} {error.remedy}", plan.native_share
     return index, "", plan.native_share
 
 

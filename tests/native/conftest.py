@@ -18,6 +18,12 @@ def scripted(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def scripted_events(tmp_path_factory):
+    """The FMI 3.0 FMU with Event Mode."""
+    return build(tmp_path_factory.mktemp("scripted_events"), 3, has_event_mode=True)
+
+
+@pytest.fixture(scope="session")
 def quarter_truck(tmp_path_factory):
     """Makes the quarter truck of the benchmarks with FMUs of a version."""
     folder = tmp_path_factory.mktemp("models")

@@ -37,10 +37,10 @@ class Fault(IntEnum):
     FATAL = 10
 
 
-def build(folder: Path, version: int) -> Path:
-    """Compile and zip the FMU of one FMI version."""
+def build(folder: Path, version: int, has_event_mode: bool = False) -> Path:
+    """Compile and zip the FMU of one FMI version; with Event Mode (FMI 3.0) it has a time event at `moment`."""
     platform = fmpy.platform if version == 2 else fmpy.platform_tuple
-    library, fmu = folder / f"scripted{version}.so", folder / f"scripted_fmi{version}.fmu"
+    library, fmu = folder / f"scripted{version}.so", folder / f"scripted{'_events' * has_event_mode}_fmi{version}.fmu"
     headers = Path(fmpy.__file__).parent / "c-code"
     # fmpy wants every function of the standard to be there; those that the model lacks return an error.
     names = re.findall(r"TYPE\s+(fmi\d\w+);", (headers / f"fmi{version}Functions.h").read_text())
@@ -50,7 +50,7 @@ def build(folder: Path, version: int) -> Path:
                "-o", library, SOURCE, absent, "-lm"]  # fmt: skip
     subprocess.run(command, check=True)
     with zipfile.ZipFile(fmu, "w") as archive:
-        archive.writestr("modelDescription.xml", _fmi2() if version == 2 else _fmi3())
+        archive.writestr("modelDescription.xml", _fmi2() if version == 2 else _fmi3(has_event_mode))
         archive.write(library, f"binaries/{platform}/scripted{fmpy.sharedLibraryExtension}")
     return fmu
 
@@ -59,7 +59,7 @@ def _start(kind: str, count: int = 1) -> str:
     return " ".join(["false" if kind == "Boolean" else "0"] * count)
 
 
-def _fmi3() -> str:
+def _fmi3(has_event_mode: bool) -> str:
     variables = ['<Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>']
     for causality, rows in (("input", INPUTS), ("output", OUTPUTS)):
         for name, kind, reference, count in rows:
@@ -78,7 +78,8 @@ def _fmi3() -> str:
     )
     return (f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="3.0" modelName="scripted" '
             f'instantiationToken="scripted"><CoSimulation modelIdentifier="scripted" '
-            f'canHandleVariableCommunicationStepSize="true" mightReturnEarlyFromDoStep="true"/>'
+            f'canHandleVariableCommunicationStepSize="true" mightReturnEarlyFromDoStep="true" '
+            f'hasEventMode="{str(has_event_mode).lower()}"/>'
             f"<ModelVariables>{''.join(variables)}</ModelVariables><ModelStructure>{structure}</ModelStructure>"
             f"</fmiModelDescription>")  # fmt: skip
 

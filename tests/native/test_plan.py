@@ -122,6 +122,41 @@ def test_quarter_truck_whose_ground_has_a_time_event(quarter_truck, version, kin
     assert abs(chassis[-1] - 1.0661) < 3e-3 * size
 
 
+@BOTH_KINDS
+@pytest.mark.parametrize("moment", [0.15, 0.155])
+def test_an_announced_time_event_is_met_exactly(scripted_events, kind, moment):
+    """At the end of a step or inside it; doStep itself would pass over the event without a word."""
+
+    def make():
+        units = {"a": fmu("a", scripted_events, moment=moment), "b": fmu("b", scripted_events, moment=9.0)}
+        return System(units, [Connection(("a", "y"), ("b", "u"))])
+
+    native = compare(make, Course(kind, steps=30))
+    assert native.native_share == 1.0
+    # 7 in every call of doStep, of which an event inside a step takes one more; 100 at the event
+    calls = 15 if moment == 0.15 else 17
+    row = 15 if moment == 0.15 else 16
+    assert native.rows["a.yi"][row] == 7 * calls + 100
+    assert native.rows["b.yi"][row] == 7 * row
+
+
+@pytest.mark.parametrize("per_record", [1, 3])
+def test_a_failure_while_outputs_settle_before_a_record_records_nothing(scripted, per_record):
+    """u of the second FMU acts directly on z, so it is set before the record; a factor lets it overflow as y grows."""
+
+    def make():
+        settings = FmuSettings(parameters={"rate": 5.0}, start={"u": 3.0})
+        first = CoSimulationUnit("first", open_fmu(scripted[3]), settings)
+        wires = [Connection(("first", "y"), ("second", "u"), 1.7e308)]
+        return System({"first": first, "second": fmu("second", scripted[3])}, wires)
+
+    native = compare(make, Course("jacobi", steps=40, per_record=per_record))
+    assert native.ending.startswith("second: input u is not a finite number, through first.y -> second.u")
+    # y = 3 (1 - exp(-5 t)) passes 1.057 at 0.087 s, in the ninth step
+    assert native.index == 9
+    assert len(native.rows["first.y"]) == 9 // per_record
+
+
 @BOTH_VERSIONS
 @BOTH_KINDS
 def test_shipped_actuator_heated_by_a_programme(shipped_fmus, version, kind):

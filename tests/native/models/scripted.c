@@ -24,7 +24,7 @@ enum { OK, WARNED, DISCARDED, FAILED, DEAD };
 typedef struct {
     double v[COUNT];
     double time;
-    bool is_running;
+    bool is_running, had_event;
     void *environment;
 #if FMI_VERSION == 3
     fmi3LogMessageCallback log;
@@ -148,6 +148,24 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 time, fmi3Float64 size, f
     return (fmi3Status)advance(m, time, done);
 }
 fmi3Status fmi3Terminate(fmi3Instance handle) { return fmi3OK; }
+
+/* With Event Mode: a time event at `moment`, which adds 100 to yi and of which fmi3DoStep says nothing. */
+fmi3Status fmi3EnterEventMode(fmi3Instance handle) { return fmi3OK; }
+fmi3Status fmi3EnterStepMode(fmi3Instance handle) { return fmi3OK; }
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance handle, fmi3Boolean *again, fmi3Boolean *terminate,
+                                    fmi3Boolean *nominals, fmi3Boolean *states, fmi3Boolean *is_defined,
+                                    fmi3Float64 *next)
+{
+    Model *m = handle;
+    *again = *terminate = *nominals = *states = false;
+    if (!m->had_event && m->time >= m->v[MOMENT]) {
+        m->had_event = true;
+        m->v[YI] += 100.0;
+    }
+    *is_defined = !m->had_event;
+    *next = m->v[MOMENT];
+    return fmi3OK;
+}
 #else
 static int width(unsigned reference) { return reference ? 1 : 0; }
 
