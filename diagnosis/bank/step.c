@@ -45,12 +45,15 @@ static void solve_once(Step *s)
         for (int64_t m = begin; m < end; m++) {
             sum += conductance[m];
         }
-        const double free = s->supply_voltage[n] * sum / (1.0 + s->supply_resistance[n] * sum);
-        const double kept = clip(free, -s->current_limit[n], s->current_limit[n]);
-        const double current = free + s->limited[n] * (kept - free);
-        total += current;
+        /* With an ideal supply the strings do not feel each other, not even in the last bit. */
+        double terminal = s->supply_voltage[n] / (1.0 + s->supply_resistance[n] * sum);
+        const double free = fabs(terminal * sum);
+        if (free > s->current_limit[n]) {
+            terminal *= 1.0 + s->limited[n] * (s->current_limit[n] / free - 1.0);
+        }
+        total += terminal * sum;
         for (int64_t m = begin; m < end; m++) {
-            s->string_current[m] = current * (conductance[m] / sum);
+            s->string_current[m] = terminal * conductance[m];
         }
     }
     s->supply_current[0] = total;

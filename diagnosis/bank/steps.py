@@ -12,7 +12,6 @@ from diagnosis.bank.inputs import BankInputs, Drive, grid
 from diagnosis.bank.layout import Array
 from diagnosis.bank.parameters import BankParameters
 
-
 #: Steps to try [s].
 STEPS = (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125)
 #: Largest error that is accepted, in deviations: it adds 0.0025 to the mean square of a residual.

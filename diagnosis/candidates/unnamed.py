@@ -77,7 +77,8 @@ TARGETS: Mapping[str, Target] = {
         "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, (0.02, -0.02, 0.1, -0.1),
         {
             "excess": ("square", "cube", "saturating"), "power": ("square", "saturating"),
-            "rate": ("linear", "absolute"), "time": ("linear", "square"), "energy": ("linear", "saturating"), "stretch": ("linear", "square"),
+            "rate": ("linear", "absolute"), "time": ("linear", "square"),
+            "energy": ("linear", "saturating"), "stretch": ("linear", "square"),
             "phase": ("linear", "square"), "amperes": ("linear",),
         },
         (("excess", "time"), ("excess", "energy"), ("excess", "stretch"), ("excess", "phase"), ("excess", "power"),
