@@ -19,7 +19,7 @@ from cosim.parameters import Resolved, find_parameter_set
 from cosim.scenario import ScaledConnection, Scenario
 from cosim.ssp.document import Document, validate
 from cosim.ssp.elements import to_bytes
-from cosim.ssp.export_parts import Part, Port
+from cosim.ssp.export_parts import Part
 from cosim.ssp.fmus import Fmu
 from cosim.ssp.import_components import OWN_KEYS
 from cosim.ssp.model import IDENTITY, End, Linear
@@ -194,6 +194,3 @@ def _entry(export: _Export, name: str, content: bytes) -> str:
         path = f"resources/{Path(name).stem}_{count}{Path(name).suffix}"
     export.entries[path] = content
     return path
-
-
-__all__ = ["Port", "export_ssp"]

@@ -3,71 +3,39 @@
 from __future__ import annotations
 
 import shutil
-import stat
 import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from cosim.errors import InputError
+from cosim.fmu.extraction import unpack
 from cosim.ssp.namespaces import DEFAULT_SSD
 
-#: A package that unpacks to more than this is refused [byte].
-MAXIMUM_UNPACKED_SIZE = 4 << 30
 #: The earliest time that a zip entry can carry; equal contents then give equal files.
 _EPOCH = (1980, 1, 1, 0, 0, 0)
-_REFUSED = "refused; export the package again"
 
 
 def extract(path: Path, into: Path) -> None:
-    """Unpack a package.
+    """Unpack a package, by the rules for FMUs (`cosim.fmu.extraction`).
 
     Raises:
-        InputError: There is no such file, it is no zip archive, holds no SystemStructure.ssd, or an entry would leave
-            the folder, is a symbolic link, is encrypted, or unpacks beyond `MAXIMUM_UNPACKED_SIZE`.
+        InputError: There is no such file, it is no zip archive, holds no SystemStructure.ssd, or is an archive that
+            would write elsewhere, holds links, is encrypted, damaged or too large.
     """
     if not path.is_file():
         raise InputError(path, "", "there is no such file", "give the path of an .ssp file")
+    if not zipfile.is_zipfile(path):
+        raise InputError(path, "", "this is not an SSP", "an SSP is a zip archive; export it again")
     try:
-        with zipfile.ZipFile(path) as archive:
-            for entry in archive.infolist():
-                _check_entry(path, entry)
-            if DEFAULT_SSD not in archive.namelist():
-                raise InputError(path, "", f"there is no {DEFAULT_SSD} in it", "an SSP holds one at its top level")
-            _unpack(path, archive, into)
-    except (zipfile.BadZipFile, NotImplementedError, EOFError) as error:
-        raise InputError(
-            path, "", f"this is not an SSP: {error}", "an SSP is a zip archive; export it again"
-        ) from error
-
-
-def _check_entry(path: Path, entry: zipfile.ZipInfo) -> None:
-    name = PurePosixPath(entry.filename.replace("\\", "/"))
-    if name.is_absolute() or ".." in name.parts or ":" in "".join(name.parts[:1]):
-        raise InputError(path, entry.filename, "this entry would be written outside the package's folder", _REFUSED)
-    if stat.S_ISLNK(entry.external_attr >> 16):
-        raise InputError(path, entry.filename, "this entry is a symbolic link", _REFUSED)
-    if entry.flag_bits & 1:
-        raise InputError(path, entry.filename, "this entry is encrypted, which SSP forbids", _REFUSED)
-
-
-def _unpack(path: Path, archive: zipfile.ZipFile, into: Path) -> None:
-    """Write the entries, counting what really comes out: the sizes that an archive declares may be false."""
-    left = MAXIMUM_UNPACKED_SIZE
-    for entry in archive.infolist():
-        target = into.joinpath(*PurePosixPath(entry.filename.replace("\\", "/")).parts)
-        if entry.is_dir():
-            target.mkdir(parents=True, exist_ok=True)
-            continue
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with archive.open(entry) as source, target.open("wb") as file:
-            while block := source.read(1 << 20):
-                left -= len(block)
-                if left < 0:
-                    raise InputError(path, entry.filename, "the package unpacks to more than 4 GiB", _REFUSED)
-                file.write(block)
+        unpack(path, into)
+    except InputError as error:
+        problem, remedy = (text.replace("FMU", "SSP") for text in (error.problem, error.remedy))
+        raise InputError(path, error.key, problem, remedy) from error
+    if not (into / DEFAULT_SSD).is_file():
+        raise InputError(path, "", f"there is no {DEFAULT_SSD} in it", "an SSP holds one at its top level")
 
 
 @contextmanager
