@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import statistics
 import sys
 import tempfile
@@ -136,7 +137,8 @@ def main(arguments: list[str] | None = None) -> None:
     lines = [
         heading("Loop", "python -m benchmarks.loop"),
         "Microseconds per macro-step and unit, median of interleaved repetitions; y = u, chained, fed by a ramp. Each",
-        "step settles the whole chain first (direct feedthrough), which the loops of other tools leave out.\n",
+        "step settles the whole chain first (direct feedthrough), which the loops of other tools leave out.",
+        f"Load average of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores.\n",
         "| FMUs | FMI | algorithm | recorded | native loop | loop in Python |",
         "|" + 6 * "---|",
     ]
