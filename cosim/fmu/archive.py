@@ -60,7 +60,7 @@ def _read(path: Path, directory: Path) -> ModelDescription:
         raise InputError(path, "", "there is no modelDescription.xml in it", "an FMU holds one at its top level")
     try:
         description = read_model_description(directory, validate=True)
-        _complete_starts(description, directory)
+        _complete(description, directory)
     except Exception as error:  # fmpy raises bare Exception for most defects
         raise InputError(
             path, "modelDescription.xml", f"it cannot be read: {_first_line(error)}", "check it with `fmpy validate`"
@@ -68,11 +68,14 @@ def _read(path: Path, directory: Path) -> ModelDescription:
     return description
 
 
-def _complete_starts(description: ModelDescription, directory: Path) -> None:
-    """Start values of String and Binary arrays: fmpy keeps the first alone; `start` becomes the tuple of all."""
+def _complete(description: ModelDescription, directory: Path) -> None:
+    """What fmpy 0.3 leaves out: all start values of String and Binary arrays (a tuple), bounds of unsigned integers."""
     variables = {v.name: v for v in description.modelVariables}
     root = ElementTree.parse(directory / "modelDescription.xml").getroot()
     for element in root.iterfind("ModelVariables/*"):
+        if element.tag.startswith("UInt"):
+            variable = variables[element.attrib["name"]]
+            variable.min, variable.max = element.get("min"), element.get("max")
         starts = element.findall("Start")
         if len(starts) > 1:
             variables[element.attrib["name"]].start = tuple(start.attrib.get("value", "") for start in starts)

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.clocks import Clocks
-from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, SavedState
+from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, SavedState, is_worth_reporting
 from cosim.unit import NANOSECONDS, AnyArray, StepOutcome, StepStatus, UnitError, VariableType, seconds
 
 #: What is practically the same instant [s]: a tenth of the resolution of simulated time.
@@ -192,7 +192,7 @@ class CoSimulationUnit(FmuUnit):
             if has_event and self.binding.uses_event_mode:
                 self._enter_event_mode()
                 self._leave_event_mode()
-            if self.settings.report_early_return and self._now > begin:
+            if self.settings.report_early_return and is_worth_reporting(self._now, begin, end):
                 return StepStatus.EARLY_RETURN
         self._now = end
         return StepStatus.OK

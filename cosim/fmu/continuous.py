@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Callable
 
 import numpy as np
 
 from cosim.fmu.binding import DISCARD, WARNING, Binding
-from cosim.unit import Array
+from cosim.unit import Array, UnitError
+
+#: Evaluations without a finite value between two events before the FMU is given up; CVODE's step is tiny by then.
+MOST_FAULTS = 100
 
 
 class ContinuousModel:
@@ -40,6 +44,8 @@ class ContinuousModel:
         self._completed = binding.checked("CompletedIntegratorStep", boolean, ctypes.c_void_p, ctypes.c_void_p)
         self._wants_event, self._terminate = boolean(), boolean()
         self._scratch = [np.zeros(self.states), np.zeros(self.states), np.zeros(self.indicators)]
+        self._zeros = [np.zeros_like(a) for a in self._scratch]
+        self._faults, self._finite = 0, math.nan
         self._addresses = [a.ctypes.data for a in self._scratch]
 
     def get_states(self) -> Array:
@@ -56,6 +62,10 @@ class ContinuousModel:
             self._get_nominals(result.ctypes.data, self.states)
         result = np.abs(result)
         return np.where(np.isfinite(result) & (result > 0.0), result, 1.0)
+
+    def forgive(self) -> None:
+        """A new integration begins: count anew what is not finite."""
+        self._faults = 0
 
     def move_to(self, time: float, states: Array) -> None:
         """Set time [s] and states, shape (states,), for good; the FMU may refuse (UnitError)."""
@@ -89,6 +99,12 @@ class ContinuousModel:
             if status != DISCARD:
                 self._binding.check(label, status)
             result.fill(np.nan)
+        if result.dot(self._zeros[slot]) != 0.0:  # NaN or infinity: CVODE takes a smaller step
+            self._faults += 1
+            if self._faults > MOST_FAULTS:
+                raise UnitError(self.name, f"{label}: a value is not finite just after {self._finite:.9g} s")
+        else:
+            self._finite = time
         return result
 
     def completed_integrator_step(self) -> tuple[bool, bool]:

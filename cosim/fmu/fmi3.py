@@ -90,9 +90,10 @@ class Fmi3Binding(Binding):
 
     def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:
         """One fmi3DoStep."""
+        self._reached.value = time
         status = self._do_step(self.fmu.component, time, size, is_final, *self._results)
         if status == DISCARD:
-            return StepResult(time, discarded=True)
+            return StepResult(min(max(self._reached.value, time), time + size), discarded=True)
         self.check("fmi3DoStep", status)
         reached = self._reached.value if self._early.value else time + size
         return StepResult(reached, self._event.value, self._early.value, False, self._terminate.value)

@@ -15,6 +15,7 @@ from cosim.unit import Array, UnitError
 MOST_STEPS = 50_000
 #: Absolute tolerance of a state over relative tolerance times nominal value.
 ABSOLUTE_SHARE = 0.01
+_LOOSEN = "loosen its tolerance, or give a smaller macro_step"
 
 
 @dataclass(frozen=True)
@@ -109,7 +110,8 @@ class Integrator:
         if self._solver is None or not 0.1 * self._size <= size <= 10.0 * self._size:
             self._build(size)
         time = begin
-        while True:
+        model.forgive()
+        for _ in range(MOST_STEPS):
             solution = self._step(time, end)
             time, is_root = float(solution.t), solution.status == 2
             self.states[:] = solution.y
@@ -117,6 +119,7 @@ class Integrator:
             is_step_event, terminates = self._report()
             if is_root or is_step_event or terminates or time >= end:
                 return Reached(time, is_root, is_step_event, terminates)
+        raise UnitError(model.name, f"CVODE took {MOST_STEPS} steps without reaching {end:.9g} s", remedy=_LOOSEN)
 
     def _report(self) -> tuple[bool, bool]:
         return self._model.completed_integrator_step() if self._reports_steps else (False, False)
@@ -136,7 +139,7 @@ class Integrator:
             if solution.success and np.isfinite(solution.y).all():
                 return solution
             self._is_fresh = True
-        raise UnitError(self._model.name, f"CVODE failed: {solution.message}", remedy="loosen its tolerance")
+        raise UnitError(self._model.name, f"CVODE failed: {solution.message}", remedy=_LOOSEN)
 
     def _drop_record(self) -> None:
         """scikit-sundae 1.2 keeps every event of a run in lists on the function; nothing here reads them."""

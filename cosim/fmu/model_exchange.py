@@ -11,7 +11,7 @@ import numpy as np
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.continuous import ContinuousModel
 from cosim.fmu.integrator import Integrator
-from cosim.fmu.unit import FmuSettings, FmuUnit, Mode
+from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, is_worth_reporting
 from cosim.unit import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
 
 RELATIVE_TOLERANCE = 1e-8
@@ -112,7 +112,7 @@ class ModelExchangeUnit(FmuUnit):
                                 remedy="give its switching a hysteresis")  # fmt: skip
             self._enter_event_mode()
             self._leave_event_mode()
-            if self.settings.report_early_return and now < end - INSTANT:
+            if self.settings.report_early_return and is_worth_reporting(now, begin, end):
                 return now
         self._now = end
         return end

@@ -16,12 +16,22 @@ from cosim.fmu.buffers import Buffers, Saved, element_text
 from cosim.fmu.dependencies import dependencies
 from cosim.fmu.settings import FmuSettings, Table
 from cosim.fmu.versions import bind
-from cosim.unit import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable, VariableType, seconds
+from cosim.unit import NANOSECONDS, AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable, VariableType, seconds
 
 __all__ = ["FmuSettings", "FmuUnit", "Mode", "SavedState"]
 
 #: An FMU whose discrete states do not settle in so many iterations at one instant is given up.
 MOST_ITERATIONS = 100
+
+
+#: An event this close to the end of a step [s] (or a hundredth of the step) is not reported: the end is a communication
+#: point anyway, and an integrator finds the event again at a time that differs by its tolerance.
+REPORT_MARGIN = 2e-6
+
+
+def is_worth_reporting(event: float, begin: float, end: float) -> bool:
+    """Whether an event [s] lies inside a step, and not practically at its begin or end."""
+    return begin + 1.0 / NANOSECONDS < event < end - min(REPORT_MARGIN, 0.01 * (end - begin))
 
 
 class Mode(Enum):

@@ -26,11 +26,11 @@ class Bath:
         self.unit, self.time = unit, 0
         unit.initialise(0)
         unit.exit_initialisation()
-        self.start = unit.binding.save()
+        self.start = unit.save()
 
     def rewind(self):
         self.time = 0
-        self.unit.binding.restore(self.start)
+        self.unit.restore(self.start, 0)
         return self
 
     def to(self, temperature):
@@ -45,7 +45,7 @@ class Bath:
 def bath(make_unit):
     bath = Bath(make_unit(coils=1))
     yield bath
-    bath.unit.binding.free_state(bath.start)
+    bath.unit.release(bath.start)
 
 
 def test_the_branches_cross_once_and_the_heating_branch_lies_lower_before():
@@ -148,7 +148,7 @@ def test_other_branches_that_never_cross_keep_their_loop_open(make_unit):
     assert bath.to(90.0) == pytest.approx(float(heating(90.0)), abs=ROUNDING)
     assert bath.to(75.0) == pytest.approx(float(heating(90.0)), abs=ROUNDING)
     assert bath.to(50.0) == pytest.approx(240.0 / 199.6 * (float(cooling(50.0)) - 157.9) + 157.9, abs=ROUNDING)
-    bath.unit.binding.free_state(bath.start)
+    bath.unit.release(bath.start)
 
 
 def test_each_coil_remembers_its_own_past(make_unit):
