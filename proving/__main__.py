@@ -1,0 +1,28 @@
+"""`python -m proving FOLDER --cases N --seed S`: writes cases with concealed effects."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from proving.cases import KINDS, write_cases
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the command; returns its exit code."""
+    parser = argparse.ArgumentParser("python -m proving", description="Writes recordings with concealed effects.")
+    parser.add_argument("folder", help="gets cases/ for the diagnosis and answers/ for the scoring")
+    parser.add_argument("--cases", type=int, default=20, help="how many")
+    parser.add_argument("--seed", type=int, default=1, help="of all draws")
+    parser.add_argument("--kinds", default="", help=f"only these, separated by commas: {', '.join(KINDS)}")
+    given = parser.parse_args(arguments)
+    try:
+        write_cases(given.folder, given.cases, given.seed, [k for k in given.kinds.split(",") if k])
+    except ValueError as error:
+        print(f"python -m proving: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,149 @@
+"""One case: a rig, its effects, its recordings, and the answer."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from proving.effects.effect import Effect
+from proving.effects.measurement import Clipping, SensorFault
+from proving.programme import Programme
+from proving.recording import write_clean, write_recording
+from proving.rig import Rig
+from proving.sensors import Readings, Sensors, drawn_sensors, read
+from proving.setups import Setup
+from proving.truth import Truth
+
+_SCENARIOS = Path(__file__).resolve().parent / "scenarios"
+
+
+@dataclass
+class Case:
+    """A case before it is run.
+
+    Args:
+        identifier: Says nothing about the answer.
+        kind: `single`, `null`, `parameters`, `sensor`, `two`, `outside` or `leave_one_out`.
+        setup: The kind of rig.
+        rig: The rig.
+        effects: On the rig, in order.
+        faults: Of sensors.
+        strengths: By identifier.
+        training: Programmes to learn from.
+        held_out: Programmes to judge by.
+        hidden: Identifiers to be taken out of the catalogue.
+    """
+
+    identifier: str
+    kind: str
+    setup: Setup
+    rig: Rig
+    effects: list[Effect]
+    faults: list[SensorFault]
+    strengths: dict[str, str]
+    training: list[Programme]
+    held_out: list[Programme]
+    hidden: tuple[str, ...] = ()
+    sensors: dict[str, Sensors] = field(default_factory=dict)
+
+
+def drawn_chain(setup: Setup, rng: np.random.Generator) -> dict[str, Sensors]:
+    """Sensors of a rig, by kind."""
+    chain = {name: drawn_sensors(kind, setup.sheet, rng) for name, kind in setup.sensors.items()}
+    if rng.random() < 0.1:
+        chain["temperature"].outliers = 0.01
+    return chain
+
+
+def write_case(case: Case, cases: Path, answers: Path, rng: np.random.Generator) -> None:
+    """Runs a case and writes its recordings and its answer.
+
+    Args:
+        case: The case; its sensors are spoiled by its faults.
+        cases: Folder that the diagnosis is given; the case gets a folder of its own.
+        answers: Folder that it is not given.
+        rng: Source of noise.
+
+    Raises:
+        WireError: A truth does not converge.
+    """
+    folder = cases / case.identifier
+    folder.mkdir(parents=True, exist_ok=True)
+    names = [f"training_{n + 1}" for n in range(len(case.training))]
+    names += [f"held_out_{n + 1}" for n in range(len(case.held_out))]
+    is_noise_told = bool(rng.random() < 0.6)
+    instants = tuple(e.parameters["instant"] for e in case.effects if "instant" in e.parameters)
+    written: dict[str, Sequence[tuple[Sensors, Readings]]] = {}
+    for name, programme in zip(names, [*case.training, *case.held_out]):
+        trace = Truth(case.rig, case.effects).run(programme, case.setup.step, instants)
+        if not written:
+            _spoil(case, trace.signal)
+        banks = [(s, read(s, trace, programme.stop, rng)) for s in case.sensors.values()]
+        title = f"{case.setup.name}, {name.replace('_', ' ')}"
+        write_recording(folder / name, title, case.setup.overrides(programme), banks, is_noise_told)
+        written[name] = banks
+    (folder / "scenario.yaml").write_text((_SCENARIOS / f"{case.setup.name}.yaml").read_text())
+    task = {
+        "scenario": "scenario.yaml", "training": names[: len(case.training)],
+        "held_out": names[len(case.training) :], "hidden": list(case.hidden),
+    }  # fmt: skip
+    (folder / "task.yaml").write_text(yaml.safe_dump(task, sort_keys=False))
+    answers.mkdir(parents=True, exist_ok=True)
+    (answers / f"{case.identifier}.json").write_text(json.dumps(_answer(case), indent=1) + "\n")
+    write_clean(answers / f"{case.identifier}.npz", {n: b for n, b in written.items() if n.startswith("held_out")})
+
+
+def _spoil(case: Case, signal: Any) -> None:
+    """Puts the faults into the sensors; a ceiling is set within what the first recording shows."""
+    for fault in case.faults:
+        bank = next(s for s in case.sensors.values() if fault.place.channels[0] in s.names)
+        if isinstance(fault, Clipping):
+            course = signal(bank.kind.quantity)[1][:, bank.rows(fault.place.channels)]
+            share = fault.parameters["share"]
+            low, high = float(course.min()), float(course.max(axis=0).min())
+            fault.parameters = {"ceiling": low + min(share, 0.95) * (high - low)}
+        fault.spoil(bank)
+
+
+_VERDICTS = {
+    "single": ["missing physics"], "two": ["missing physics"], "null": ["consistent", "recalibrated"],
+    "parameters": ["recalibrated"], "sensor": ["measurement fault"], "outside": ["unnamed physics"],
+    "leave_one_out": ["unnamed physics", "cannot tell"],
+}  # fmt: skip
+
+
+def _answer(case: Case) -> dict[str, Any]:
+    rig = case.rig
+    numbers = ("resistance", "conductance", "capacity", "weight", "stiffness", "shift", "end", "thermometer")
+    return {
+        "case": case.identifier, "kind": case.kind, "setup": case.setup.name, "engine": "own",
+        "verdicts": _VERDICTS[case.kind], "hidden": list(case.hidden),
+        "findings": [_finding(case, e) for e in (*case.effects, *case.faults)],
+        "rig": {n: np.asarray(getattr(rig, n)).tolist() for n in numbers}
+        | {"room": rig.room, "slew": rig.slew, "duhem": rig.duhem, "spread": rig.spread},
+        "noise": {name: s.noise for name, s in case.sensors.items()},
+        "delay": {name: float(s.delay[0]) for name, s in case.sensors.items()},
+        "lag": {name: float(s.lag[0]) for name, s in case.sensors.items()},
+    }  # fmt: skip
+
+
+def _finding(case: Case, effect: Effect | SensorFault) -> dict[str, Any]:
+    kind = effect.place.kind
+    instant = effect.parameters.get("instant")
+    element = {"coil": "coil", "string": "string"}.get(kind, "")
+    is_numbered = case.setup.sheet.is_bath or case.setup.sheet.is_driven_by_power
+    numbers = [n[:1] if is_numbered else n for n in effect.place.numbers]
+    return {
+        "effect": effect.identifier, "unit": effect.unit, "is_in_catalogue": effect.is_named,
+        "is_hidden": effect.identifier in case.hidden, "strength": case.strengths[effect.identifier],
+        "place": kind, "elements": [f"{element}[{','.join(map(str, n))}]" for n in numbers],
+        "channels": list(effect.place.channels), "law": effect.law, "parameters": effect.parameters,
+        "comparable_parameters": list(effect.same_parameters),
+        "intervals": None if instant is None else [[instant, case.setup.stop]],
+    }  # fmt: skip

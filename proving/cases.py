@@ -1,0 +1,167 @@
+"""Draws cases from a seed and writes them: recordings in one folder, answers in another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from proving.case import Case, drawn_chain, write_case
+from proving.draw import drawn_effect, fits, in_order
+from proving.effects import measurement
+from proving.effects.effect import STRENGTHS, Effect, Strength
+from proving.effects.measurement import SensorFault, drawn_fault
+from proving.programme import Programme
+from proving.rig import drawn_rig
+from proving.setups import EFFECTS, SETUPS, SHARES, Setup
+
+#: Kind of case to its share.
+KINDS = {
+    "single": 0.36, "null": 0.16, "parameters": 0.06, "sensor": 0.1, "two": 0.12, "outside": 0.1, "leave_one_out": 0.1
+}  # fmt: skip
+#: Effects that a programme of one shape alone shows: it is among the training and the held-out ones.
+_NEEDS = {
+    "minor_loop_memory": ("partial", "inner"),
+    "fatigue": ("pulses", "twice"),
+    "fatigue_shift": ("pulses", "twice"),
+}
+
+
+class Deck:
+    """Items dealt in a drawn order, all of them before any comes again."""
+
+    def __init__(self, items: Sequence[object], rng: np.random.Generator) -> None:
+        self._items, self._rng, self._left = list(items), rng, list[object]()
+
+    def deal(self) -> object:
+        """The next one."""
+        if not self._left:
+            self._left = [self._items[i] for i in self._rng.permutation(len(self._items))]
+        return self._left.pop()
+
+
+class Dealer:
+    """Decks of effects with their strengths, so that all of them come equally often."""
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        named = [e for e in EFFECTS if e.is_named]
+        unnamed = [e for e in EFFECTS if not e.is_named]
+        faults = [f for f in measurement.EFFECTS if f.is_named]
+        unnamed_faults = [f for f in measurement.EFFECTS if not f.is_named]
+        both: list[type[Effect] | type[SensorFault]] = [*unnamed, *unnamed_faults]
+
+        def deck(effects: Sequence[object]) -> Deck:
+            return Deck([(e, s) for e in effects for s in STRENGTHS], rng)
+
+        self.decks = {
+            "single": deck(named), "two": deck(named), "leave_one_out": deck(named), "sensor": deck(faults),
+            "outside": deck(both),
+        }  # fmt: skip
+
+    def deal(self, kind: str) -> tuple[type[Effect] | type[SensorFault], Strength]:
+        """An effect or fault and its strength, for a kind of case."""
+        return self.decks[kind].deal()  # type: ignore[return-value]  # as put in
+
+
+def drawn_cases(count: int, seed: int, kinds: Sequence[str] = ()) -> list[tuple[Case, np.random.Generator]]:
+    """Cases, each with the source of its noise; the same seed draws the same.
+
+    Args:
+        count: How many.
+        seed: Of all draws.
+        kinds: Only these kinds; default: all, by their shares.
+
+    Raises:
+        ValueError: A kind is not known, or no cases are wanted.
+    """
+    unknown = sorted(set(kinds) - set(KINDS))
+    if unknown:
+        raise ValueError(f"there is no kind of case `{unknown[0]}`; there are: {', '.join(KINDS)}")
+    if count < 1:
+        raise ValueError(f"{count} cases: ask for at least one")
+    rng = np.random.default_rng(np.random.SeedSequence([seed, 0]))
+    dealer = Dealer(rng)
+    shares = {k: KINDS[k] for k in kinds or KINDS}
+    plan = _plan(shares, count, rng)
+    sources = [np.random.default_rng(np.random.SeedSequence([seed, 1, n])) for n in range(count)]
+    return [(_drawn_case(f"case_{n + 1:04d}", kind, dealer, sources[n]), sources[n]) for n, kind in enumerate(plan)]
+
+
+def _plan(shares: dict[str, float], count: int, rng: np.random.Generator) -> list[str]:
+    """Kinds by their shares, in a drawn order; largest remainders fill up."""
+    total = sum(shares.values())
+    exact = {k: count * s / total for k, s in shares.items()}
+    counts = {k: int(v) for k, v in exact.items()}
+    rest = sorted(exact, key=lambda k: counts[k] - exact[k])[: count - sum(counts.values())]
+    kinds = [k for k in shares for _ in range(counts[k] + (k in rest))]
+    return [kinds[i] for i in rng.permutation(count)]
+
+
+def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Generator) -> Case:
+    wanted = [] if kind in ("null", "parameters") else [dealer.deal(kind)]
+    if kind == "two":
+        second = dealer.deal("two")
+        while second[0] is wanted[0][0]:
+            second = dealer.deal("two")
+        wanted.append(second)
+    setup = _setup([e for e, _ in wanted], rng)
+    rig = drawn_rig(setup.sheet, rng, 2.0 if kind == "parameters" else 1.0)
+    chain = drawn_chain(setup, rng)
+    effects, faults = [], []
+    for effect, strength in wanted:
+        if issubclass(effect, SensorFault):
+            faults.append(drawn_fault(effect, chain, strength, rng))
+        else:
+            effects.append(drawn_effect(effect, setup, rig, strength, rng))
+    training, held_out = _programmes(setup, [e.identifier for e, _ in wanted], rng)
+    return Case(
+        identifier, kind, setup, rig, in_order(effects), faults, {e.identifier: s for e, s in wanted}, training,
+        held_out, tuple(e.identifier for e, _ in wanted) if kind == "leave_one_out" else (), chain,
+    )  # fmt: skip
+
+
+def _setup(effects: Sequence[type[Effect] | type[SensorFault]], rng: np.random.Generator) -> Setup:
+    """A kind of rig on which all of the effects can act."""
+    able = [s for s in SETUPS.values() if all(_can(e, s) for e in effects)]
+    shares = np.array([SHARES[s.name] for s in able])
+    return able[int(rng.choice(len(able), p=shares / shares.sum()))]
+
+
+def _can(effect: type[Effect] | type[SensorFault], setup: Setup) -> bool:
+    if issubclass(effect, SensorFault):
+        is_swap = effect.places == ("swap",)
+        return any(k in setup.sensors for k in effect.kinds) and not (is_swap and setup.sheet.coils == 1)
+    return fits(effect, setup)
+
+
+def _programmes(
+    setup: Setup, effects: Sequence[str], rng: np.random.Generator
+) -> tuple[list[Programme], list[Programme]]:  # fmt: skip
+    """Two programmes to learn from and one of another shape to judge by."""
+    names = list(setup.shapes)
+    needed = [n for e in effects for n in _NEEDS.get(e, ()) if n in names]
+    order = [names[i] for i in rng.permutation(len(names))]
+    order = [*needed, *(n for n in order if n not in needed)]
+    training = [order[i] for i in rng.permutation(2)]
+    held_out = [needed[0] if needed else order[2]]
+    made = [setup.shapes[n](rng, setup.top, setup.stop) for n in (*training, *held_out)]
+    return made[:2], made[2:]
+
+
+def write_cases(folder: str | Path, count: int, seed: int, kinds: Sequence[str] = ()) -> None:
+    """Writes cases: `cases/<case>/` with scenario, task and recordings, `answers/<case>.json` and `.npz`.
+
+    Args:
+        folder: Made if it is not there.
+        count: How many.
+        seed: Of all draws; the same seed writes the same bytes.
+        kinds: Only these kinds of cases; default: all.
+
+    Raises:
+        ValueError: A kind is not known, or no cases are wanted.
+        WireError: A truth does not converge.
+    """
+    folder = Path(folder)
+    for case, rng in drawn_cases(count, seed, kinds):
+        write_case(case, folder / "cases", folder / "answers", rng)

@@ -1,0 +1,1 @@
+"""Effects that a truth may hold: one class each, with draws of strength, place and time."""
