@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import heading, results_folder
-from cosim.assemble import FABRIC_UNITS
+from cosim.mechanics_assembly import FABRIC_UNITS
 from cosim.parameters import resolve
 from cosim.quantity import PhysicalValue
 from cosim.scenario import scenario_folder

@@ -7,7 +7,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from cosim.components import (
     FabricComponent,
     FmuComponent,
     HangingMassComponent,
-    ParameterValue,
+    PendulumComponent,
     ProgrammeComponent,
     ProgrammeOutput,
     nanoseconds,
@@ -35,32 +34,14 @@ from cosim.errors import InputError
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
 from cosim.isolation.unit import IsolatedUnit
+from cosim.mechanics_assembly import build_fabric, build_pendulum
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import CONNECTION, ScaledConnection, Scenario
 from cosim.system import System
 from cosim.unit import Causality, Unit, UnitError, Variable
-from mechanics.fabric import FabricDesign
 from mechanics.hanging_mass import HangingMassUnit
-from mechanics.solver import SolverSettings
-from mechanics.unit import FabricUnit
-
-#: SI unit of every number of a fabric that a parameter set or a scenario may give.
-FABRIC_UNITS = {
-    "bar_diameter": "m",
-    "tolerance": "m",
-    "width": "m",
-    "length_cold": "m",
-    "length_hot": "m",
-    "length_offset": "m",
-    "link_mass": "kg",
-    "friction": "1",
-    "restitution": "1",
-    "steel_stiffness": "N/m",
-    "steel_rest_length": "m",
-    "tether_play": "m",
-}
 
 _CONNECTION = re.compile(CONNECTION)
 _ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d+(,\d+)*)\]$")
@@ -145,7 +126,7 @@ def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
 
 
 def _parameters(name: str, component: Component, source: Path) -> Resolved:
-    if not isinstance(component, FmuComponent | FabricComponent):
+    if not isinstance(component, FmuComponent | FabricComponent | PendulumComponent):
         return Resolved({}, {})
     try:
         return resolve(component.parameter_set, component.parameters, source)
@@ -162,7 +143,9 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
         if isinstance(component, HangingMassComponent):
             return HangingMassUnit(name, component.coils, component.mass.to("kg"))
         if isinstance(component, FabricComponent):
-            return _fabric(name, component, parameters)
+            return build_fabric(name, component, parameters)
+        if isinstance(component, PendulumComponent):
+            return build_pendulum(name, component, parameters)
         return build_fmu(name, component, parameters, source)
     except InputError as error:
         raise error.within(name, source) from error
@@ -196,40 +179,6 @@ def _network(component: CircuitComponent) -> Network:
         open_coils=tuple(component.open_coils),
         shorted_coils=tuple(component.shorted_coils),
     )
-
-
-def _fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
-    numbers: dict[str, Any] = {}
-    for key, value in parameters.values.items():
-        if key == "gravity":
-            numbers[key] = _gravity(value)
-        elif key not in FABRIC_UNITS:
-            raise ValueError(f"a fabric has no parameter `{key}`; it has: gravity, {', '.join(FABRIC_UNITS)}")
-        elif not isinstance(value, PhysicalValue):
-            raise ValueError(f"{key} must be one number with a unit")
-        else:
-            numbers[key] = value.to(FABRIC_UNITS[key])
-    design = FabricDesign(
-        rows=component.rows,
-        columns=component.columns,
-        tether_rows=component.tether.rows,
-        tether_kind=component.tether.kind,
-        **numbers,
-    )
-    solver = SolverSettings(
-        micro_step=component.solver.micro_step.to("s"),
-        iterations=component.solver.iterations,
-        penetration_limit=component.solver.penetration_limit.to("m"),
-        springs=component.solver.springs,
-    )
-    return FabricUnit(name, design, solver)
-
-
-def _gravity(value: ParameterValue) -> tuple[float, float, float]:
-    if not isinstance(value, list) or len(value) != 3:
-        raise ValueError("gravity is a list of three accelerations, for example [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
-    x, y, z = (_quantity(element).to("m/s^2") for element in value)
-    return x, y, z
 
 
 def _quantity(value: object) -> PhysicalValue:

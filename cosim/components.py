@@ -179,7 +179,23 @@ class HangingMassComponent(Strict):
     start: dict[str, AnyQuantity] = {}
 
 
+class PendulumComponent(Strict):
+    """A single rigid arm on a fixed hinge, in Bullet."""
+
+    kind: Literal["bullet_pendulum"]
+    micro_step: Duration = PhysicalValue(1.0, "ms")
+    parameter_set: str | None = None
+    parameters: dict[str, NumberValue] = {}
+    start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
+
+
 Component = Annotated[
-    ProgrammeComponent | CircuitComponent | FmuComponent | ActuatorComponent | FabricComponent | HangingMassComponent,
+    ProgrammeComponent
+    | CircuitComponent
+    | FmuComponent
+    | ActuatorComponent
+    | FabricComponent
+    | HangingMassComponent
+    | PendulumComponent,
     Field(discriminator="kind"),
 ]

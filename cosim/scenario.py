@@ -13,7 +13,17 @@ import pydantic
 import yaml
 from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
 
-from cosim.components import Component, Count, Duration, FabricComponent, ProgrammeComponent, Strict, Time, nanoseconds
+from cosim.components import (
+    Component,
+    Count,
+    Duration,
+    FabricComponent,
+    PendulumComponent,
+    ProgrammeComponent,
+    Strict,
+    Time,
+    nanoseconds,
+)
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
 from cosim.yaml_file import input_error, parse_yaml, read_text
@@ -112,6 +122,13 @@ class ScaledConnection(Strict):
     convert_units: StrictBool = Field(default=True, description="Whether the variables' units are converted first.")
 
 
+def _micro_step(component: FabricComponent | PendulumComponent) -> tuple[str, PhysicalValue]:
+    """Key and value of the step in which Bullet advances a component."""
+    if isinstance(component, FabricComponent):
+        return "solver.micro_step", component.solver.micro_step
+    return "micro_step", component.micro_step
+
+
 class Scenario(Strict):
     """One run, as a scenario file describes it."""
 
@@ -135,10 +152,10 @@ class Scenario(Strict):
         """Switching times must fall on the macro-step grid: a switch inside a step would act late, silently."""
         start, macro = nanoseconds(self.time.start), nanoseconds(self.time.macro_step)
         for name, component in self.components.items():
-            if isinstance(component, FabricComponent):
-                micro = component.solver.micro_step
+            if isinstance(component, FabricComponent | PendulumComponent):
+                key, micro = _micro_step(component)
                 if macro % nanoseconds(micro):
-                    raise ValueError(f"components.{name}.solver.micro_step ({micro}) must divide time.macro_step "
+                    raise ValueError(f"components.{name}.{key} ({micro}) must divide time.macro_step "
                                      f"({self.time.macro_step}) into a whole number of steps")  # fmt: skip
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():

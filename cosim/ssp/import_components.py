@@ -26,7 +26,7 @@ from cosim.yaml_file import parse_yaml, read_text
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
 OWN_KEYS = ("tolerance", "isolation", "structure", "record")
 _EXACT = 2**53
-_WITHOUT_FMU = ("programme", "ngspice", "bullet_fabric", "hanging_mass")
+_WITHOUT_FMU = ("programme", "ngspice", "bullet_fabric", "hanging_mass", "bullet_pendulum")
 
 
 def own_component(component: Component, out: Path) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.assemble import FABRIC_UNITS
+from cosim.mechanics_assembly import FABRIC_UNITS
 from cosim.parameters import resolve
 from cosim.scenario import scenario_folder
 from mechanics.fabric import FabricDesign

@@ -1,0 +1,100 @@
+"""Fabrics and pendulums from a scenario: parameters with units to designs in SI."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cosim.components import FabricComponent, ParameterValue, PendulumComponent
+from cosim.parameters import Resolved
+from cosim.quantity import PhysicalValue
+from mechanics.fabric import FabricDesign
+from mechanics.pendulum import PendulumDesign, PendulumUnit
+from mechanics.solver import SolverSettings
+from mechanics.unit import FabricUnit
+
+#: SI unit of every number of a fabric that a parameter set or a scenario may give.
+FABRIC_UNITS = {
+    "bar_diameter": "m",
+    "tolerance": "m",
+    "width": "m",
+    "length_cold": "m",
+    "length_hot": "m",
+    "length_offset": "m",
+    "link_mass": "kg",
+    "friction": "1",
+    "restitution": "1",
+    "steel_stiffness": "N/m",
+    "steel_rest_length": "m",
+    "tether_play": "m",
+}
+
+#: The same of a pendulum.
+PENDULUM_UNITS = {
+    "mass": "kg",
+    "centre_distance": "m",
+    "central_inertia": "kg*m^2",
+    "gravity": "m/s^2",
+    "viscous_damping": "N*m*s/rad",
+    "coulomb_friction": "N*m",
+    "stiction": "N*m",
+    "stribeck_speed": "rad/s",
+    "quadratic_drag": "N*m*s^2/rad^2",
+    "backlash": "rad",
+    "tilt": "rad",
+    "initial_angle": "rad",
+    "initial_angular_velocity": "rad/s",
+}
+
+
+def build_fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
+    """A fabric; raises ValueError for a parameter that does not fit."""
+    numbers: dict[str, Any] = {}
+    for key, value in parameters.values.items():
+        if key == "gravity":
+            numbers[key] = _gravity(value)
+        elif key not in FABRIC_UNITS:
+            raise ValueError(f"a fabric has no parameter `{key}`; it has: gravity, {', '.join(FABRIC_UNITS)}")
+        elif not isinstance(value, PhysicalValue):
+            raise ValueError(f"{key} must be one number with a unit")
+        else:
+            numbers[key] = value.to(FABRIC_UNITS[key])
+    design = FabricDesign(
+        rows=component.rows,
+        columns=component.columns,
+        tether_rows=component.tether.rows,
+        tether_kind=component.tether.kind,
+        **numbers,
+    )
+    solver = SolverSettings(
+        micro_step=component.solver.micro_step.to("s"),
+        iterations=component.solver.iterations,
+        penetration_limit=component.solver.penetration_limit.to("m"),
+        springs=component.solver.springs,
+    )
+    return FabricUnit(name, design, solver)
+
+
+def build_pendulum(name: str, component: PendulumComponent, parameters: Resolved) -> PendulumUnit:
+    """A pendulum; raises ValueError for a parameter that is missing or does not fit."""
+    numbers: dict[str, float] = {}
+    for key, value in parameters.values.items():
+        if key not in PENDULUM_UNITS:
+            raise ValueError(f"a pendulum has no parameter `{key}`; it has: {', '.join(PENDULUM_UNITS)}")
+        numbers[key] = _quantity(value).to(PENDULUM_UNITS[key])
+    missing = [key for key in ("mass", "centre_distance", "central_inertia") if key not in numbers]
+    if missing:
+        raise ValueError(f"a pendulum needs {missing[0]}: give it under parameters or in a parameter set")
+    return PendulumUnit(name, PendulumDesign(**numbers), component.micro_step.to("s"))
+
+
+def _gravity(value: ParameterValue) -> tuple[float, float, float]:
+    if not isinstance(value, list) or len(value) != 3:
+        raise ValueError("gravity is a list of three accelerations, for example [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
+    x, y, z = (_quantity(element).to("m/s^2") for element in value)
+    return x, y, z
+
+
+def _quantity(value: object) -> PhysicalValue:
+    if not isinstance(value, PhysicalValue):
+        raise ValueError(f"{value!r} is not a number with a unit")
+    return value
