@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
 import fmpy
-from fmpy.model_description import ModelDescription, read_model_description
+from fmpy.model_description import ModelDescription, ValidationError, read_model_description
 
 from cosim.errors import InputError
 from cosim.fmu.extraction import unpack
 from cosim.fmu.temporary import make_folder, remove_folder, remove_with
+
+_LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -59,13 +62,24 @@ def _read(path: Path, directory: Path) -> ModelDescription:
     if not (directory / "modelDescription.xml").is_file():
         raise InputError(path, "", "there is no modelDescription.xml in it", "an FMU holds one at its top level")
     try:
-        description = read_model_description(directory, validate=True)
+        description = _parse(path, directory)
         _complete(description, directory)
     except Exception as error:  # fmpy raises bare Exception for most defects
         raise InputError(
             path, "modelDescription.xml", f"it cannot be read: {_first_line(error)}", "check it with `fmpy validate`"
         ) from error
     return description
+
+
+def _parse(path: Path, directory: Path) -> ModelDescription:
+    """A description that breaks a rule but can be read is used, with a warning: other tools run such FMUs."""
+    try:
+        return read_model_description(directory, validate=True)
+    except ValidationError as error:
+        description = read_model_description(directory, validate=False)
+        more = f" (and {len(error.problems) - 1} more)" if len(error.problems) > 1 else ""
+        _LOG.warning("%s: modelDescription.xml is not valid: %s%s", path.name, error.problems[0], more)
+        return description
 
 
 def _complete(description: ModelDescription, directory: Path) -> None:

@@ -16,7 +16,10 @@ import pytest
 from cosim.errors import InputError
 from cosim.fmu import extraction
 from cosim.fmu.archive import open_fmu
+from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.temporary import PREFIX, make_folder, remove_folder, sweep
+from cosim.fmu.unit import FmuSettings
+from cosim.unit import NANOSECONDS
 
 
 def entry(name, mode=0o644, kind=stat.S_IFREG):
@@ -111,6 +114,23 @@ def test_a_damaged_archive_is_refused(tmp_path):
     path.write_bytes(content)
     with pytest.raises(InputError, match="Bad CRC"):
         open_fmu(path)
+
+
+def test_a_description_that_breaks_a_rule_but_can_be_read_is_used_with_a_warning(built, tmp_path, caplog):
+    path = tmp_path / "sloppy.fmu"
+    with zipfile.ZipFile(built["stair", 2]) as source, zipfile.ZipFile(path, "w") as archive:
+        for name in source.namelist():
+            data = source.read(name)
+            if name == "modelDescription.xml":
+                data = data.replace(b'modelName="stair"', b'modelName="stair" mood="sloppy"')
+            archive.writestr(name, data)
+    unit = CoSimulationUnit("stair", open_fmu(path), FmuSettings())
+    unit.initialise(0)
+    unit.do_step(0, NANOSECONDS)
+    assert unit.get("count") == 3
+    assert "sloppy.fmu: modelDescription.xml is not valid" in caplog.text
+    assert "mood" in caplog.text
+    unit.terminate()
 
 
 SCRIPT = """
