@@ -22,11 +22,13 @@ class Call:
         operation: For the library.
         owner: Object that calls the FMU's function; None where the operation calls none.
         attribute: Its attribute that holds the function.
+        results: ctypes objects that the function fills besides the status it returns.
     """
 
     operation: Operation
     owner: Any = None
     attribute: str = ""
+    results: Sequence[Any] = ()
 
 
 @dataclass(frozen=True)
@@ -79,16 +81,20 @@ def _answering(answers: list[tuple[Call, int]], perform: Callable[[], StepOutcom
     if not answers:
         return perform()
     (call, status), *others = answers
-    with _answered(call.owner, call.attribute, status):
+    with _answered(call, status):
         return _answering(others, perform)
 
 
 @contextmanager
-def _answered(owner: Any, attribute: str, status: int) -> Iterator[None]:
-    """The next call of a function returns `status` without being made; those after it are made."""
+def _answered(call: Call, status: int) -> Iterator[None]:
+    """The next call of a function gives the results it gave before without being made; those after it are made."""
+    owner, attribute = call.owner, call.attribute
     function = getattr(owner, attribute)
+    given = [(result, result.value) for result in call.results]
 
     def answer(*_arguments: Any) -> int:
+        for result, value in given:
+            result.value = value
         setattr(owner, attribute, function)
         return status
 

@@ -78,11 +78,13 @@ def step_call(unit: CoSimulationUnit, index: int, due: Array) -> Call:
         component=binding.fmu.component,
         due=due.ctypes.data,
     )
-    if is_fmi3:
-        *flags, reached = binding._results
-        operation.flags[:] = flags
-        operation.reached = reached
-    return Call(operation, binding, "_do_step")
+    if not is_fmi3:
+        return Call(operation, binding, "_do_step")
+    *flags, reached = binding._results
+    operation.flags[:] = flags
+    operation.reached = reached
+    results = (binding._event, binding._terminate, binding._early, binding._reached)
+    return Call(operation, binding, "_do_step", results)
 
 
 def is_carried(array: AnyArray) -> bool:
