@@ -51,7 +51,7 @@ static void begin(Step *s)
     const double *start = plan->given ? plan->given : COIL(initial_temperature);
     for (int64_t i = 0; i < s->width; i++) {
         s->temperature[i] = s->before[i] = s->middle[i] = start[i];
-        s->rate[i] = s->energy[i] = s->power[i] = s->current[i] = s->phase[i] = 0.0;
+        s->rate[i] = s->slope[i] = s->energy[i] = s->power[i] = s->current[i] = s->phase[i] = 0.0;
         s->ambient[i] = plan->ambient[0] + COIL(ambient_offset)[i];
         s->tension[i] = COIL(load)[i];
         s->extension[i] = s->shift[i] = 0.0;

@@ -137,7 +137,7 @@ def _state_locals(term: CandidateTerm, hook: str, used: set[str]) -> tuple[list[
                 f"const double {name}_slope = ({name}_inflow - {name}_rate * {name}) * "
                 f"bank_relaxation({name}_rate * s->dt);",
                 f"s->state[{at}] = {name} + s->dt * {name}_slope;",
-                f"s->state_rate[{at}] = {name}_slope;",
+                f"s->state_rate[{at}] = {name}_inflow - {name}_rate * s->state[{at}];",
             ]
         elif state.name in used and state.kind == "memory":
             after.append(f"s->state[{at}] = {state.name};")

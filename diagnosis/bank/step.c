@@ -99,7 +99,7 @@ static void balance_heat(Step *s, int64_t k)
     const double *cooling = COIL(cooling_rate), *off = COIL(off_power), *is_regressed = COIL(use_regressed_cooling_rate);
     double *restrict heat = s->heat, *restrict conductance = s->conductance, *restrict capacity = s->capacity;
     double *restrict ambient = s->ambient, *restrict temperature = s->temperature, *restrict energy = s->energy;
-    double *restrict rate = s->rate;
+    double *restrict rate = s->rate, *restrict slope = s->slope;
     const double *power = s->power;
     COILS_LOOP
     {
@@ -117,6 +117,7 @@ static void balance_heat(Step *s, int64_t k)
         const double net = power[i] + heat[i] - conductance[i] * (temperature[i] - ambient[i]);
         rate[i] = net / capacity[i] * bank_relaxation(conductance[i] / capacity[i] * dt);
         temperature[i] += rate[i] * dt;
+        slope[i] = (net - conductance[i] * rate[i] * dt) / capacity[i];
         energy[i] += power[i] * dt;
     }
 }
@@ -191,18 +192,18 @@ static void advance(Step *s, int64_t k)
     s->t = plan->is_midpoint ? s->t_begin + s->dt_middle : s->t_begin;
     const double reach = plan->is_switch[k] ? 0.0 : s->dt_middle; /* the old rate says nothing after a jump */
     double *restrict middle = s->middle, *restrict before = s->before;
-    const double *temperature = s->temperature, *rate = s->rate;
+    const double *temperature = s->temperature, *slope = s->slope;
     COILS_LOOP
     {
         before[i] = temperature[i];
-        middle[i] = temperature[i] + reach * rate[i];
+        middle[i] = temperature[i] + reach * slope[i];
     }
     find_resistance(s, s->middle);
     find_power(s, k);
     balance_heat(s, k);
     if (plan->given) {
         memcpy(s->temperature, plan->given + (k + 1) * width, width * sizeof(double));
-        COILS_LOOP s->rate[i] = (s->temperature[i] - before[i]) / s->dt;
+        COILS_LOOP s->slope[i] = s->rate[i] = (s->temperature[i] - before[i]) / s->dt;
     }
     COILS_LOOP middle[i] = 0.5 * (before[i] + temperature[i]);
     s->felt = s->middle;

@@ -6,7 +6,7 @@ CANDIDATE = CandidateTerm(
     identifier="minor_loop_memory",
     name="minor loops with a slope of their own",
     unit="stiffness",
-    law="d(stiffness) = slope * 0.5 * (d(heating) + d(cooling))",
+    law="d(stiffness) = slope * (max(d(heating), 0) + min(d(cooling), 0))",
     source=("A. Visintin, Differential Models of Hysteresis, Springer 1994, chapter III (generalised play, Duhem)"),
     parameters=(
         Parameter(
@@ -14,14 +14,14 @@ CANDIDATE = CandidateTerm(
             "1",
             0.0,
             1.0,
-            "0 is the play operator, 1 follows the mean branch: stiffness never falls on heating",
+            "0 is the play operator; at most 1, so that the outer loop stays as it is",
             (0.1, 0.3, 0.7),
             is_amplitude=True,
         ),
     ),
     places=("all", "coil"),
     lines={
-        "play": "remembered += slope * 0.5 * ((heating - heating_before) + (cooling - cooling_before));",
+        "play": "remembered += slope * (most(heating - heating_before, 0.0) + least(cooling - cooling_before, 0.0));",
     },
     signature="After a partial reversal the stiffness moves at once instead of standing still.",
     confused_with={

@@ -13,6 +13,15 @@ from diagnosis.bank.parameters import BankParameters
 #: Both make the same exact steps; the bank's exp is right to 1e-15 and rounding adds up over some thousand steps.
 TOLERANCE = 1e-9
 
+NAMES = {
+    "temperature": "actuator.temperature",
+    "stiffness": "actuator.stiffness",
+    "resistance": "actuator.resistance",
+    "power": "circuit.power",
+    "current": "circuit.string_current",
+    "supply_current": "circuit.supply_current",
+}
+
 NETWORK = """
 title: network under load
 time: {{stop: 40 s, macro_step: 20 ms, output_step: 100 ms, checkpoint_step: 20 s}}
@@ -75,9 +84,7 @@ def test_single_coils_follow_the_shipped_scenario():
     )  # fmt: skip
     assert dataset["actuator.temperature"].values.max() > 350.0
     assert_equal(
-        result, dataset, {"temperature": "actuator.temperature", "stiffness": "actuator.stiffness", "power": "circuit.power",
-                          "current": "circuit.string_current", "supply_current": "circuit.supply_current",
-                          "resistance": "actuator.resistance"},
+        result, dataset, NAMES
     )  # fmt: skip
 
 
@@ -101,7 +108,5 @@ def test_loaded_networks_follow_the_co_simulation(tmp_path, supply, regressed):
     )  # fmt: skip
     assert np.ptp(dataset["actuator.stiffness"].values) > 100.0
     assert_equal(
-        result, dataset, {"temperature": "actuator.temperature", "stiffness": "actuator.stiffness", "power": "circuit.power",
-                          "current": "circuit.string_current", "supply_current": "circuit.supply_current",
-                          "resistance": "actuator.resistance", "extension": "load.extension", "length": "load.length"},
+        result, dataset, {**NAMES, "extension": "load.extension", "length": "load.length"}
     )  # fmt: skip

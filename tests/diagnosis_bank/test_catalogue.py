@@ -19,9 +19,9 @@ ALL = [pytest.param(t, id=t.identifier) for t in catalogue()]
 MEASURED = ("temperature", "current", "extension")
 #: Names that formulas may use beside parameters, states and what a hook offers.
 LAW_NAMES = {
-    "heat", "heat_a", "heat_b", "T_a", "T_b", "g_a", "g_b", "hA", "R", "R_0", "R_string", "R_string_0", "V", "V_terminal",
-    "I_supply", "I_free", "T_ambient_0", "step", "sum", "d", "abs", "min", "is_off", "shift", "fraction", "stiffness_0",
-    "extension_0", "extension_marker", "damping", "value", "truth", "truth_of_other", "load",
+    "heat", "heat_a", "heat_b", "T_a", "T_b", "g_a", "g_b", "hA", "R", "R_0", "R_string", "R_string_0", "V",
+    "V_terminal", "I_supply", "I_free", "T_ambient_0", "step", "sum", "d", "abs", "min", "max", "is_off", "shift",
+    "fraction", "stiffness_0", "extension_0", "extension_marker", "value", "truth", "truth_of_other", "load",
 }  # fmt: skip
 
 
@@ -44,11 +44,12 @@ def base():
 def test_the_catalogue_holds_every_effect_that_was_asked_for():
     asked = {
         "contact_resistance", "supply_source_resistance", "supply_current_limit", "temperature_dependent_resistance",
-        "phase_dependent_resistance", "open_coil", "shorted_coil", "latent_heat", "second_mass", "shared_mass", "radiation",
-        "temperature_dependent_convection", "chassis_insulation", "neighbour_heat", "ambient_drift", "uneven_cooling",
-        "stress_dependent_transformation", "fatigue", "minor_loop_memory", "incomplete_transformation", "slide_friction",
-        "viscous_damping", "supply_wire_stiffness", "backlash", "tilt", "thermal_contraction", "sensor_clock_offset",
-        "sensor_lag", "sensor_gain", "sensor_bias", "sensor_drift", "sensor_clipping", "wrong_identity",
+        "phase_dependent_resistance", "open_coil", "shorted_coil", "latent_heat", "second_mass", "shared_mass",
+        "radiation", "temperature_dependent_convection", "chassis_insulation", "neighbour_heat", "ambient_drift",
+        "uneven_cooling", "stress_dependent_transformation", "fatigue", "minor_loop_memory",
+        "incomplete_transformation", "slide_friction", "viscous_damping", "supply_wire_stiffness", "backlash", "tilt",
+        "thermal_contraction", "sensor_clock_offset", "sensor_lag", "sensor_gain", "sensor_bias", "sensor_drift",
+        "sensor_clipping", "wrong_identity",
     }  # fmt: skip
     assert asked <= {t.identifier for t in NAMED}
     assert sum(not t.is_named for t in catalogue()) > 50
@@ -161,9 +162,8 @@ def test_places_are_named_from_one_and_gradients_have_no_mean():
 def test_one_candidate_at_two_places_keeps_both_instants():
     term = candidate("open_coil")
     found = places(term, NETWORK)
-    both = merge(
-        term, found[0].values(term, {"openness": 1.0, "instant": 5.0}), found[9].values(term, {"openness": 0.5, "instant": 8.0})
-    )  # fmt: skip
+    first = found[0].values(term, {"openness": 1.0, "instant": 5.0})
+    both = merge(term, first, found[9].values(term, {"openness": 0.5, "instant": 8.0}))
     assert both["openness"][[0, 9]].tolist() == [1.0, 0.5]
     assert both["instant"][[0, 9]].tolist() == [5.0, 8.0]
 
