@@ -74,6 +74,14 @@ def test_delays_and_levels_are_those_of_a_known_curve():
     assert math.isnan(found["peak_current_A"])
 
 
+def test_energy_counts_the_power_at_the_end_of_each_step_to_the_last():
+    time = np.array([0.0, 1.0, 2.0, 4.0])
+    dataset = xr.Dataset({"circuit.power": series(time, [0.0, 0.0, 2.0, 3.0], "W")})
+    found = values(measures(dataset, LAYOUT))
+    assert found["energy_J"] == 0.0 * 1 + 2.0 * 1 + 3.0 * 2
+    assert found["peak_power_W"] == 3.0
+
+
 def test_no_delay_is_given_where_nothing_moves():
     found = values(measures(run(short(fmu="tcp_muscle")), layout_of(short(), "actuator")))
     assert math.isnan(found["delay_on_stiffness_s"])  # its stiffness is constant

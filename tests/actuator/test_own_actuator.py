@@ -75,7 +75,7 @@ def replace_function(file, text):
 
 def law(kelvin):
     """Stiffness [N/m] that the page promises."""
-    return 157.1 + (356.1 - 157.1) / (1 + np.exp((kelvin - 328.15) / 5.0))
+    return 157.1 + (356.1 - 157.1) / (1 + np.exp((kelvin - 318.15) / 5.0))
 
 
 def assert_it_softens(run):
@@ -110,7 +110,7 @@ def test_the_page_leads_to_a_running_fabric_in_c(tmp_path, fmus):
     assert (tmp_path / "glassy_compared" / "comparison.png").is_file()
     follow(rest[4], tmp_path, fmus)
     info = follow(rest[5], tmp_path, fmus)
-    assert re.search(r"glass_temperature +parameter +Float64 +scalar +K +328\.15", info)
+    assert re.search(r"glass_temperature +parameter +Float64 +scalar +K +318\.15", info)
     assert re.search(r"stiffness +output +Float64 +12 +N/m", info)
     assert len(rest) == 6
 
