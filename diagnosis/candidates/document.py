@@ -1,0 +1,114 @@
+"""docs/candidates.md, written from the registry: `python -m diagnosis.candidates.document > docs/candidates.md`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter
+from diagnosis.candidates.hooks import FUNCTIONS, HOOKS, NAMES
+from diagnosis.candidates.registry import catalogue
+from diagnosis.candidates.unnamed import TARGETS, VARIABLES
+
+_UNITS = {
+    "electrical": "Electrical",
+    "thermal": "Thermal",
+    "stiffness": "Stiffness",
+    "mechanical": "Mechanical",
+    "measurement": "Measurement",
+}
+_HEAD = """# Candidate effects
+
+What `cosim diagnose` can add to a model. Written from the files of `diagnosis/candidates/`; do not edit it here:
+`python -m diagnosis.candidates.document > docs/candidates.md`.
+
+Each file states the law, its source, unit and bounds of every parameter with the reason for them, where the effect can
+act, what it leaves in the residuals, what it is confused with, and the C lines that put it into the running model. The
+first parameter is the strength: 0 switches the effect off. `step(x)` is 0 before and 1 after 0; `d(x)` is the rate
+of x (or, where the law holds at any rate, its change). A parameter named `instant` is an instant of the recording.
+"""
+_UNNAMED = """## Unnamed terms
+
+For a law that nobody named, generic terms compete with the effects above on the same footing: an amplitude `a` with a
+unit times a dimensionless function phi of dimensionless variables. They are reported as unnamed, with what they depend
+on.
+"""
+_HOOKS = """## Hooks
+
+C lines act at hooks. A step comes to them in this order; every parameter is a number at the element concerned.
+"""
+_ADD = """## A candidate of your own
+
+1. Copy the file that is nearest in kind and rename it; `identifier` is the file's name.
+2. Write the law, its source, the parameters with bounds and the reason for them (passivity or sign), and the lines.
+   Write a term so that strength 0 changes no bit: `x += a * ...` or `x *= 1.0 + a * ...`.
+3. A loss of heat belongs into `conductance`, which the step solves exactly, rather than into `heat`.
+4. `python -m pytest tests/diagnosis_bank` tries it: formula, zero, what it moves, passivity. Add a closed form of its
+   own.
+"""
+
+
+def _number(value: float) -> str:
+    return f"{value:g}"
+
+
+def _parameter(p: Parameter) -> str:
+    if p.is_fixed:
+        return f"`{p.name}` [{p.unit}]: given with the place"
+    starts = ", ".join(_number(v) for v in p.starts)
+    return f"`{p.name}` [{p.unit}], {_number(p.lower)} to {_number(p.upper)}: {p.reason}; tried from {starts}"
+
+
+def _named(term: CandidateTerm) -> Iterator[str]:
+    yield f"### {term.name[0].upper()}{term.name[1:]}\n"
+    yield f"`{term.identifier}` · acts on: {', '.join(p.replace('_', ' ') for p in term.places)}\n"
+    yield "\n".join(f"    {equation.strip()}" for equation in term.law.split(";")) + "\n"
+    for parameter in term.parameters:
+        yield f"- {_parameter(parameter)}"
+    if term.states:
+        yield "- adds " + ", ".join(f"`{s.name}` [{s.unit}] ({s.kind})" for s in term.states)
+    yield f"- leaves: {term.signature}"
+    for other, decision in term.confused_with.items():
+        kind = f"the model's own `{other[5:]}`" if other.startswith("base:") else f"`{other}`"
+        yield f"- confused with {kind}: {decision}"
+    yield f"- source: {term.source}\n"
+
+
+def _unnamed() -> Iterator[str]:
+    yield _UNNAMED
+    yield "| variable | dimensionless form | meaning |\n|---|---|---|"
+    for name, (formula, words) in VARIABLES.items():
+        yield f"| {name} | `{formula}` | {words} |"
+    yield "\n| equation | law | amplitude | terms |\n|---|---|---|---|"
+    for equation, target in TARGETS.items():
+        prefix = f"unnamed_{equation}_"
+        names = [t.identifier[len(prefix) :] for t in catalogue() if t.identifier.startswith(prefix)]
+        law = target.law.format(phi="phi")
+        yield f"| {equation} | `{law}` | {_number(target.bound)} {target.amplitude} at most | {', '.join(names)} |"
+    yield ""
+
+
+def markdown() -> str:
+    """The whole page."""
+    parts = [_HEAD]
+    for unit, title in _UNITS.items():
+        own = [t for t in catalogue() if t.is_named and t.unit == unit]
+        parts.append(f"## {title}\n")
+        for term in sorted(own, key=lambda t: t.identifier):
+            parts += _named(term)
+    parts += _unnamed()
+    parts.append(_HOOKS)
+    parts.append("| hook | what it may change |\n|---|---|")
+    parts += [f"| `{hook}` | {words} |" for hook, words in HOOKS.items()]
+    parts.append(
+        "\nLines may use these names, those of their own parameters and states, and the model's own parameters.\n"
+    )
+    parts.append("| name | unit | meaning |\n|---|---|---|")
+    parts += [f"| `{name}` | {unit} | {words} |" for name, (unit, words) in NAMES.items()]
+    parts.append("\n| function | value |\n|---|---|")
+    parts += [f"| `{call}` | {words} |" for call, words in FUNCTIONS.items()]
+    parts += ["", _ADD]
+    return "\n".join(parts).rstrip() + "\n"
+
+
+if __name__ == "__main__":
+    print(markdown(), end="")
