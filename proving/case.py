@@ -124,7 +124,7 @@ def _answer(case: Case) -> dict[str, Any]:
     return {
         "case": case.identifier, "kind": case.kind, "setup": case.setup.name, "engine": "own",
         "verdicts": _VERDICTS[case.kind], "hidden": list(case.hidden),
-        "findings": [_finding(case, e) for e in (*case.effects, *case.faults)],
+        "findings": [_finding(case, e) for e in _all(case)],
         "rig": {n: np.asarray(getattr(rig, n)).tolist() for n in numbers}
         | {"room": rig.room, "slew": rig.slew, "duhem": rig.duhem, "spread": rig.spread},
         "noise": {name: s.noise for name, s in case.sensors.items()},
@@ -147,3 +147,7 @@ def _finding(case: Case, effect: Effect | SensorFault) -> dict[str, Any]:
         "comparable_parameters": list(effect.same_parameters),
         "intervals": None if instant is None else [[instant, case.setup.stop]],
     }  # fmt: skip
+
+
+def _all(case: Case) -> list[Effect | SensorFault]:
+    return [*case.effects, *case.faults]

@@ -1,13 +1,14 @@
 """Stiffness of a NiTi coil against temperature: the paper's two branches, with a loop of the proving ground's own.
 
 Nearly all of the answer is a population of plays whose loops scatter in width (Prandtl and Ishlinskii); the rest
-follows Duhem's differential form, which leaves a branch at once when the temperature turns. On a full loop both give the
-paper's branches.
+follows Duhem's differential form, which leaves a branch at once when the temperature turns. On a full loop both give
+the paper's branches.
 """
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from proving.rig import Array, Rig
 
@@ -57,6 +58,10 @@ class Loop:
     def stiffness(self, celsius: Array) -> Array:
         """Of each piece at a temperature that it reaches without turning [N/m], shape (coils, cells)."""
         return self._mixed(self._moved_plays(celsius), self._moved_duhem(celsius))
+
+    def is_warmer(self, celsius: Array) -> npt.NDArray[np.bool_]:
+        """Which pieces are at least as warm as at the end of the step before."""
+        return np.asarray(celsius >= self._celsius)
 
     def accept(self, celsius: Array) -> Array:
         """The same, kept as history."""

@@ -105,6 +105,9 @@ def drawn_rig(sheet: DataSheet, rng: np.random.Generator, scatter: float = 1.0) 
     transformation temperature 0.2 K; of all together: R 1 %, h A 3 %, C 2 %, stiffness 1 %, transformation temperature
     0.5 K; surroundings 0.2 K.
 
+    What no data sheet tells is kept below what the sensors see (docs/proving.md): pins between two warm coils take
+    little heat, a bench supply settles within 2 to 20 ms, the loop is nearly a play.
+
     Args:
         sheet: What is believed.
         rng: Source of the draws.
@@ -124,10 +127,10 @@ def drawn_rig(sheet: DataSheet, rng: np.random.Generator, scatter: float = 1.0) 
         weight=sheet.mass * GRAVITY * off(0.0, 0.005),
         stiffness=off(0.01, 0.01),
         shift=scatter * (0.5 * rng.standard_normal() + 0.2 * rng.standard_normal(coils)),
-        end=1e-4 * np.exp(0.3 * rng.standard_normal(coils)),
+        end=2e-5 * np.exp(0.3 * rng.standard_normal(coils)),
         thermometer=rng.uniform(0.35, 0.65, coils),
         room=scatter * 0.2 * rng.standard_normal(),
-        slew=rng.uniform(0.02, 0.1),
-        duhem=rng.uniform(0.0, 0.06),
+        slew=rng.uniform(0.002, 0.02),
+        duhem=rng.uniform(0.0, 0.03),
         spread=rng.uniform(0.2, 0.6),
     )

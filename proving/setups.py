@@ -91,7 +91,7 @@ def _bath(turns: tuple[float, ...]) -> Shape:
 
 _ELECTRIC: Mapping[str, Shape] = {"staircase": staircase, "pulses": pulses, "soak": soak, "partial": partial}
 _NETWORK = Setup(
-    "network", DataSheet(), 6.0, 100.0, 0.1, _ELECTRIC, KINDS, EFFECTS, ("supply", "voltage")
+    "network", DataSheet(), 6.0, 100.0, 0.2, _ELECTRIC, KINDS, EFFECTS, ("supply", "voltage")
 )  # fmt: skip
 _LOADED = (*stiffness.EFFECTS, *mechanical.EFFECTS, outside.SoftStop, outside.StickAndRelease, outside.TwoWaySquare)
 _BLOCK = (

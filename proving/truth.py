@@ -100,7 +100,7 @@ class Truth:
         ambient = np.full(coils, room + self.rig.room)
         wire = np.repeat(ambient[:, None], cells, axis=1)
         now = Now(
-            self.wires.weight, 0.0, 0.0, 0.0, wire, ambient.copy(), ambient, zero, zero.copy(), zero.copy(),
+            self.wires.weight, 0.0, 0.0, 0.0, 0.0, wire, ambient.copy(), ambient, zero, zero.copy(), zero.copy(),
             np.zeros((coils, cells)), zero.copy(), zero.copy(), zero.copy(), self.rig.weight.copy(),
         )  # fmt: skip
         for effect in self.effects:
@@ -123,10 +123,16 @@ class Truth:
         self._advance(now, 0.5 * (end - begin))
         now.time, now.size = begin, end - begin
         self._surround(now, programme)
-        levels = [programme.at(t, self.rig.slew) for t in (begin, 0.5 * (begin + end), end - 1e-9)]
-        record.keep_flows(now, self._electricity(now, now.wire, levels[0]))
-        self._heat_up(now, levels[1])
-        record.keep_flows(now, self._electricity(now, now.wire, levels[2]))
+        first, last = (programme.at(t, self.rig.slew) for t in (begin, end - 1e-9))
+        now.moment = begin
+        record.keep_flows(now, self._electricity(now, now.wire, first))
+        # While the supply moves straight from one level to the other, heat goes with the mean of the square.
+        is_voltage = not (self.rig.sheet.is_bath or self.rig.sheet.is_driven_by_power)
+        level = np.sqrt((first**2 + first * last + last**2) / 3.0) if is_voltage else 0.5 * (first + last)
+        now.moment = 0.5 * (begin + end)
+        self._heat_up(now, level)
+        now.moment = end
+        record.keep_flows(now, self._electricity(now, now.wire, last))
         record.keep_ambient(now)
         self._advance(now, 0.5 * (end - begin))
         now.size = end - begin
@@ -160,6 +166,8 @@ class Truth:
             np.zeros(strings),
         )  # fmt: skip
         now.voltage = float(level)
+        for effect in self.effects:
+            now.voltage = effect.voltage(now, now.voltage)
         for effect in self.effects:
             effect.branches(now, network)
         now.current, into = solve(network, now.voltage)
@@ -198,8 +206,10 @@ class Truth:
             return capacity * wire, capacity
         celsius = wire - CELSIUS - (self.rig.shift + self._change.shift)[:, None]
         latent = self._latent[:, None] * self.wires.weight
-        here, above, below = (phase(self._loop.stiffness(celsius + d)) for d in (0.0, 5e-3, -5e-3))
-        return capacity * wire + latent * here, capacity + latent * (above - below) / 1e-2
+        here = phase(self._loop.stiffness(celsius))
+        ahead = np.where(self._loop.is_warmer(celsius), 1e-2, -1e-2)
+        slope = (phase(self._loop.stiffness(celsius + ahead)) - here) / ahead
+        return capacity * wire + latent * here, capacity + latent * slope
 
     def _accept(self, now: Now) -> None:
         """Stiffness at the temperatures reached."""

@@ -22,7 +22,8 @@ class Now:
 
     Args:
         weight: Share of every piece in its wire, shape (cells,).
-        time: [s]
+        time: Begin of the step under way [s].
+        moment: Time within it that voltages and currents are asked for [s].
         size: Of the step under way [s].
         voltage: Of the supply [V].
         wire: Temperature of every piece [K].
@@ -40,6 +41,7 @@ class Now:
 
     weight: Array
     time: float
+    moment: float
     size: float
     voltage: float
     wire: Array
@@ -122,6 +124,10 @@ class Effect:
 
     def begin(self, now: Now) -> None:
         """Before the first step: states of its own start here."""
+
+    def voltage(self, now: Now, voltage: float) -> float:
+        """Voltage of the supply [V] where `voltage` was asked for."""
+        return voltage
 
     def resistivity(self, now: Now, factor: Array) -> None:
         """Change the resistance of every piece, as a factor (coils, cells) on its share of the coil's."""

@@ -132,6 +132,26 @@ class ContactVoltage(Effect):
         network.drop += self.parameters["V_contact"] * self.place.amount[network.first]
 
 
+class SlowSupply(Effect):
+    """A supply that follows its set point with a time constant."""
+
+    identifier = "slow_supply"
+    unit = "electrical"
+    is_named = False
+    law = "tau * d(V) = V_set - V"
+    places = ("supply",)
+    strengths = {"tau": (0.4, 0.8, 1.6)}
+
+    def begin(self, now: Now) -> None:
+        self._behind, self._set, self._time = 0.0, 0.0, 0.0
+
+    def voltage(self, now: Now, voltage: float) -> float:
+        self._behind *= float(np.exp(-max(now.moment - self._time, 0.0) / self.parameters["tau"]))
+        self._behind += self._set - voltage  # the terminals do not jump
+        self._set, self._time = voltage, now.moment
+        return voltage + self._behind
+
+
 class AgeingResistance(Effect):
     """Resistance grows with the charge that has flowed, as by electromigration."""
 
@@ -254,6 +274,6 @@ class TwoWaySquare(Effect):
 
 
 EFFECTS: tuple[type[Effect], ...] = (
-    PeltierJunction, WetFilm, BoilingOnset, MotionDraught, StringLeak, ContactVoltage, AgeingResistance,
+    PeltierJunction, WetFilm, BoilingOnset, MotionDraught, StringLeak, ContactVoltage, SlowSupply, AgeingResistance,
     RateDependentLoop, AgeingStiffness, MagneticPull, SoftStop, TwoWaySquare, StickAndRelease,
 )  # fmt: skip
