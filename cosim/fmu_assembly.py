@@ -26,8 +26,17 @@ def fmu_folder() -> Path:
     return Path(given) if given else Path(__file__).resolve().parent.parent / "build" / "fmus"
 
 
-def build_fmu(name: str, component: FmuComponent, parameters: Resolved, source: Path) -> Unit:
+def build_fmu(
+    name: str, component: FmuComponent, parameters: Resolved, source: Path, reports_events: bool = False
+) -> Unit:
     """The unit of an FMU component.
+
+    Args:
+        name: Name of the component.
+        component: What the scenario says of it.
+        parameters: Its parameters; for an FMU of any author their units are those of its own description.
+        source: File of the scenario.
+        reports_events: Whether its steps end at their first event (`on_event: synchronise`).
 
     Raises:
         InputError: There is no such FMU, it cannot be loaded, or a parameter or start value does not fit.
@@ -36,8 +45,9 @@ def build_fmu(name: str, component: FmuComponent, parameters: Resolved, source: 
     try:
         tolerance = component.tolerance.to("1") if component.tolerance is not None else None
         settings = FmuSettings(
-            component.structure, parameters.values, component.start, tuple(component.record), tolerance
-        )
+            component.structure, parameters.values, component.start, tuple(component.record), tolerance,
+            report_early_return=reports_events,
+        )  # fmt: skip
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         build = partial(kind, name, archive, settings)
         isolation = Isolation() if component.isolation == "process" else component.isolation

@@ -10,6 +10,7 @@ import ctypes
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -34,6 +35,8 @@ Interface = Literal["co_simulation", "model_exchange"]
 
 _STATUS = {1: "warning", 2: "discard", 3: "error", 4: "fatal", 5: "pending"}
 WARNING, DISCARD, FATAL = 1, 2, 4
+#: File of an FMU that may be instantiated once per process, to the name of the unit that uses it.
+_ONLY_ONCE: dict[Path, str] = {}
 
 
 @dataclass(frozen=True)
@@ -103,20 +106,39 @@ class Binding(ABC):
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
         self.uses_event_mode = interface == "model_exchange"
+        self._claim()
         try:
             self.fmu = self._load(kind.modelIdentifier)
         except InputError:
             raise
         except Exception as error:  # fmpy raises bare Exception
+            if self._claimed is not None:
+                del _ONLY_ONCE[self._claimed]
             said = "".join(f"; it says: {m}" for m in self.messages[-3:])
             raise InputError(
                 archive.path,
                 f"binaries/.../{kind.modelIdentifier}",
                 f"its binary cannot be loaded: {error}{said}",
-                "the binary may need libraries that are not installed here (see `ldd`)",
+                "it needs the tool that exported it (needsExecutionTool): install that"
+                if kind.needsExecutionTool
+                else "the binary may need libraries that are not installed here (see `ldd`)",
             ) from error
         self.is_alive = True
         self.is_fatal = False
+
+    def _claim(self) -> None:
+        """Refuse a second instance of an FMU that allows one per process."""
+        self._claimed: Path | None = None
+        if not self.capabilities.canBeInstantiatedOnlyOncePerProcess:
+            return
+        path = self.archive.path.resolve()
+        if path in _ONLY_ONCE:
+            raise InputError(
+                path, "canBeInstantiatedOnlyOncePerProcess", f"{_ONLY_ONCE[path]} uses it already",
+                f"give {self.name} `isolation: process`",
+            )  # fmt: skip
+        self._claimed = path
+        _ONLY_ONCE[path] = self.name
 
     @abstractmethod
     def _load(self, identifier: str) -> Any: ...
@@ -254,6 +276,8 @@ class Binding(ABC):
         if not self.is_alive:
             return
         self.is_alive = False
+        if self._claimed is not None:
+            _ONLY_ONCE.pop(self._claimed, None)
         if self.is_fatal:
             return
         try:

@@ -142,8 +142,8 @@ class FmuUnit(Unit):
         for name, write in self.writers.items():
             if name in self._given:
                 write()
-            else:
-                self.buffers.input_readers[name]()
+            elif self.variables[name].start is None:
+                self.buffers.input_readers[name]()  # not every FMU lets its inputs be read, so only where it must be
         self.buffers.read(time)
         self._start_time = time
 

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import zipfile
+
 import numpy as np
 import pytest
 
+from cosim.errors import InputError
+from cosim.fmu.archive import open_fmu
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.fmu.unit import FmuSettings
 from cosim.unit import NANOSECONDS, StepStatus, UnitError
 
 both_versions = pytest.mark.parametrize("version", [2, 3])
@@ -93,3 +99,34 @@ def test_what_is_set_again_unchanged_costs_no_restart_but_a_change_is_seen(start
         unit.set("u", np.array(value))
         unit.do_step(index * SIZE, SIZE)
     assert abs(unit.get("integral") + 1.0) < 1e-7  # 1 + 1 - 3; rtol 1e-8
+
+
+def sloppy_copy(source, target, old, new):
+    """An FMU with another description."""
+    with zipfile.ZipFile(source) as given, zipfile.ZipFile(target, "w") as archive:
+        for name in given.namelist():
+            data = given.read(name)
+            archive.writestr(name, data.replace(old, new) if name == "modelDescription.xml" else data)
+    return target
+
+
+def test_an_fmu_that_allows_one_instance_per_process_gets_one(built, tmp_path):
+    old = b'canGetAndSetFMUState="true"'
+    path = sloppy_copy(
+        built["trouble", 3], tmp_path / "alone.fmu", old, old + b' canBeInstantiatedOnlyOncePerProcess="true"'
+    )
+    first = CoSimulationUnit("first", open_fmu(path), FmuSettings())
+    with pytest.raises(InputError, match=r"first uses it already\n.*give second `isolation: process`"):
+        CoSimulationUnit("second", open_fmu(path), FmuSettings())
+    first.terminate()
+    CoSimulationUnit("third", open_fmu(path), FmuSettings()).terminate()
+
+
+def test_a_macro_step_must_be_a_multiple_of_a_fixed_internal_step(built, tmp_path):
+    old = b'canHandleVariableCommunicationStepSize="true"'
+    path = sloppy_copy(built["trouble", 3], tmp_path / "fixed.fmu", old, b'fixedInternalStepSize="0.25"')
+    unit = CoSimulationUnit("unit", open_fmu(path), FmuSettings())
+    unit.check_step(SIZE // 2)
+    with pytest.raises(InputError, match=r"macro-step of 0\.3 s is no multiple"):
+        unit.check_step(3 * SIZE // 10)
+    unit.terminate()

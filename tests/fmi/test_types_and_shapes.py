@@ -188,3 +188,13 @@ def test_each_access_says_what_it_does(load):
     assert write.buffer is unit.get("cube_in")
     read = next(r for r in unit.readers if r.variable.variable.name == "texts_out")
     assert (read.function, read.is_direct, read.variable.variable.type) == ("fmi3GetString", False, VariableType.STRING)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_an_fmu_whose_inputs_cannot_be_read_runs_from_its_declared_start_values(started, version):
+    unit = started("trouble", version)
+    with pytest.raises(UnitError, match="refuses this variable"):
+        unit.buffers.input_readers["u"]()
+    assert unit.get("u") == 1.0
+    unit.do_step(0, NANOSECONDS)
+    assert unit.get("integral") == 1.0

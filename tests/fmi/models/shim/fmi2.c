@@ -58,7 +58,10 @@ fmi2Status fmi2Reset(fmi2Component c) {
     fmi2Status fmi2Get##Name(fmi2Component c, const fmi2ValueReference r[], size_t n, type values[]) {          \
         IN_MODES(~(FAILED | INSTANTIATED), "fmi2Get" #Name)                                                     \
         model_outputs(&V);                                                                                      \
-        for (size_t i = 0; i < n; i++) values[i] = (type)V.field[r[i]][0];                                      \
+        for (size_t i = 0; i < n; i++) {                                                                        \
+            if (!model_is_readable(r[i])) { refuse(instance, "fmi2Get" #Name, "refuses this variable"); return fmi2Error; } \
+            values[i] = (type)V.field[r[i]][0];                                                                 \
+        }                                                                                                       \
         return fmi2OK;                                                                                          \
     }                                                                                                           \
     fmi2Status fmi2Set##Name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type values[]) {    \

@@ -103,11 +103,13 @@ static bool is_settable(Instance *instance, unsigned r) {
         IN_MODES(~(FAILED | INSTANTIATED | CONFIGURATION), "fmi3Get" #Name)                                      \
         model_outputs(&V);                                                                                       \
         size_t k = 0;                                                                                            \
-        for (size_t i = 0; i < n; i++)                                                                           \
+        for (size_t i = 0; i < n; i++) {                                                                         \
+            if (!model_is_readable(r[i])) { refuse(instance, "fmi3Get" #Name, "refuses this variable"); return fmi3Error; } \
             for (size_t j = 0; j < model_size(&V, r[i]); j++) {                                                  \
                 if (k == count) { refuse(instance, "fmi3Get" #Name, "has too few values"); return fmi3Error; }   \
                 values[k++] = (cast)V.field[r[i]][j];                                                            \
             }                                                                                                    \
+        }                                                                                                        \
         return k == count ? fmi3OK : fmi3Error;                                                                  \
     }                                                                                                            \
     fmi3Status fmi3Set##Name(fmi3Instance c, const fmi3ValueReference r[], size_t n, const type values[], size_t count) { \

@@ -19,6 +19,8 @@ typedef struct {
 
 #define V (instance->state.values)
 
+__attribute__((weak)) bool model_is_readable(unsigned reference) { (void)reference; return true; }
+
 /* Refuse a call that does not belong to the present mode. */
 #define IN_MODES(modes, function)                                                \
     Instance *instance = c;                                                      \
