@@ -84,8 +84,8 @@ def assert_it_softens(run):
     # 8 V across six coils for 2.5 s, constants of the template.
     rise = ((8 / 6) ** 2 / 2.2) / 0.00881 * (1 - np.exp(-0.00881 / 0.0396 * 2.5))
     assert kelvin.max() - 295.15 == pytest.approx(rise, rel=1e-9)
-    assert stiffness[0].min() > 355.0
-    assert stiffness[-1].max() < 250.0
+    assert stiffness[0].min() > 354.0
+    assert stiffness.min() < 180.0
     assert np.isfinite(run["fabric.max_curvature"].values).all()
     assert abs(run.attrs["energy_residual"]) < 1e-9
 
