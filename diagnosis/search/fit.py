@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.linalg import cho_factor, cho_solve
 
 from cosim.unit import Array
 from diagnosis.search.problem import Model, Point, Term
@@ -88,19 +88,17 @@ class _Objective:
         return np.asarray(np.clip(x, self.lower + inside, self.upper - inside))
 
     def residuals(self, x: Array) -> Array:
-        point = self.point(x)
-        found = self.model.residuals([point])[0]
-        found = np.where(np.isfinite(found), found, 1e6)  # a model that cannot be simulated is a bad one
-        size = np.abs(found)
-        shrunk = np.sign(found) * np.sqrt(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2))
-        return np.concatenate([shrunk, point.base])
+        found = self.model.residuals([self.point(x)])[0]
+        return np.where(np.isfinite(found), found, 1e6)  # a model that cannot be simulated is a bad one
 
-    def jacobian(self, x: Array) -> Array:
+    def cost(self, x: Array, residuals: Array) -> float:
+        return cost(residuals, x[: self.count])
+
+    def jacobian(self, x: Array, here: Array) -> Array:
+        """Of the residuals by x, with Huber weights, and of the prior below, shape (residuals + parameters, free)."""
         point = self.point(x)
-        here = self.model.residuals([point])[0]
         columns = [self.model.base_jacobian(point)]
-        steps = []
-        moved = []
+        steps, moved = [], []
         for i in range(self.count, len(x)):
             step = STEP * max(abs(x[i]), 1.0)
             step = step if x[i] + step < self.upper[i] else -step
@@ -111,11 +109,9 @@ class _Objective:
         if moved:
             columns.append(((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T)
         found = np.hstack(columns)
-        size = np.abs(here)
-        slope = np.where(size > HUBER, HUBER / np.sqrt(2 * HUBER * np.maximum(size, HUBER) - HUBER**2), 1.0)
         prior = np.zeros((self.count, len(x)))
         prior[:, : self.count] = np.eye(self.count)
-        return np.vstack([np.where(np.isfinite(found), found, 0.0) * slope[:, None], prior])
+        return np.vstack([np.where(np.isfinite(found), found, 0.0) * huber_weights(here)[:, None], prior])
 
 
 def _scale(starts: Sequence[float], width: float) -> float:
@@ -128,24 +124,57 @@ def _scale(starts: Sequence[float], width: float) -> float:
 def fit(model: Model, start: Point, iterations: int = 60) -> Fit:
     """Fit all parameters of the model and of the terms in `start`, from there.
 
+    Levenberg-Marquardt on the normal equations, which the prior keeps well conditioned; bounds are kept by leaving out
+    what would pass them.
+
     Args:
         model: Model and recordings.
         start: Where the search begins; its terms are those that are fitted.
-        iterations: Most evaluations of the residuals.
+        iterations: Most Jacobians.
 
     Returns:
         The fit, converged or not: it says so.
+
+    Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7.
     """
     objective = _Objective(model, list(start.terms))
-    found = least_squares(
-        objective.residuals, objective.vector(start), objective.jacobian, bounds=(objective.lower, objective.upper),
-        method="trf", x_scale=1.0, ftol=TOLERANCE, xtol=1e-10, gtol=1e-8, max_nfev=iterations,
-    )  # fmt: skip
-    point = objective.point(found.x)
-    residuals = model.residuals([point])[0]
-    jacobian = objective.jacobian(found.x)
+    x = objective.vector(start)
+    here = objective.residuals(x)
+    value, damping, is_converged = objective.cost(x, here), 1e-3, False
+    for _ in range(iterations):
+        jacobian = objective.jacobian(x, here)
+        weighted = np.concatenate([huber_weights(here) * here, x[: objective.count]])
+        normal, slope = jacobian.T @ jacobian, jacobian.T @ weighted
+        before = value
+        x, here, value, damping = _descend(objective, (x, here, value), (normal, slope), damping)
+        if before - value <= TOLERANCE * (1.0 + before):
+            is_converged = True
+            break
+    jacobian = objective.jacobian(x, here)
     jacobian[:, objective.count :] /= objective.scale
-    return Fit(point, cost(residuals, point.base), residuals, jacobian, found.status > 0)
+    return Fit(objective.point(x), value, model.residuals([objective.point(x)])[0], jacobian, is_converged)
+
+
+def _descend(
+    objective: _Objective, now: tuple[Array, Array, float], quadratic: tuple[Array, Array], damping: float
+) -> tuple[Array, Array, float, float]:
+    """One accepted step, or none where no damping brings the cost down."""
+    x, here, value = now
+    normal, slope = quadratic
+    size = np.maximum(np.diag(normal), 1e-12)
+    for _ in range(12):
+        is_held = ((x <= objective.lower) & (slope > 0)) | ((x >= objective.upper) & (slope < 0))
+        free = np.flatnonzero(~is_held)
+        damped = normal[np.ix_(free, free)] + np.diag(damping * size[free])
+        step = np.zeros_like(x)
+        step[free] = -cho_solve(cho_factor(damped), slope[free])
+        other = np.clip(x + step, objective.lower, objective.upper)
+        there = objective.residuals(other)
+        cost_there = objective.cost(other, there)
+        if cost_there < value:
+            return other, there, cost_there, max(damping / 8.0, 1e-9)
+        damping *= 6.0
+    return x, here, value, damping
 
 
 def fit_best(model: Model, starts: Sequence[Point], iterations: int = 60) -> Fit:

@@ -9,6 +9,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.fit import Fit, fit, fit_best
+from diagnosis.search.focus import focus
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.score import Score, Scoring, score
 from diagnosis.search.structure import Structure, structure
@@ -134,7 +135,8 @@ def _grow(
     grown: dict[frozenset[Term], Explanation] = {}
     scorings = []
     for explanation in current:
-        scoring = score(model, explanation.fit, terms, seed=settings.seed)
+        near = focus(model, explanation.fit.residuals, terms)
+        scoring = score(model, explanation.fit, near, seed=settings.seed)
         scorings.append(scoring)
         for candidate in _choice(scoring.ranked, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))

@@ -1,0 +1,203 @@
+"""A scenario to a coil bank: which coils there are, what drives them, and the values of their parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.assemble import Assembly, assemble
+from cosim.components import (
+    CircuitComponent,
+    FmuComponent,
+    HangingMassComponent,
+    ProgrammeComponent,
+    nanoseconds,
+)
+from cosim.connection import Connection
+from cosim.errors import InputError
+from cosim.fmu.unit import FmuUnit
+from cosim.programme import ProgrammeUnit
+from cosim.quantity import PhysicalValue
+from cosim.scenario import Scenario
+from cosim.unit import Array
+from diagnosis.bank.inputs import Drive, Programme
+from diagnosis.bank.layout import BankLayout
+from diagnosis.bank.parameters import BankParameters
+
+#: Standard gravity as mechanics.hanging_mass takes it [m/s^2].
+GRAVITY = 9.81
+
+
+class NoBank(Exception):
+    """The scenario is none that a coil bank can simulate; the text says why."""
+
+
+@dataclass(frozen=True)
+class Translation:
+    """A scenario as a bank.
+
+    Args:
+        layout: Coils and strings.
+        parameters: Nominal values, SI.
+        drive: What drives it.
+        start: First instant [s].
+        actuator: Name of the component that holds the coils.
+        circuit: Name of the circuit, or None where power is given.
+        load: Name of the hanging load, or None.
+    """
+
+    layout: BankLayout
+    parameters: BankParameters
+    drive: Drive
+    start: float
+    actuator: str
+    circuit: str | None
+    load: str | None
+
+
+def translate(scenario: Scenario) -> Translation:
+    """Read the bank off a scenario.
+
+    Raises:
+        NoBank: It has a component that a bank does not have (a fabric, another FMU).
+        InputError: The scenario is wrong.
+    """
+    actuators = [n for n, c in scenario.components.items() if isinstance(c, FmuComponent)]
+    if len(actuators) != 1:
+        raise NoBank(f"it has {len(actuators)} FMUs; a bank has one")
+    for name, component in scenario.components.items():
+        known = ProgrammeComponent | CircuitComponent | HangingMassComponent | FmuComponent
+        if not isinstance(component, known):
+            raise NoBank(f"a bank has no {component.kind} ({name})")
+    actuator = scenario.components[actuators[0]]
+    assert isinstance(actuator, FmuComponent)
+    if actuator.fmu != "thermal_stiffness":
+        raise NoBank(f"a bank simulates thermal_stiffness, not {actuator.fmu}")
+    assembly = assemble(scenario)
+    try:
+        return _Reader(scenario, assembly, actuators[0]).translation()
+    finally:
+        assembly.system.terminate()
+
+
+class _Reader:
+    """Reads one assembled scenario."""
+
+    def __init__(self, scenario: Scenario, assembly: Assembly, actuator: str) -> None:
+        self.scenario, self.assembly, self.actuator = scenario, assembly, actuator
+        self.connections = list(assembly.system.connections)
+        components = scenario.components
+        self.circuit = next((n for n, c in components.items() if isinstance(c, CircuitComponent)), None)
+        self.load = next((n for n, c in components.items() if isinstance(c, HangingMassComponent)), None)
+
+    def translation(self) -> Translation:
+        coils = int(self.assembly.system.units[self.actuator].variables["temperature"].size)
+        ambient = self._programme(self.actuator, "ambient_temperature")
+        start = nanoseconds(self.scenario.time.start) * 1e-9
+        if self.circuit is None:
+            layout = BankLayout(coils)
+            power = self._programme(self.actuator, "power", coils)
+            drive = Drive(ambient, power=power)
+        else:
+            circuit = self.scenario.components[self.circuit]
+            assert isinstance(circuit, CircuitComponent)
+            if circuit.open_coils or circuit.shorted_coils:
+                raise NoBank("a bank begins with whole coils (give open_coils as a finding, not in the scenario)")
+            layout = BankLayout(coils, tuple(circuit.strings), circuit.supply)
+            drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage"))
+        return Translation(layout, self._parameters(), drive, start, self.actuator, self.circuit, self.load)
+
+    def _into(self, unit: str, variable: str) -> list[Connection]:
+        return [c for c in self.connections if c.target == (unit, variable)]
+
+    def _programme(self, unit: str, variable: str, elements: int | None = None) -> Programme:
+        """The course of an input that programmes drive, in SI."""
+        parts = self._into(unit, variable)
+        if not parts:
+            raise NoBank(f"nothing is connected to {unit}.{variable}")
+        found = [self._course(c) for c in parts]
+        if len(found) == 1 and parts[0].target_element is None:
+            times, values, is_linear = found[0]
+            if elements is not None and values.ndim == 1:
+                values = np.repeat(values[:, None], elements, axis=1)
+            return Programme(times, values, is_linear)
+        if elements is None or any(is_linear for _, _, is_linear in found):
+            raise NoBank(f"{unit}.{variable} is put together from several linear programmes")
+        times = np.unique(np.concatenate([t for t, _, _ in found]))
+        values = np.zeros((len(times), elements))
+        for connection, (own, course, _) in zip(parts, found):
+            held = course[np.maximum(np.searchsorted(own, times, side="right") - 1, 0)]
+            assert connection.target_element is not None
+            values[:, connection.target_element[0]] = held
+        return Programme(times, values)
+
+    def _course(self, connection: Connection) -> tuple[Array, Array, bool]:
+        source = self.assembly.system.units[connection.source[0]]
+        if not isinstance(source, ProgrammeUnit):
+            raise NoBank(f"{connection}: its source is no programme")
+        course = source.courses[connection.source[1]]
+        values = course.values
+        if connection.source_element is not None:
+            values = values[:, connection.source_element[0]]
+        values = connection.factor * np.asarray(values, dtype=np.float64) + connection.offset
+        return np.array(course.times) * 1e-9, values, course.is_linear
+
+    def _parameters(self) -> BankParameters:
+        values = self._fmu_values()
+        base: dict[str, float | Array] = {
+            "conductance": np.asarray(values["heat_transfer_coefficient"]) * values["area"],
+            "capacity": values["density"] * np.asarray(values["volume"]) * values["specific_heat"],
+            "rest_length": values["coil_rest_length"],
+        }
+        for name in (
+            "reference_resistance", "resistance_temperature_coefficient", "reference_temperature", "cooling_rate",
+            "off_power", "initial_temperature", "heating_a", "heating_b", "heating_c", "heating_d", "cooling_a",
+            "cooling_b", "cooling_c", "cooling_d",
+        ):  # fmt: skip
+            base[name] = values[name]
+        base["use_regressed_cooling_rate"] = float(values["use_regressed_cooling_rate"])
+        if self.circuit is not None:
+            circuit = self.scenario.components[self.circuit]
+            assert isinstance(circuit, CircuitComponent)
+            base["string_resistance"] = circuit.string_resistance.to("ohm")
+            base["supply_resistance"] = circuit.supply_resistance.to("ohm")
+        if self.load is not None:
+            load = self.scenario.components[self.load]
+            assert isinstance(load, HangingMassComponent)
+            base["load"] = load.mass.to("kg") * GRAVITY
+        return BankParameters(base)
+
+    def _fmu_values(self) -> dict[str, Array]:
+        """Values of the FMU's parameters: its own start values, replaced by those of the scenario."""
+        unit = self.assembly.system.units[self.actuator]
+        if not isinstance(unit, FmuUnit):
+            raise NoBank("the actuator runs in a process of its own")
+        given = self.assembly.parameters[self.actuator].values
+        values: dict[str, Array] = {}
+        for variable in unit.archive.description.modelVariables:
+            name = variable.name.removesuffix("[1]")
+            if variable.causality != "parameter" or "[" in name:
+                continue
+            text = str(variable.start or "0").replace("true", "1").replace("false", "0")
+            values[name] = np.array([float(part) for part in text.split()])
+            if name in given:
+                values[name] = _number(given[name], variable.unit or "1")
+            if values[name].size == 1:
+                values[name] = values[name].reshape(())
+        return values
+
+
+def _number(value: object, unit: str) -> Array:
+    if isinstance(value, list):
+        return np.array([_number(v, unit).reshape(()) for v in value])
+    if isinstance(value, PhysicalValue):
+        return np.array(value.to(unit))
+    if isinstance(value, bool | int | float):
+        return np.array(float(value))
+    raise NoBank(f"{value!r} is no number")
+
+
+def not_for_bank(source: object, reason: NoBank) -> InputError:
+    """The error of a scenario that a bank was asked for."""
+    return InputError(source, "components", str(reason), "see docs/diagnosis.md: which scenarios are fast")
