@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -24,6 +24,13 @@ class Parameter(BaseModel):
     value: StrictBool | Annotated[PhysicalValue, In()]
     unit: str = ""
     source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why")
+    uncertainty: Annotated[float, Field(ge=0.0, allow_inf_nan=False)] | None = Field(
+        default=None,
+        description="Standard deviation of ln(value), common to all elements; `cosim diagnose` stays within.",
+    )
+    scatter: Annotated[float, Field(ge=0.0, allow_inf_nan=False)] | None = Field(
+        default=None, description="The same from element to element."
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Parameter:
@@ -52,10 +59,14 @@ class Resolved:
     Args:
         values: Name to value.
         sources: Name to source; overrides say that they come from the scenario.
+        uncertainty: Name to standard deviation of ln(value), where the set states one.
+        scatter: The same from element to element.
     """
 
     values: Mapping[str, ParameterValue]
     sources: Mapping[str, str]
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    scatter: Mapping[str, float] = field(default_factory=dict)
 
 
 def find_parameter_set(name: str, scenario_file: Path) -> Path:
@@ -89,11 +100,17 @@ def resolve(set_name: str | None, overrides: Mapping[str, Any], scenario_file: P
     """Parameters of a component: those of its set, replaced by those the scenario gives itself."""
     values: dict[str, ParameterValue] = {}
     sources: dict[str, str] = {}
+    uncertainty: dict[str, float] = {}
+    scatter: dict[str, float] = {}
     if set_name is not None:
         for name, parameter in load_parameter_set(find_parameter_set(set_name, scenario_file)).parameters.items():
             values[name] = parameter.quantity()
             sources[name] = parameter.source
+            if parameter.uncertainty is not None:
+                uncertainty[name] = parameter.uncertainty
+            if parameter.scatter is not None:
+                scatter[name] = parameter.scatter
     for name, value in overrides.items():
         values[name] = value
         sources[name] = f"scenario {scenario_file.name}"
-    return Resolved(values, sources)
+    return Resolved(values, sources, uncertainty, scatter)

@@ -37,6 +37,7 @@ class Channel:
         limits: Readings at which the sensor clips, SI; infinite where it does not.
         lag_bound: Largest time constant of the sensor [s].
         offset_bound: How far its clock may be off [s].
+        bias_bound: How far its zero may be off, SI.
         is_clipped: Which samples lie at a limit, shape (samples,).
     """
 
@@ -50,6 +51,7 @@ class Channel:
     limits: tuple[float, float] = (-math.inf, math.inf)
     lag_bound: float = 0.0
     offset_bound: float = 0.0
+    bias_bound: float = 0.0
     is_clipped: AnyArray = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     @property
@@ -197,7 +199,9 @@ class _Reader:
         return Channel(
             name, Target(target.kind, target.element, target.quantity, unit), times, values,
             given or estimate_noise(times, values, quantum), bool(given), quantum, limits,
-            entry.lag_bound.to("s"), clock.offset_bound.to("s"), (values <= limits[0]) | (values >= limits[1]),
+            entry.lag_bound.to("s"), clock.offset_bound.to("s"),
+            self._difference(entry.bias_bound, unit, f"{key}.bias_bound"),
+            (values <= limits[0]) | (values >= limits[1]),
         )  # fmt: skip
 
     def _target(self, name: str, key: str) -> Target:

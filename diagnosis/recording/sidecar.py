@@ -43,6 +43,9 @@ class ChannelEntry(Strict):
     lag_bound: Annotated[PhysicalValue, In("s", minimum=0.0)] = Field(
         default=PhysicalValue(0.0, "s"), description="Largest time constant that the sensor may have."
     )
+    bias_bound: AnyQuantity | None = Field(
+        default=None, description="How far its zero may be off; within it the bias is estimated."
+    )
     invalid: list[Number] = Field(default=[], description="Readings that mean `no value`.")
     table: str | None = Field(default=None, description="Table of this channel; default: that of the recording.")
     time: Clock | None = Field(default=None, description="Clock of this channel; default: that of the recording.")

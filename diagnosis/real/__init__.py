@@ -1,0 +1,1 @@
+"""Public recordings of other laboratories, made into recording folders."""

@@ -1,0 +1,58 @@
+"""Free swings of a single arm, cart fixed: one swing in six pieces, the last two held out by its authors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.io import loadmat
+
+from cosim.unit import Array
+from diagnosis.real.folder import DataSet, Part
+from diagnosis.real.raw_files import SOURCES, raw_file
+
+_FILE = "SinglePendulumDataForParameterEstimation.mat"
+
+
+def pendulum(folder: Path) -> DataSet:
+    """The data set, read from its raw file.
+
+    Each piece starts from its own first readings.
+
+    Raises:
+        InputError: The file is missing.
+    """
+    content = loadmat(raw_file(folder, "cart-pendulum", _FILE))
+    parts = [_part(kind, i + 1, times.ravel(), values)
+             for kind in ("id", "vad")
+             for i, (times, values) in enumerate(zip(content[f"Time_{kind}"].ravel(), content[f"Y_{kind}"].ravel()))
+             ]  # fmt: skip
+    names = [p.name for p in parts]
+    splits = {"authors' split": (tuple(n for n in names if n.startswith("id")),
+                                 tuple(n for n in names if n.startswith("vad")))}  # fmt: skip
+    return DataSet("pendulum", "pendulum", SOURCES["cart-pendulum"], tuple(parts), splits)
+
+
+def _part(kind: str, number: int, times: Array, values: Array) -> Part:
+    # The clock is a whole number of milliseconds: undo the binary debris of its publication.
+    columns = {"time": np.round(times, 3), "angle": values[0], "angular_velocity": values[1]}
+    sidecar: dict[str, Any] = {
+        "time": {"column": "time", "unit": "s"},
+        "overrides": {
+            "components": {
+                "arm": {
+                    "parameters": {
+                        "initial_angle": f"{float(values[0, 0])!r} rad",
+                        "initial_angular_velocity": f"{float(values[1, 0])!r} rad/s",
+                    }
+                }
+            }
+        },
+        "channels": {
+            "arm.angle": {"column": "angle", "unit": "rad"},
+            "arm.angular_velocity": {"column": "angular_velocity", "unit": "rad/s"},
+        },
+    }
+    kinds = {"id": "for identification", "vad": "held out by its authors"}
+    return Part(f"{kind}_{number}", f"Free swing of one arm, piece {number} {kinds[kind]}", columns, sidecar)
