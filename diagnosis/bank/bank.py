@@ -57,10 +57,13 @@ class Bank:
         self._library = load(generate(self.terms))
         self._library.bank_simulate.restype = ctypes.c_int
 
-    @property
-    def quantities(self) -> list[str]:
-        """Quantities that this bank has."""
-        return [q for q in QUANTITIES if self.layout.elements(q) and q != "string_share"]
+    def wanted(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> dict[str, Array]:
+        """Sample times by quantity; one array stands for all quantities that this bank has under these inputs."""
+        if isinstance(times, Mapping):
+            return dict(times)
+        has_circuit = inputs.power is None
+        names = [q for q in QUANTITIES if self.layout.elements(q) and q != "string_share"]
+        return {q: times for q in names if has_circuit or QUANTITIES[q].axis == "coil"}
 
     def simulate(
         self, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array]
@@ -114,9 +117,7 @@ class Bank:
 
     def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
         """Inputs and samples ready for `run`."""
-        if not isinstance(times, Mapping):
-            times = dict.fromkeys(self.quantities, times)
-        return Plan(self.layout, inputs, times, self.is_midpoint)
+        return Plan(self.layout, inputs, self.wanted(inputs, times), self.is_midpoint)
 
     def packing(self, active: frozenset[str]) -> Packing:
         """Places of the parameters where the candidates `active` are switched on."""

@@ -37,8 +37,10 @@ class Independence:
         self.are_coils_apart = not joined and (not layout.strings or not (slope or "resistance" in hooks))
 
     def part(self, parameter: str, axis: Axis, mask: Array) -> tuple[str, int]:
-        """Level (`coil` or `string`) and number of the only part that a direction touches; number -1: several parts."""
+        """Level and number of the only part (coil, string, channel) that a direction touches; number -1: several."""
         touched = np.flatnonzero(mask)
+        if axis == "channel" and touched.size == 1:
+            return "channel", int(touched[0])  # sensors come after the simulation
         is_electrical = parameter in _ELECTRICAL
         if axis == "coil" and touched.size == 1 and self.are_coils_apart and not is_electrical:
             return "coil", int(touched[0])

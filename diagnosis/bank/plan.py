@@ -124,8 +124,9 @@ def _checked_times(layout: BankLayout, inputs: BankInputs, times: Mapping[str, A
     for name, values in times.items():
         if name not in QUANTITIES:
             raise ValueError(f"a bank records no {name}; it records {', '.join(QUANTITIES)}")
-        if layout.elements(name) == 0:
-            raise ValueError(f"{name} needs a circuit, and this bank has none")
+        has_no_circuit = inputs.power is not None and name in ("current", "supply_current")
+        if layout.elements(name) == 0 or has_no_circuit:
+            raise ValueError(f"{name} needs a circuit, and this bank has none or is given its power")
         moments = np.ascontiguousarray(values, dtype=np.float64)
         if moments.ndim != 1 or np.any(np.diff(moments) < 0.0):
             raise ValueError(f"the sample times of {name} must not fall")

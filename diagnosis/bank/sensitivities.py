@@ -71,12 +71,12 @@ def sensitivities(
         BankError: A value stopped being finite.
         KeyError: A direction along a parameter that the bank does not have.
     """
-    wanted = times if isinstance(times, Mapping) else dict.fromkeys(bank.quantities, times)
+    wanted = bank.wanted(inputs, times)
     active = active_terms(bank.terms, parameters)
     active |= {d.parameter.split(".")[0] for d in directions if "." in d.parameter}
     packing = bank.packing(active)
     apart = Independence(bank.layout, [t for t in bank.terms if t.identifier in active], parameters)
-    if "supply_current" in wanted and bank.layout.strings:
+    if "supply_current" in wanted:
         wanted = {**wanted, "string_share": wanted["supply_current"]}
     plan = bank.plan(inputs, wanted)
     groups = _groups(apart, packing, directions)
@@ -88,7 +88,7 @@ def sensitivities(
     derivatives = plan.split(_slopes(plan, out, directions, groups))
     result = {n: v[0] for n, v in plan.split(out[:1]).items()}
     if "string_share" in wanted:
-        grouped = [n for g in groups for part, n in g.members.items() if part >= 0]
+        grouped = [n for g in groups if g.level in ("coil", "string") for part, n in g.members.items() if part >= 0]
         derivatives["supply_current"][grouped] = derivatives["string_share"][grouped].sum(axis=2, keepdims=True)
         del derivatives["string_share"], result["string_share"]
     return result, derivatives
@@ -129,7 +129,7 @@ def _perturbed(packing: Packing, base: Array, directions: Sequence[Direction], g
 
 
 def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Sequence[_Group]) -> Array:
-    owners = {level: _owners(plan, level) for level in ("coil", "string")}
+    owners = {level: _owners(plan, level) for level in ("coil", "string", "channel")}
     slopes = np.zeros((len(directions), plan.out_size))
     row = 1
     for group in groups:
@@ -143,11 +143,13 @@ def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Seq
 
 
 def _owners(plan: Plan, level: str) -> npt.NDArray[np.int64]:
-    """Coil or string that every number of a set's output belongs to; -1 where there is none."""
+    """Coil, string or channel that every number of a set's output belongs to; -1 where there is none."""
     owners = np.full((1, plan.out_size), -1.0)
     for name, view in plan.split(owners).items():
         axis = QUANTITIES[name].axis
-        if axis == level:
+        if level == "channel":
+            view[...] = plan.layout.channel(name) + np.arange(view.shape[2])
+        elif axis == level:
             view[...] = np.arange(view.shape[2])
         elif axis == "coil" and level == "string":
             view[...] = plan.layout.string_of_coil

@@ -74,6 +74,19 @@ def test_a_second_mass_follows_the_linear_two_mass_system(term, loss):
     assert 3.0 < errors[0] / errors[1] < 5.0  # second order: halving the step quarters the error
 
 
+def test_a_sheath_follows_the_linear_system_of_core_and_shell():
+    g, c2 = 0.02, 0.1
+    inputs = heater(POWER, 60.0, 0.05)
+    matrix = np.array([[-g / C, g / C], [g / c2, -(g + G) / c2]])
+    steady = -np.linalg.solve(matrix, [POWER / C, 0.0])
+    exact = np.array([ROOM + (steady - expm(matrix * t) @ steady)[0] for t in inputs.time])
+    found = temperatures(PLAIN.with_term("sheath", share=1.0, g=g, C2=c2), inputs)[:, 0]
+    assert np.abs(found - exact).max() < 0.01  # second order in the step
+    bare = temperatures(PLAIN.with_term("sheath", share=0.5, g=0.5, C2=1e-3), inputs)[:, 0]
+    # a layer without capacity or resistance is not there; 2 % of its conductance G / g are left
+    assert np.abs(bare - temperatures(PLAIN, inputs)[:, 0]).max() < 0.02 * 46.0
+
+
 def test_a_shared_mass_follows_the_linear_system_of_all_coils():
     g, mass, loss = 2e-3, 1.0, 0.01
     layout = BankLayout(2)

@@ -1,0 +1,48 @@
+"""A layer around the coil through which its heat must pass."""
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State
+
+CANDIDATE = CandidateTerm(
+    identifier="sheath",
+    name="layer around the coil (core and shell)",
+    unit="thermal",
+    law=(
+        "heat = share * hA * (T - T_ambient) - share * g * (T - layer); C2 * d(layer) = g * (T - "
+        "layer) - hA * (layer - T_ambient)"
+    ),
+    source=(
+        "Lumped core and shell; F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th "
+        "ed., Wiley 2011, sections 3.1 and 5.1"
+    ),
+    parameters=(
+        Parameter(
+            "share",
+            "1",
+            0.0,
+            1.0,
+            "part of the surface that is covered, from none to all",
+            (0.3, 0.7, 1.0),
+            is_amplitude=True,
+        ),
+        Parameter("g", "W/K", 0.0001, 0.5, "heat flows from hot to cold", (0.01, 0.03, 0.1)),
+        Parameter("C2", "J/K", 0.001, 100.0, "a heat capacity is positive", (0.02, 0.1, 0.5)),
+    ),
+    places=("all", "coil", "string"),
+    lines={
+        "heat": """
+            conductance = conductance * (1.0 - share) + share * g;
+            heat += share * g * (layer - T_ambient);
+        """,
+        "state": """
+            layer_inflow = (g * T + conductance * T_ambient) / C2;
+            layer_rate = (g + conductance) / C2;
+        """,
+    },
+    signature="Plateau higher and reached in two stages; cooling slow at its end.",
+    confused_with={
+        "second_mass": "the height of the plateau decides, if h A is known",
+        "chassis_insulation": "the shape of the rise decides",
+        "sensor_lag": "stiffness or current decide",
+    },
+    states=(State("layer", "K", "T"),),
+)
