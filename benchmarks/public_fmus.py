@@ -130,17 +130,21 @@ def examine(folder: Path) -> list[Outcome]:
         seen.add(digest)
         name = str(path.relative_to(folder.parent))
         try:
-            version, kinds = fmpy.fmi_info(str(path))
+            description = fmpy.read_model_description(str(path), validate=False)
             platforms = fmpy.supported_platforms(str(path))
         except Exception as error:
             outcomes.append(Outcome(name, "?", f"no FMU: {error}"))
             continue
         if not {fmpy.platform, fmpy.platform_tuple} & set(platforms):
-            outcomes.append(Outcome(name, f"FMI {version}", f"no binary for this platform ({', '.join(platforms)})"))
+            outcomes.append(
+                Outcome(name, f"FMI {description.fmiVersion}", f"no binary for this platform ({', '.join(platforms)})")
+            )
             continue
-        for interface, kind in (("CS", "CoSimulation"), ("ME", "ModelExchange")):
-            if kind in kinds:
-                outcomes.append(Outcome(name, f"FMI {version} {interface}", *in_process(path, interface)))
+        for interface, kind in (("CS", description.coSimulation), ("ME", description.modelExchange)):
+            if kind is not None:
+                outcomes.append(
+                    Outcome(name, f"FMI {description.fmiVersion} {interface}", *in_process(path, interface))
+                )
                 print(outcomes[-1], flush=True)
     return outcomes
 
