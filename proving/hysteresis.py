@@ -75,7 +75,8 @@ class Loop:
 
     def _moved_plays(self, celsius: Array) -> Array:
         # A piece that transforms late on heating transforms late on cooling too: its loop has another width.
-        return np.clip(self._plays, lower(celsius - self._offset), upper(celsius + self._offset))
+        low = lower(celsius - self._offset)
+        return np.clip(self._plays, low, np.maximum(upper(celsius + self._offset), low))
 
     def _moved_duhem(self, celsius: Array) -> Array:
         """Heating shrinks the distance to the hot end as the branch does, cooling that to the cold end; closed form."""

@@ -35,7 +35,7 @@ class Branches:
     limit: float = np.inf
 
 
-def solve(branches: Branches, voltage: float) -> tuple[Array, Array]:
+def solve(branches: Branches, voltage: float | Array) -> tuple[Array, Array]:
     """Currents at a supply voltage.
 
     Each string is lead + upper half + (lower half beside its leak), so it is one resistance and one counter voltage;
@@ -43,7 +43,8 @@ def solve(branches: Branches, voltage: float) -> tuple[Array, Array]:
 
     Args:
         branches: The network.
-        voltage: Of the supply, not negative [V].
+        voltage: Of the supply, not negative [V]; or of a supply for each string, shape (strings,), and then there is
+            neither source resistance nor limit.
 
     Returns:
         Current through every coil [A], shape (coils,), and into every string [A], shape (strings,).
@@ -56,7 +57,9 @@ def solve(branches: Branches, voltage: float) -> tuple[Array, Array]:
     halves = (np.add.reduceat(branches.coil, knots) * (counts > 0)).reshape(-1, 2)
     lower = halves[:, 1] / (1.0 + halves[:, 1] * branches.leak)
     string = branches.lead + halves[:, 0] + lower
-    bus = _bus_voltage(branches, voltage, string)
+    bus = (
+        voltage if isinstance(voltage, np.ndarray) and voltage.ndim else _bus_voltage(branches, float(voltage), string)
+    )
     into = np.maximum(bus - branches.drop, 0.0) / string
     past = into / (1.0 + halves[:, 1] * branches.leak)
     return np.repeat(np.stack([into, past], axis=1).ravel(), counts), into

@@ -18,13 +18,14 @@ class DataSheet:
     """What the builder of the rig believes; the scenario says the same.
 
     Args:
-        strings: Coils of every string, top to bottom; all on one supply.
+        strings: Coils of every string, top to bottom.
         resistance: Of one coil [ohm] (paper, section 2.2).
         conductance: h A of one coil [W/K] (paper, section 2.3).
         capacity: rho V c_p of one coil [J/K] (paper, section 2.3).
         mass: Below each coil [kg].
         conduction: k A / length of the wire of one coil [W/K]: 18 W/m/K (austenite; Faulkner, Amalraj, Bhattacharyya,
             Smart Mater. Struct. 9 (2000) 632), 0.30 mm, 104 mm.
+        is_per_string: Whether every string has a supply of its own.
         is_bath: Whether a bath gives the temperature and no current flows.
         is_driven_by_power: Whether the heat of every element is given [W] and not a voltage.
     """
@@ -35,6 +36,7 @@ class DataSheet:
     capacity: float = 6450.0 * 7.328e-9 * 837.0
     mass: float = 0.1
     conduction: float = 18.0 * 7.05e-8 / 0.104
+    is_per_string: bool = False
     is_bath: bool = False
     is_driven_by_power: bool = False
 

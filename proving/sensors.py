@@ -178,6 +178,7 @@ def _lagged(times: Array, course: Array, lag: Array) -> Array:
     seen = np.empty_like(course)
     seen[0] = value = course[0]
     for n in range(sizes.size):
-        value = course[n + 1] - lag * slopes[n] + (value - behind[n]) * decays[n]
+        if sizes[n, 0] > 0.0:  # a jump takes no time
+            value = course[n + 1] - lag * slopes[n] + (value - behind[n]) * decays[n]
         seen[n + 1] = value
     return seen

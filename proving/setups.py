@@ -59,17 +59,17 @@ class Setup:
         }
 
     def _level(self, level: Any) -> Any:
-        if self.sheet.is_driven_by_power:
-            return [f"{float(v):.6g} W" for v in level]
+        if self.sheet.is_driven_by_power or self.sheet.is_per_string:
+            return [f"{float(v):.6g} {'V' if self.sheet.is_per_string else 'W'}" for v in level]
         return f"{float(level) - 273.15:.6g} degC" if self.sheet.is_bath else f"{float(level):.6g} V"
 
 
-def _heating(shape: Shape) -> Shape:
-    """Two heaters, each with a programme of that shape, joined at all switches of both."""
+def _apart(shape: Shape, count: int, slower: float = 1.0) -> Shape:
+    """`count` sources, each with a programme of that shape, joined at the switches of all."""
 
     def drawn(rng: np.random.Generator, top: float, stop: float) -> Programme:
-        both = [shape(rng, top, stop / 6.0) for _ in range(2)]
-        slow = [replace(p, times=np.round(6.0 * p.times), stop=stop) for p in both]
+        own = [shape(rng, top, stop / slower) for _ in range(count)]
+        slow = [replace(p, times=np.round(slower * p.times, 1), stop=stop) for p in own]
         times = np.unique(np.concatenate([p.times for p in slow]))
         levels = np.array([[float(p.at(t)) for p in slow] for t in times])
         return Programme(times, levels, stop)
@@ -90,8 +90,11 @@ def _bath(turns: tuple[float, ...]) -> Shape:
 
 
 _ELECTRIC: Mapping[str, Shape] = {"staircase": staircase, "pulses": pulses, "soak": soak, "partial": partial}
+_OF_SUPPLY = (electrical.SupplySourceResistance, electrical.SupplyCurrentLimit, outside.SlowSupply)
 _NETWORK = Setup(
-    "network", DataSheet(), 6.0, 100.0, 0.2, _ELECTRIC, KINDS, EFFECTS, ("supply", "voltage")
+    "network", DataSheet(), 6.0, 100.0, 0.2, _ELECTRIC, KINDS,
+    tuple(e for e in EFFECTS if e is not thermal.NeighbourHeat),  # equally warm neighbours exchange nothing
+    ("supply", "voltage"),
 )  # fmt: skip
 _LOADED = (*stiffness.EFFECTS, *mechanical.EFFECTS, outside.SoftStop, outside.StickAndRelease, outside.TwoWaySquare)
 _BLOCK = (
@@ -103,6 +106,11 @@ _BLOCK = (
 SETUPS: Mapping[str, Setup] = {
     "network": _NETWORK,
     "small": replace(_NETWORK, name="small", sheet=DataSheet(strings=(3, 3)), top=3.0),
+    "zones": replace(
+        _NETWORK, name="zones", sheet=DataSheet(strings=(3, 3, 3, 3), is_per_string=True), top=3.0,
+        shapes={name: _apart(shape, 4) for name, shape in _ELECTRIC.items()},
+        effects=tuple(e for e in EFFECTS if e not in _OF_SUPPLY),
+    ),
     "bath": Setup(
         "bath", DataSheet(strings=(1,), conductance=900.0 * 97.85e-6, is_bath=True), 70.0, 240.0, 0.2,
         {
@@ -119,9 +127,9 @@ SETUPS: Mapping[str, Setup] = {
             strings=(1, 1), conductance=25.0 * 32e-4, capacity=2700.0 * 900.0 * 3.3e-6, conduction=50.0,
             is_driven_by_power=True,
         ),
-        4.0, 600.0, 0.5, {name: _heating(shape) for name, shape in _ELECTRIC.items() if name != "partial"},
+        4.0, 600.0, 0.5, {name: _apart(shape, 2, 6.0) for name, shape in _ELECTRIC.items() if name != "partial"},
         {"temperature": replace(KINDS["temperature"], rate=1.0)}, _BLOCK, ("heater", "power"),
     ),
 }  # fmt: skip
 #: How often each kind of rig is used.
-SHARES = {"network": 0.55, "small": 0.2, "bath": 0.1, "heaters": 0.15}
+SHARES = {"network": 0.5, "small": 0.15, "zones": 0.1, "bath": 0.1, "heaters": 0.15}

@@ -165,7 +165,7 @@ class Truth:
             self.rig.resistance * (factor @ self.wires.weight), self._first, np.zeros(strings), np.zeros(strings),
             np.zeros(strings),
         )  # fmt: skip
-        now.voltage = float(level)
+        now.voltage = np.array(level) if sheet.is_per_string else float(level)
         for effect in self.effects:
             now.voltage = effect.voltage(now, now.voltage)
         for effect in self.effects:

@@ -111,10 +111,18 @@ class Wires:
             missing = target - stored + weight * (heat + self.conduction(temperature, pins))
             diagonal = capacity - weight * (self._diagonal + slope)
             off = -weight * self._off
-            change, info = dgtsv(off, diagonal.ravel(), off, missing.ravel())[3:]
+            change, info = _tridiagonal(off, diagonal.ravel(), missing.ravel())
             temperature = temperature + change.reshape(self.shape)
             if info != 0 or not np.isfinite(change).all():
                 break
             if np.max(np.abs(change)) < _TOLERANCE:
                 return np.asarray(temperature)
         raise WireError("the temperatures of the wires did not converge; take smaller steps")
+
+
+def _tridiagonal(off: Array, diagonal: Array, right: Array) -> tuple[Array, int]:
+    """Solution of a symmetric tridiagonal system, and LAPACK's report: 0 if all is well."""
+    if diagonal.size == 1:
+        return right / diagonal, 0
+    change, info = dgtsv(off, diagonal, off, right)[3:]
+    return np.asarray(change), int(info)

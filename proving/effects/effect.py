@@ -25,7 +25,7 @@ class Now:
         time: Begin of the step under way [s].
         moment: Time within it that voltages and currents are asked for [s].
         size: Of the step under way [s].
-        voltage: Of the supply [V].
+        voltage: Of the supply [V], or of every string's, shape (strings,).
         wire: Temperature of every piece [K].
         temperature: Mean of every wire [K].
         ambient: Around every coil [K].
@@ -43,7 +43,7 @@ class Now:
     time: float
     moment: float
     size: float
-    voltage: float
+    voltage: float | Array
     wire: Array
     temperature: Array
     ambient: Array
@@ -125,7 +125,7 @@ class Effect:
     def begin(self, now: Now) -> None:
         """Before the first step: states of its own start here."""
 
-    def voltage(self, now: Now, voltage: float) -> float:
+    def voltage(self, now: Now, voltage: float | Array) -> float | Array:
         """Voltage of the supply [V] where `voltage` was asked for."""
         return voltage
 

@@ -143,11 +143,13 @@ class SlowSupply(Effect):
     strengths = {"tau": (0.4, 0.8, 1.6)}
 
     def begin(self, now: Now) -> None:
-        self._behind, self._set, self._time = 0.0, 0.0, 0.0
+        self._behind: float | Array = 0.0
+        self._set: float | Array = 0.0
+        self._time = 0.0
 
-    def voltage(self, now: Now, voltage: float) -> float:
-        self._behind *= float(np.exp(-max(now.moment - self._time, 0.0) / self.parameters["tau"]))
-        self._behind += self._set - voltage  # the terminals do not jump
+    def voltage(self, now: Now, voltage: float | Array) -> float | Array:
+        self._behind = self._behind * float(np.exp(-max(now.moment - self._time, 0.0) / self.parameters["tau"]))
+        self._behind = self._behind + self._set - voltage  # the terminals do not jump
         self._set, self._time = voltage, now.moment
         return voltage + self._behind
 

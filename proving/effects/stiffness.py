@@ -39,7 +39,7 @@ class Fatigue(Effect):
     law = "fraction = 1 - loss * cycles; d(cycles) = 0.5 * abs(d(phase))"
     places = ("all", "all", "coil")
     same_parameters = ("loss",)
-    strengths = {"loss": (0.03, 0.07, 0.15)}
+    strengths = {"loss": (0.04, 0.09, 0.18)}
 
     def begin(self, now: Now) -> None:
         self._last = now.phase @ now.weight
