@@ -49,6 +49,8 @@ def _part(kind: str, number: int, times: Array, values: Array) -> Part:
                 }
             }
         },
+        # Both readings are smoothed by their authors, most of all at the ends of the whole swing.
+        "uncertain": {"arm.initial_angle": "0.01 rad", "arm.initial_angular_velocity": "0.1 rad/s"},
         "channels": {
             "arm.angle": {"column": "angle", "unit": "rad"},
             "arm.angular_velocity": {"column": "angular_velocity", "unit": "rad/s"},

@@ -60,9 +60,10 @@ def _part(coil: str, pulse: str, columns: dict[str, Array], window: dict[str, st
         "overrides": {
             "components": {
                 "room": {"outputs": {"temperature": {"constant": begin}}},
-                "coil": {"parameters": {"initial_temperature": begin}},
+                "wire": {"parameters": {"initial_temperature": begin}},
             }
         },
+        "uncertain": {"room.temperature": "1 degC", "wire.initial_temperature": "0.2 degC"},
         # Supply voltage and current were not recorded: 10 W at full duty is a guess, absorbed by the heat capacity.
         "inputs": {"drive.power": {"column": "duty", "unit": "W", "factor": 10.0}},
         "channels": {

@@ -35,6 +35,9 @@ _KINDS = {
     "marker": ({"x", "y", "z"}, {1}),
     "fabric": ({"max_curvature", "length"}, {0}),
 }  # fmt: skip
+#: SI unit to the part of a model that gives quantities in it; all others are mechanical.
+_DOMAINS = {"K": "thermal", "A": "electrical", "V": "electrical", "W": "electrical", "ohm": "electrical",
+            "N/m": "stiffness"}  # fmt: skip
 _INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
 _NAME = re.compile(
     rf"^(?P<kind>[A-Za-z]\w*){_INDEX.format('index')}\.(?P<quantity>[A-Za-z]\w*){_INDEX.format('last')}$"
@@ -56,6 +59,20 @@ class Target:
     element: tuple[int, ...]
     quantity: str
     unit: str = "1"
+
+    def __str__(self) -> str:
+        index = f"[{','.join(map(str, self.element))}]" if self.element else ""
+        return f"{self.kind}.{self.quantity}{index}" if self.is_component else f"{self.kind}{index}.{self.quantity}"
+
+    @property
+    def si_unit(self) -> str:
+        """Unit of its values."""
+        return SI_UNITS.get(self.quantity, self.unit)
+
+    @property
+    def domain(self) -> str:
+        """Part of a model whose output it is: electrical, thermal, stiffness or mechanical."""
+        return _DOMAINS.get(self.si_unit, "mechanical")
 
     @property
     def is_component(self) -> bool:

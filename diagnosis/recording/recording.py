@@ -57,7 +57,7 @@ class Channel:
     @property
     def unit(self) -> str:
         """SI unit."""
-        return SI_UNITS.get(self.target.quantity, self.target.unit)
+        return self.target.si_unit
 
 
 @dataclass(frozen=True)
@@ -92,6 +92,7 @@ class Recording:
         end: Last time with a value [s].
         switch_margin: Samples this close to a switch are not used to judge [s].
         source: Who measured it.
+        uncertain: What it does not know exactly itself, `component.parameter` to a standard deviation.
     """
 
     path: Path
@@ -102,6 +103,7 @@ class Recording:
     end: float
     switch_margin: float
     source: str = ""
+    uncertain: Mapping[str, PhysicalValue] = field(default_factory=dict)
 
 
 def load_recording(path: str | Path) -> Recording:
@@ -138,7 +140,7 @@ class _Reader:
         end = max(float(c.times[-1]) for c in channels.values())
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
-            sidecar.switch_margin.to("s"), sidecar.source,
+            sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain,
         )  # fmt: skip
 
     def _table(self, name: str | None) -> Table:

@@ -77,6 +77,11 @@ class Sidecar(Strict):
     overrides: dict[str, Any] = Field(
         default={}, description="What was done: keys of the scenario with the values of this recording."
     )
+    uncertain: dict[str, AnyQuantity] = Field(
+        default={},
+        description="`component.parameter`, or a constant output of a programme, that this recording does not know "
+        "exactly (initial state, room): standard deviation.",
+    )
     inputs: dict[str, InputEntry] = Field(
         default={}, description="`component.output` of a programme whose course is a column of the table."
     )

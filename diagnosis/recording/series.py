@@ -1,0 +1,143 @@
+"""The course of a measured quantity in the results of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from cosim.errors import InputError
+from cosim.quantity import conversion
+from cosim.unit import Array
+from diagnosis.recording.quantity import Target
+
+#: Quantities that jump with the supply: nothing is drawn between two outputs but a straight line.
+_FLOWS = frozenset({"current", "voltage", "power"})
+#: Quantity of a channel to the names that it has in results, in the order in which they are looked for.
+_RESULTS = {
+    ("supply", "current"): ("supply_current",),
+    ("supply", "power"): ("supply_power",),
+    ("supply", "voltage"): ("voltage",),
+    ("string", "current"): ("string_current",),
+    ("string", "voltage"): ("voltage",),
+    ("link", "length"): ("link_length",),
+    ("link", "x"): ("position",),
+    ("link", "y"): ("position",),
+    ("link", "z"): ("position",),
+    ("marker", "x"): ("marker_position",),
+    ("marker", "y"): ("marker_position",),
+    ("marker", "z"): ("marker_position",),
+    ("fabric", "length"): ("fabric_length",),
+}
+_AXES = {"x": 0, "y": 1, "z": 2}
+
+
+@dataclass(frozen=True)
+class Series:
+    """One quantity over a run.
+
+    Args:
+        times: [s], shape (outputs,).
+        values: SI, shape (outputs,).
+        is_flow: Whether it jumps with the supply.
+        variable: Name in the results.
+    """
+
+    times: Array
+    values: Array
+    is_flow: bool
+    variable: str
+
+
+def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
+    """Find what a channel measures.
+
+    Args:
+        results: Of `cosim.run`.
+        target: What is measured.
+        source: File that names it, for errors.
+
+    Raises:
+        InputError: The results have no such quantity or element.
+    """
+    variable = _variable(results, target, source)
+    found = results[variable]
+    elements = _elements(results, found, target, source)
+    values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)
+    values = values[:, np.ravel_multi_index(elements, found.shape[1:]) if elements else 0]
+    factor, offset = conversion(str(found.attrs.get("units", "1")), target.si_unit)
+    return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, variable)
+
+
+def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
+    if target.is_component:
+        name = f"{target.kind}.{target.quantity}"
+        if name in results:
+            return name
+    else:
+        for wanted in _RESULTS.get((target.kind, target.quantity), (target.quantity,)):
+            fitting = [str(n) for n in results if str(n).rpartition(".")[2] == wanted and _fits(results[n], target)]
+            if fitting:
+                return min(fitting, key=lambda name: results[name].dims[1:] != (target.kind,))
+    there = ", ".join(str(n) for n in results)
+    raise InputError(source, f"channels.{target}", "the scenario has no such quantity", f"it has: {there}")
+
+
+def _fits(values: xr.DataArray, target: Target) -> bool:
+    """Whether a variable has the elements that a channel speaks of (`power` may be a coil's or a programme's)."""
+    dims = values.dims[1:]
+    if target.kind == "coil":  # an FMU of somebody else may name its dimension otherwise
+        return len(dims) == 1 and dims != ("string",)
+    if target.kind == "string":
+        return dims == ("string",)
+    return dims == () if target.kind in ("supply", "fabric") else True
+
+
+def _elements(results: xr.Dataset, values: xr.DataArray, target: Target, source: Path) -> tuple[int, ...]:
+    """Indices from 0 of the element measured."""
+    numbers = list(target.element)
+    if target.kind == "coil" and len(numbers) == 2:
+        numbers = [_coil(results, values, numbers[0], numbers[1], target, source)]
+    indices = [n - 1 for n in numbers]
+    if target.quantity in _AXES and not target.is_component:
+        indices.append(_AXES[target.quantity])
+    shape = values.shape[1:]
+    if len(indices) != len(shape) or any(not 0 <= i < size for i, size in zip(indices, shape)):
+        has = " x ".join(str(s) for s in shape) or "no"
+        raise InputError(source, f"channels.{target}", f"{values.name} has {has} elements, counted from 1",
+                         "name one of them")  # fmt: skip
+    return tuple(indices)
+
+
+def _coil(results: xr.Dataset, values: xr.DataArray, string: int, place: int, target: Target, source: Path) -> int:
+    """Number of coil `place` of a string, counted from 1: coils are numbered string by string."""
+    strings = np.ones(values.shape[1], dtype=int)
+    if "string_of_coil" in results.coords and values.dims[1] == "coil":
+        strings = results["string_of_coil"].values
+    of_string = np.flatnonzero(np.asarray(strings) == string)
+    if not 1 <= place <= len(of_string):
+        raise InputError(source, f"channels.{target}", f"there is no coil {place} in string {string}",
+                         "strings and places are counted from 1")  # fmt: skip
+    return int(of_string[place - 1]) + 1
+
+
+def sample(series: Series, times: Array) -> Array:
+    """Values at given times, shape (times,); beyond the run its end values hold.
+
+    A flow is drawn with straight lines between outputs, a state with parabolas and cubics through four outputs, whose
+    error falls with the fourth power of the output step.
+    """
+    own, values = series.times, series.values
+    if series.is_flow or len(own) < 4:
+        return np.asarray(np.interp(times, own, values))
+    clipped = np.clip(times, own[0], own[-1])
+    first = np.clip(np.searchsorted(own, clipped, side="right") - 2, 0, len(own) - 4)
+    nodes = own[first[:, None] + np.arange(4)]
+    weights = np.ones((len(times), 4))
+    for i in range(4):
+        for j in range(4):
+            if i != j:
+                weights[:, i] *= (clipped - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
+    return np.asarray(np.einsum("ij,ij->i", weights, values[first[:, None] + np.arange(4)]))
