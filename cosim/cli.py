@@ -72,6 +72,7 @@ def run(
     out: Annotated[Path | None, typer.Option(help="Run folder; default runs/SCENARIO.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
+    csv: Annotated[bool, typer.Option("--csv", help="Write all recorded values as results.csv too.")] = False,
 ) -> None:
     """Run a scenario and write a run folder.
 
@@ -79,7 +80,7 @@ def run(
     """
     folder = _folder(scenario, out, resume)
     loaded = _loaded(scenario, folder, resume)
-    run_into(loaded, folder, resume)
+    run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder)
     print(f"{folder.path}: {loaded.title}")
@@ -104,7 +105,7 @@ def _folder(scenario: str, out: Path | None, resume: bool) -> RunFolder:
     return folder
 
 
-def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False) -> None:
+def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
     from cosim.progress import progress_bar
     from cosim.run import RunStopped
@@ -112,7 +113,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False) -> Non
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress)
+            run_scenario(scenario, folder.path, resume, on_progress, csv)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():

@@ -97,6 +97,7 @@ def run(
     out: Path | None = None,
     resume: bool = False,
     on_progress: Callable[[Progress], None] | None = None,
+    csv: bool = False,
 ) -> xr.Dataset:
     """Run a scenario to its end.
 
@@ -105,6 +106,7 @@ def run(
         out: Run folder; None keeps everything in memory.
         resume: Go on from the last checkpoint in `out`.
         on_progress: Called about twenty times a second, or after every macro-step that takes longer.
+        csv: Write all recorded values to `out` as CSV too, also those of a run that stops early.
 
     Returns:
         Every recorded variable `component.name` with dimension `time` [s] first; attributes hold title, wall time of
@@ -115,7 +117,7 @@ def run(
         RunStopped: A unit failed, the disk is full or the user interrupted; the values so far are in it and, where
             they could be written, in the folder.
     """
-    folder = RunFolder(out) if out is not None else None
+    folder = RunFolder(out, csv) if out is not None else None
     if resume:
         _check_resumable(folder)
     elif folder is not None:
@@ -232,7 +234,7 @@ def _run_to_end(
     dataset = _finish(state, reason)
     if folder is not None:
         try:
-            folder.write_results(dataset, _summary(state, reason))
+            folder.write_results(state.trace, dataset, _summary(state, reason))
         except InputError as error:
             reason, is_interrupt = reason or f"at t = {seconds(state.now):.6g} s: {error}", False
     if reason:
@@ -270,14 +272,11 @@ def _finish(state: _Clockwork, reason: str) -> xr.Dataset:
     dataset.attrs["status"] = reason or "complete"
     dataset.attrs["algorithm"] = state.scenario.algorithm.kind
     dataset.attrs["macro_step_s"] = seconds(state.macro)
-    for name, spent in state.assembly.system.wall_time.items():
-        dataset.attrs[f"wall_time_{name}_s"] = spent
+    dataset.attrs.update({f"wall_time_{name}_s": s for name, s in state.assembly.system.wall_time.items()})
     balance = None if reason else state.meter.balance()
     if balance is not None:
-        dataset.attrs["energy_electrical_J"] = balance.electrical
-        dataset.attrs["energy_stored_J"] = balance.stored
-        dataset.attrs["energy_convected_J"] = balance.convected
-        dataset.attrs["energy_residual"] = balance.residual
+        dataset.attrs.update(energy_electrical_J=balance.electrical, energy_stored_J=balance.stored,
+                             energy_convected_J=balance.convected, energy_residual=balance.residual)  # fmt: skip
     return dataset
 
 

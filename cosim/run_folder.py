@@ -5,6 +5,7 @@ parameters.csv   every parameter with unit and source
 versions.json    versions of everything that computes
 checkpoints/     state of every unit, and the values recorded since the checkpoint before
 results.nc       all recorded values (NetCDF 4)
+results.csv      all recorded values as text, where that was asked for
 series.csv       the main series against time
 summary.json     status, wall time of every unit, energy balance
 """
@@ -23,7 +24,7 @@ import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -32,6 +33,9 @@ from cosim.errors import InputError
 from cosim.parameters import Resolved
 from cosim.scenario import Scenario
 from cosim.yaml_file import read_text
+
+if TYPE_CHECKING:
+    from cosim.observers.trace import Trace
 
 _PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
 
@@ -43,10 +47,11 @@ class RunFolder:
 
     Args:
         path: The folder.
+        has_csv: Whether `write_results` writes everything as CSV too.
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, has_csv: bool = False) -> None:
+        self.path, self.has_csv = path, has_csv
 
     @property
     def scenario(self) -> Path:
@@ -57,6 +62,11 @@ class RunFolder:
     def results(self) -> Path:
         """All recorded values."""
         return self.path / "results.nc"
+
+    @property
+    def results_csv(self) -> Path:
+        """All recorded values as text."""
+        return self.path / "results.csv"
 
     @property
     def summary(self) -> Path:
@@ -128,14 +138,32 @@ class RunFolder:
                 file.flush()
                 os.fsync(file.fileno())
 
-    def write_results(self, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
-        """Write results, main series and summary."""
+    def write_csv(self, trace: Trace) -> None:
+        """Write everything recorded so far as CSV; raises InputError where it cannot be written."""
+        from cosim.native.trace_csv import write_trace  # late: `cosim --help` needs no SciPy
+
+        with writing(self.path), replacing(self.results_csv) as partial:
+            write_trace(partial, trace)
+
+    def write_results(self, trace: Trace, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
+        """Write results, main series and, last, the summary that says how the run ended.
+
+        Args:
+            trace: What was recorded.
+            dataset: The same with attributes.
+            summary: Status, timings and energies.
+
+        Raises:
+            InputError: One of the files cannot be written.
+        """
         with writing(self.path):
             numbers = [name for name, values in dataset.data_vars.items() if values.dtype.kind in "biuf"]
             encoding = {name: {"zlib": True, "complevel": 4} for name in numbers}
             with replacing(self.results) as partial:
                 dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
             write_series(self.path / "series.csv", dataset)
+            if self.has_csv or self.results_csv.exists():  # a resumed run leaves no half of a file behind
+                self.write_csv(trace)
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
 
 
