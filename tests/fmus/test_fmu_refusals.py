@@ -84,7 +84,7 @@ def test_a_resistance_that_falls_below_zero_stops_the_run(make_unit, version):
 
 @pytest.mark.parametrize("coils", [0, 100_001])
 def test_a_number_of_coils_out_of_range_is_refused(make_unit, coils):
-    with pytest.raises(UnitError, match=f"coils = {coils}: it must be from 1 to 100000"):
+    with pytest.raises(InputError, match=f"coils = {coils} is outside 1 to 100000"):
         make_unit(coils=coils)
 
 
