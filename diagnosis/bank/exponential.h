@@ -46,4 +46,12 @@ static inline double bank_relaxation(double x)
     return x < 1e-3 ? series : closed;
 }
 
+/* (1 - bank_relaxation(x)) / x, 1/2 at 0: how far the mean of an exponential approach has come. */
+static inline double bank_approach(double x)
+{
+    const double series = 0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0)));
+    const double closed = (1.0 - bank_relaxation(x)) / (x < 1e-3 ? 1.0 : x);
+    return x < 1e-3 ? series : closed;
+}
+
 #endif

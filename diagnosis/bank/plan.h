@@ -30,7 +30,7 @@ typedef struct {
     double t, t_begin, t_end, dt, dt_middle; /* t: instant that a hook's values belong to; dt_middle: 0 or dt / 2 */
     const double *coil, *string, *source;    /* parameters */
     const double *set;                       /* parameters of the whole set */
-    double *temperature, *before, *middle, *felt, *rate, *slope, *energy; /* rate: mean over the step; slope: at its end */
+    double *temperature, *before, *middle, *mean, *felt, *rate, *slope, *energy; /* rate: mean over the step; slope: at its end */
     double *resistance, *current, *power, *heat, *conductance, *capacity, *ambient;
     double *shift, *scale, *fraction, *added, *heating, *cooling, *heating_before, *cooling_before, *crossing;
     double *remembered, *phase, *stiffness, *tension, *rest, *extension, *extension_before, *length;

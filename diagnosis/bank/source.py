@@ -144,6 +144,8 @@ def _state_locals(term: CandidateTerm, hook: str, used: set[str]) -> tuple[list[
         if state.name in used or is_stepped:
             ahead = f" + s->dt_middle * s->state_rate[{at}]" if hook in _BEFORE_STEP else ""
             before.append(f"double {state.name} = s->state[{at}]{ahead};")
+        if f"{state.name}_begin" in used:
+            before.append(f"const double {state.name}_begin = s->state[{at}];")
     return before, after
 
 

@@ -100,6 +100,7 @@ static void balance_heat(Step *s, int64_t k)
     double *restrict heat = s->heat, *restrict conductance = s->conductance, *restrict capacity = s->capacity;
     double *restrict ambient = s->ambient, *restrict temperature = s->temperature, *restrict energy = s->energy;
     double *restrict rate = s->rate, *restrict slope = s->slope;
+    double *restrict mean = s->mean;
     const double *power = s->power;
     COILS_LOOP
     {
@@ -115,7 +116,10 @@ static void balance_heat(Step *s, int64_t k)
     COILS_LOOP
     {
         const double net = power[i] + heat[i] - conductance[i] * (temperature[i] - ambient[i]);
-        rate[i] = net / capacity[i] * bank_relaxation(conductance[i] / capacity[i] * dt);
+        const double exponent = conductance[i] / capacity[i] * dt, free = net / capacity[i];
+        const double approach = bank_approach(exponent), relaxation = 1.0 - exponent * approach;
+        mean[i] = temperature[i] + free * dt * approach; /* what a neighbour feels, so that heat is conserved */
+        rate[i] = free * relaxation;
         temperature[i] += rate[i] * dt;
         slope[i] = (net - conductance[i] * rate[i] * dt) / capacity[i];
         energy[i] += power[i] * dt;
@@ -203,10 +207,13 @@ static void advance(Step *s, int64_t k)
     balance_heat(s, k);
     if (plan->given) {
         memcpy(s->temperature, plan->given + (k + 1) * width, width * sizeof(double));
-        COILS_LOOP s->slope[i] = s->rate[i] = (s->temperature[i] - before[i]) / s->dt;
+        COILS_LOOP
+        {
+            s->slope[i] = s->rate[i] = (s->temperature[i] - before[i]) / s->dt;
+            s->mean[i] = 0.5 * (before[i] + s->temperature[i]);
+        }
     }
-    COILS_LOOP middle[i] = 0.5 * (before[i] + temperature[i]);
-    s->felt = s->middle;
+    s->felt = s->mean;
     s->t = s->t_begin + 0.5 * s->dt;
     HOOK_state(s);
     HOOK_shared(s);

@@ -18,9 +18,12 @@ CANDIDATE = CandidateTerm(
     ),
     places=("all", "coil", "string"),
     lines={
+        # The mass follows within the step, as in second_mass; `apart` is the part of g that it cannot follow.
         "heat": """
-            conductance += g;
-            heat += g * (mass - T_ambient);
+            const double held = bank_relaxation((g + loss) / C2 * dt);
+            const double apart = (loss + g * held) / (g + loss + 1e-300);
+            conductance += g * apart;
+            heat += g * held * (mass_begin - T_ambient);
         """,
         "state": """
             mass_inflow = (g * T + loss * T_ambient) / C2;

@@ -17,9 +17,11 @@ CANDIDATE = CandidateTerm(
     ),
     places=("all", "coil", "string"),
     lines={
+        # The mass follows within the step: its mean is what counts, so that no time constant is too short for the step.
         "heat": """
-            conductance += g;
-            heat += g * (mass - T_ambient);
+            const double held = bank_relaxation(g / C2 * dt);
+            conductance += g * held;
+            heat += g * held * (mass_begin - T_ambient);
         """,
         "state": """
             mass_inflow = g * T / C2;

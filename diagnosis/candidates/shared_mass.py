@@ -12,8 +12,8 @@ CANDIDATE = CandidateTerm(
         "ed., Wiley 2011, chapter 5"
     ),
     parameters=(
-        Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.0005, 0.002, 0.01), is_amplitude=True),
-        Parameter("C_chassis", "J/K", 0.01, 10000.0, "a heat capacity is positive", (1.0, 5.0, 50.0)),
+        Parameter("g", "W/K", 0.0, 0.05, "heat flows from hot to cold", (0.0005, 0.002, 0.01), is_amplitude=True),
+        Parameter("C_chassis", "J/K", 0.2, 10000.0, "a heat capacity is positive", (1.0, 5.0, 50.0)),
         Parameter("loss", "W/K", 0.0, 10.0, "heat flows from hot to cold", (0.01, 0.1)),
     ),
     places=("all", "string"),

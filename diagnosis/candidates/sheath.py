@@ -29,9 +29,12 @@ CANDIDATE = CandidateTerm(
     ),
     places=("all", "coil", "string"),
     lines={
+        # The layer follows within the step, as in second_mass; `apart` is the part of g that it cannot follow.
         "heat": """
-            conductance = conductance * (1.0 - share) + share * g;
-            heat += share * g * (layer - T_ambient);
+            const double held = bank_relaxation((g + conductance) / C2 * dt);
+            const double apart = (conductance + g * held) / (g + conductance);
+            conductance = conductance * (1.0 - share) + share * g * apart;
+            heat += share * g * held * (layer_begin - T_ambient);
         """,
         "state": """
             layer_inflow = (g * T + conductance * T_ambient) / C2;

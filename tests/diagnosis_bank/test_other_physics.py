@@ -130,6 +130,13 @@ def test_fatigue_counts_one_cycle_for_up_and_down():
     assert tops / tops[0] == pytest.approx([(1 - loss * (0.5 + n)) / (1 - loss * 0.5) for n in range(cycles)], rel=0.02)
 
 
+def test_a_coil_that_is_hot_at_the_start_has_made_no_cycle():
+    inputs = driven(([0.0, 5.0], [HOT, HOT]), 5.0)
+    tired = mechanical(LOADED.with_term("fatigue", loss=0.3), inputs, "stiffness")
+    assert np.array_equal(tired, mechanical(LOADED, inputs, "stiffness"))
+    assert tired[0] > 380.0
+
+
 def test_incomplete_transformation_scales_the_rise():
     inputs = driven(([0.0, 20.0], [ROOM, HOT]), 20.0)
     d = COIL_FIELDS["heating_d"][0]

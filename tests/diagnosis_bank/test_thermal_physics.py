@@ -24,10 +24,11 @@ def temperatures(parameters, inputs, layout=HEATER, times=None):
     return full_bank(layout).simulate(parameters, inputs, {"temperature": times})["temperature"]
 
 
-def test_a_lumped_heater_without_a_circuit_follows_its_exponential():
-    inputs = heater(POWER, 30.0, 0.5)
+@pytest.mark.parametrize("step", [0.5, 0.004])  # on either side of where the series takes over from exp
+def test_a_lumped_heater_without_a_circuit_follows_its_exponential(step):
+    inputs = heater(POWER, 30.0, step)
     exact = ROOM + POWER / G * (1.0 - np.exp(-G / C * inputs.time))
-    assert np.allclose(temperatures(PLAIN, inputs)[:, 0], exact, rtol=1e-13)  # the step is exact; rounding only
+    assert np.allclose(temperatures(PLAIN, inputs)[:, 0], exact, rtol=1e-12)  # the step is exact; rounding only
 
 
 def test_radiation_follows_scipy():
@@ -72,6 +73,19 @@ def test_a_second_mass_follows_the_linear_two_mass_system(term, loss):
         errors.append(np.abs(temperatures(PLAIN.with_term(term, **values), inputs)[:, 0] - exact).max())
     assert errors[1] < 0.01  # far below the noise of a thermometer
     assert 3.0 < errors[0] / errors[1] < 5.0  # second order: halving the step quarters the error
+
+
+@pytest.mark.parametrize("g", [0.05, 0.5])
+@pytest.mark.parametrize("c2", [1e-3, 0.1])
+@pytest.mark.parametrize(("term", "loss"), [("second_mass", 0.0), ("lossy_second_mass", 0.05)])
+def test_a_mass_far_faster_than_the_step_is_still_right(term, loss, g, c2):
+    """Time constants down to 2 ms under a step of 0.1 s: a fit that wanders there must not find a ghost."""
+    values = {"g": g, "C2": c2} | ({"loss": loss} if loss else {})
+    inputs = heater(POWER, 30.0, 0.1)
+    exact = two_masses(g, c2, loss, inputs.time)
+    found = temperatures(PLAIN.with_term(term, **values), inputs)[:, 0]
+    assert np.abs(found - exact).max() < 0.012 * np.ptp(exact)  # of the rise; largest in the first two steps
+    assert np.abs(found - exact)[30:].max() < 2e-3 * np.ptp(exact)
 
 
 def test_a_sheath_follows_the_linear_system_of_core_and_shell():
