@@ -102,7 +102,7 @@ def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Gener
     wanted = [] if kind in ("null", "parameters") else [dealer.deal(kind)]
     if kind == "two":
         second = dealer.deal("two")
-        while second[0] is wanted[0][0]:
+        while second[0] is wanted[0][0] or not _able([wanted[0][0], second[0]]):
             second = dealer.deal("two")
         wanted.append(second)
     setup = _setup([e for e, _ in wanted], rng)
@@ -123,9 +123,13 @@ def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Gener
 
 def _setup(effects: Sequence[type[Effect] | type[SensorFault]], rng: np.random.Generator) -> Setup:
     """A kind of rig on which all of the effects can act."""
-    able = [s for s in SETUPS.values() if all(_can(e, s) for e in effects)]
+    able = _able(effects)
     shares = np.array([SHARES[s.name] for s in able])
     return able[int(rng.choice(len(able), p=shares / shares.sum()))]
+
+
+def _able(effects: Sequence[type[Effect] | type[SensorFault]]) -> list[Setup]:
+    return [s for s in SETUPS.values() if all(_can(e, s) for e in effects)]
 
 
 def _can(effect: type[Effect] | type[SensorFault], setup: Setup) -> bool:

@@ -39,7 +39,7 @@ def drawn_effect(
     if effect is SupplyCurrentLimit:
         strings = setup.sheet.strings
         most = setup.top / setup.sheet.resistance * sum(1.0 / n for n in strings)
-        parameters = {"inverse_limit": 1.0 / (parameters["share"] * most)}
+        parameters = {"limit": parameters["share"] * most}
     made = effect(place, parameters)
     if isinstance(made, TemperatureDependentConvection):
         made.conductance = rig.conductance

@@ -68,14 +68,14 @@ class SupplySourceResistance(Effect):
 class SupplyCurrentLimit(Effect):
     identifier = "supply_current_limit"
     unit = "electrical"
-    law = "I_supply = min(I_free, 1 / inverse_limit)"
+    law = "I_supply = min(I_free, limit)"
     places = ("supply",)
-    same_parameters = ("inverse_limit",)
+    same_parameters = ("limit",)
     #: Share of the current of the highest level that is let through.
     strengths = {"share": (0.92, 0.8, 0.65)}
 
     def branches(self, now: Now, network: Branches) -> None:
-        network.limit = min(network.limit, 1.0 / self.parameters["inverse_limit"])
+        network.limit = min(network.limit, self.parameters["limit"])
 
 
 class TemperatureDependentResistance(Effect):

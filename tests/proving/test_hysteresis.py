@@ -32,9 +32,10 @@ def test_scatter_within_the_wire_changes_the_full_loop_by_little():
     rig = replace(RIG, spread=0.6)
     up, down = np.linspace(20.0, 110.0, 200), np.linspace(110.0, 0.0, 200)
     loop = loop_of(rig)
-    # Curvature of the branches (at most 3 N/m/K^2) times half the variance, 0.18 K^2.
-    assert np.abs(along(loop, up) - lower(up)).max() < 0.6
-    assert np.abs(along(loop, down) - upper(down)).max() < 0.6
+    # Curvature of the branch (at most 1.7 N/m/K^2) times half the variance, 0.18 K^2. Where the loop is narrower than
+    # the scatter, near its hot end, the narrow plays close early: 1 % of the rise.
+    assert np.abs(along(loop, up) - lower(up)).max() < 0.5
+    assert np.abs(along(loop, down) - upper(down)).max() < 2.5
 
 
 def test_without_duhem_a_turn_inside_the_loop_holds_the_stiffness():
