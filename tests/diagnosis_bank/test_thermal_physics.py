@@ -88,6 +88,16 @@ def test_a_mass_far_faster_than_the_step_is_still_right(term, loss, g, c2):
     assert np.abs(found - exact)[30:].max() < 2e-3 * np.ptp(exact)
 
 
+@pytest.mark.parametrize("step", [0.1, 1.0])
+def test_what_the_coil_gives_to_its_second_mass_is_there_in_the_end(step):
+    """Without loss to the room, coil and mass settle at the heat given over both capacities, at any step."""
+    power = Programme(np.array([0.0, 10.0]), np.array([[POWER], [0.0]]))
+    inputs = Drive(Programme.constant(ROOM), power=power).on_grid(grid(0.0, 900.0, step, [10.0]))
+    parameters = PLAIN.with_base(conductance=0.0).with_term("second_mass", g=4e-3, C2=0.1)
+    end = temperatures(parameters, inputs, times=np.array([900.0]))[0, 0]
+    assert end - ROOM == pytest.approx(POWER * 10.0 / (C + 0.1), rel=1e-10)  # rounding over 9000 steps
+
+
 def test_a_sheath_follows_the_linear_system_of_core_and_shell():
     g, c2 = 0.02, 0.1
     inputs = heater(POWER, 60.0, 0.05)
