@@ -100,8 +100,8 @@ def markdown() -> str:
     parts.append("| hook | what it may change |\n|---|---|")
     parts += [f"| `{hook}` | {words} |" for hook, words in HOOKS.items()]
     parts.append(
-        "\nLines may use these names, those of their own parameters and states, and the model's own parameters. In "
-        "`resistance`,\n`pairs` and `heat` a state stands at the middle of the step; `<state>_begin` is its value before.\n"
+        "\nLines may use these names, those of their own parameters and states, and the model's own parameters. In the\n"
+        "hooks up to `heat` a state stands at the middle of the step; `<state>_begin` is its value at the begin.\n"
     )
     parts.append("| name | unit | meaning |\n|---|---|---|")
     parts += [f"| `{name}` | {unit} | {words} |" for name, (unit, words) in NAMES.items()]
