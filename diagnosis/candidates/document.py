@@ -100,7 +100,7 @@ def markdown() -> str:
     parts.append("| hook | what it may change |\n|---|---|")
     parts += [f"| `{hook}` | {words} |" for hook, words in HOOKS.items()]
     parts.append(
-        "\nLines may use these names, those of their own parameters and states, and the model's own parameters. In the\n"
+        "\nLines may use these names, those of their own parameters and states, and the model's own parameters. In\n"
         "hooks up to `heat` a state stands at the middle of the step; `<state>_begin` is its value at the begin.\n"
     )
     parts.append("| name | unit | meaning |\n|---|---|---|")

@@ -48,9 +48,9 @@ def test_derivatives_agree_with_richardson(name):
 def test_grouped_derivatives_are_those_of_single_simulations(parameters, monkeypatch):
     bank = full_bank(NETWORK)
     size = NETWORK.size("channel")
-    parameters = parameters.with_term("sensor_lag", lag_time=np.full(size, 0.1))
-    parameters = parameters.with_term("sensor_clock_offset", delay=np.full(size, 0.05))
-    parameters = parameters.with_term("sensor_gain", gain=np.full(size, 0.02), pivot=0.0)
+    parameters = parameters.with_term("sensor_lag", lag_time=np.linspace(0.1, 0.4, size))
+    parameters = parameters.with_term("sensor_clock_offset", delay=np.linspace(0.0, 0.3, size))
+    parameters = parameters.with_term("sensor_gain", gain=np.linspace(0.01, 0.1, size), pivot=0.0)
     names = ("reference_resistance", "conductance", "capacity")
     directions = [logarithmic(name, EYE[i]) for name in names for i in range(12)]
     directions += [logarithmic("heating_b", np.ones(12)), Direction("string_resistance", np.array([0.0, 1.0]), 1e-4)]
