@@ -31,6 +31,7 @@ from cosim.components import (
 )
 from cosim.connection import Connection, ConnectionFault, Element
 from cosim.errors import InputError
+from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
 from cosim.isolation.unit import IsolatedUnit
@@ -146,13 +147,25 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
             return build_fabric(name, component, parameters)
         if isinstance(component, PendulumComponent):
             return build_pendulum(name, component, parameters)
-        return build_fmu(name, component, parameters, source)
+        return _fmu(name, component, parameters, scenario, source)
     except InputError as error:
         raise error.within(name, source) from error
     except UnitError as error:  # libngspice is missing
         raise InputError(source, f"components.{name}", error.what, error.remedy or "correct this component") from error
     except ValueError as error:
         raise InputError(source, f"components.{name}", str(error), "correct this component") from error
+
+
+def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
+    reports_events = getattr(scenario.algorithm, "on_event", "continue") == "synchronise"
+    unit = build_fmu(name, component, parameters, source, reports_events)
+    if isinstance(unit, CoSimulationUnit):
+        try:
+            unit.check_step(nanoseconds(scenario.time.macro_step))
+        except InputError:
+            unit.terminate()
+            raise
+    return unit
 
 
 def _course(given: ProgrammeOutput) -> Course:

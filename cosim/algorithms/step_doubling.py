@@ -59,7 +59,7 @@ class StepDoubling(Algorithm):
     def __init__(
         self, system: System, inner: Callable[[System, int, int], StepOutcome], control: ErrorControl, size: int
     ) -> None:
-        require_restoring(system, system.movers, "step_doubling")
+        require_restoring(system, system.movers, "step_doubling", is_divided=True)
         self._inner, self._control, self._size = inner, control, size
         connected = {c.source for c in system.connections if c.source[0] not in system.sources}
         self._watched = [

@@ -24,7 +24,7 @@ class Synchronised(Algorithm):
     divides_steps = True
 
     def __init__(self, system: System, inner: Callable[[System, int, int], StepOutcome]) -> None:
-        require_restoring(system, system.movers, "on_event: synchronise")
+        require_restoring(system, system.movers, "on_event: synchronise", is_divided=True)
         self._inner = inner
         self._events = 0
 

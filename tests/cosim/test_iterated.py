@@ -75,6 +75,14 @@ def test_a_unit_in_the_loop_that_cannot_restore_is_named():
         Synchronised(system, jacobi.step)
 
 
+def test_a_unit_of_one_step_size_is_refused_where_steps_are_divided():
+    system = two_tanks()
+    system.units["y"].can_vary_step = False
+    with pytest.raises(CannotRestore, match="step_doubling divides macro-steps, but y takes steps of one size only"):
+        StepDoubling(system, jacobi.step, ErrorControl(1e-4, 1e-6, 1000), SECOND)
+    Iterated(system, 1e-8, 10, True)  # repeats whole steps only
+
+
 def test_an_iteration_that_does_not_converge_says_which_input_still_changes():
     system = two_tanks()
     stiff = System(
