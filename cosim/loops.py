@@ -132,11 +132,12 @@ class Propagation:
         self._nodes = [t for into in transfers.values() for t in into if is_complete or t.end in direct]
         self._direct = direct
         self.loops: list[AlgebraicLoop] = []
-        self._actions: list[Action] = list(self._plan(units, self._edges(through)))
+        #: What `carry_out` does, in order: methods of transfers, of algebraic loops, and of units.
+        self.actions: list[Action] = list(self._plan(units, self._edges(through)))
 
     def carry_out(self) -> None:
         """Set the inputs and let the outputs follow; raises UnitError where a loop has no solution."""
-        for action in self._actions:
+        for action in self.actions:
             action()
 
     def _edges(self, through: Mapping[str, Mapping[str, frozenset[str]]]) -> list[tuple[int, int]]:

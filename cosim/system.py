@@ -48,13 +48,14 @@ class System:
             transfer.add(connection, self.units[connection.source[0]])
         self.transfers = {name: [t for end, t in inputs.items() if end[0] == name] for name in self.units}
         self._check_inputs()
-        self._propagation = Propagation(self.units, self.transfers, lambda u: u.feedthrough, is_complete=False)
+        #: What `propagate` does.
+        self.propagation = Propagation(self.units, self.transfers, lambda u: u.feedthrough, is_complete=False)
         self._initial = Propagation(self.units, self.transfers, lambda u: u.initial_feedthrough, is_complete=True)
 
     @property
     def loops(self) -> Sequence[AlgebraicLoop]:
         """Algebraic loops between outputs and inputs of one instant while the system steps."""
-        return self._propagation.loops
+        return self.propagation.loops
 
     @property
     def initial_loops(self) -> Sequence[AlgebraicLoop]:
@@ -147,13 +148,13 @@ class System:
 
     def exchange_all(self) -> None:
         """Carry out every connection, those with direct feedthrough in the order in which outputs follow."""
-        self._propagation.carry_out()
+        self.propagation.carry_out()
         for name in self.units:
             self.exchange(name)
 
     def propagate(self) -> None:
         """Let every output that depends directly on an input follow the outputs of this instant."""
-        self._propagation.carry_out()
+        self.propagation.carry_out()
 
     def step(self, name: str, time: int, size: int) -> StepOutcome:
         """Step one unit and add its wall time."""
@@ -183,10 +184,10 @@ class System:
         outcomes: dict[str, StepOutcome] = {}
         try:
             for name in elsewhere:
-                remote = self.units[name]
-                assert isinstance(remote, ParallelUnit)
-                remote.begin_step(time, size)
-                begun.append(remote)
+                unit = self.units[name]
+                assert isinstance(unit, ParallelUnit)
+                unit.begin_step(time, size)
+                begun.append(unit)
             here = self._in_turn([n for n in names if n not in elsewhere], time, size)
             for name in elsewhere:
                 begin = clock.perf_counter()

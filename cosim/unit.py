@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +20,7 @@ from cosim.variable import AnyArray, Array, Causality, Coordinate, Variable, Var
 
 __all__ = [
     "NANOSECONDS", "AnyArray", "Array", "ArrayStore", "Causality", "Coordinate", "ParallelUnit", "StepOutcome",
-    "StepStatus", "Unit", "UnitError", "Variable", "VariableType", "seconds",
+    "StepStatus", "Unit", "UnitError", "Variable", "VariableType", "are_equal", "is_finite", "seconds",
 ]  # fmt: skip
 
 #: Simulated time is an integer number of nanoseconds, so that steps never drift and the end is met exactly.
@@ -32,6 +32,16 @@ def seconds(time: int) -> float:
     return time / NANOSECONDS
 
 
+def are_equal(one: AnyArray, other: AnyArray) -> bool:
+    """Whether two arrays of one shape hold the same values; one element is compared without numpy's overhead."""
+    return bool(one.item() == other.item() if one.size == 1 else (one == other).all())
+
+
+def is_finite(values: AnyArray) -> bool:
+    """Whether every element is a finite number; the same for one element."""
+    return math.isfinite(values.item()) if values.size == 1 else bool(np.isfinite(values).all())
+
+
 class StepStatus(Enum):
     """How a step ended (a failure raises `UnitError` instead)."""
 
@@ -40,9 +50,8 @@ class StepStatus(Enum):
     DISCARDED = "discarded"
 
 
-@dataclass(frozen=True)
-class StepOutcome:
-    """Result of `Unit.do_step`.
+class StepOutcome(NamedTuple):
+    """Result of `Unit.do_step` (a named tuple: made at every step, it costs half of a frozen dataclass).
 
     Args:
         status: How it ended.
@@ -183,7 +192,7 @@ class ArrayStore:
         """Copy a finite value to an input; raises UnitError with the first element that is not finite."""
         array = self.arrays[name]
         array[...] = value
-        if not np.isfinite(array).all():
+        if not is_finite(array):
             where = [int(i) for i in np.argwhere(~np.isfinite(array))[0]] if array.ndim else []
             raise UnitError(self.unit, f"input {name}{where or ''} is not a finite number")
 

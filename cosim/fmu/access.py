@@ -46,14 +46,15 @@ class Access:
             raise ValueError("a buffer must be contiguous: its address is kept")
         self.function, self.variable, self.references = function, variable, references
         self.values, self.buffer = values, buffer
-        self._call, self._check = call, check
-        self._arguments: tuple[Any, ...] = component, ctypes.addressof(references), len(references), buffer.ctypes.data
+        #: The C function and what it is called with; the component comes first.
+        self.call, self._check = call, check
+        self.arguments: tuple[Any, ...] = component, ctypes.addressof(references), len(references), buffer.ctypes.data
         if function.startswith("fmi3") and not function.endswith("Clock"):
-            self._arguments += (buffer.size,)
+            self.arguments += (buffer.size,)
 
     def __call__(self) -> None:
         """Make the call; raises UnitError with the FMU's message if it is refused."""
-        status = self._call(*self._arguments)
+        status = self.call(*self.arguments)
         if status > _WARNING:
             self._check(f"{self.function}({self.variable.variable.name})", status)
 
@@ -110,8 +111,8 @@ class _Binary(Access):
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
         self.sizes = np.zeros(self.buffer.size, dtype=np.uintp)
-        component, references, count, pointers, size = self._arguments
-        self._arguments = component, references, count, self.sizes.ctypes.data, pointers, size
+        component, references, count, pointers, size = self.arguments
+        self.arguments = component, references, count, self.sizes.ctypes.data, pointers, size
 
 
 class BinaryWriter(_Binary):

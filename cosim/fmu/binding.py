@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -39,9 +39,8 @@ WARNING, DISCARD, FATAL = 1, 2, 4
 _ONLY_ONCE: dict[Path, str] = {}
 
 
-@dataclass(frozen=True)
-class StepResult:
-    """What a Co-Simulation step ended with.
+class StepResult(NamedTuple):
+    """What a Co-Simulation step ended with (a named tuple: made at every step, it costs half of a frozen dataclass).
 
     Args:
         reached: Time reached [s].
@@ -92,6 +91,10 @@ class Binding(ABC):
     #: Begin of the names of all functions, `fmi2` or `fmi3`.
     prefix: str
     c_types: dict[VariableType, CType]
+    #: fmi2DoStep or fmi3DoStep, with the argument types of C; of Co-Simulation alone.
+    step_function: Callable[..., int]
+    #: What fmi3DoStep fills: eventHandlingNeeded, terminateSimulation, earlyReturn, lastSuccessfulTime; ctypes objects.
+    step_results: Sequence[Any] = ()
 
     def __init__(self, archive: FmuArchive, interface: Interface, name: str) -> None:
         self.archive, self.interface, self.name = archive, interface, name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -30,8 +31,10 @@ class Buffers:
         self.values: dict[str, AnyArray] = {}
         self.writers: dict[str, Access] = {}
         self.readers: list[Access] = []
-        self._groups: list[Access] = []
+        #: The calls that `read` makes, one for each type.
+        self.group_readers: list[Access] = []
         self._blocks: list[AnyArray] = []
+        self._scalars: list[AnyArray] = []
         self._checked: list[tuple[AnyArray, AnyArray]] = []
         read: dict[VariableType, dict[str, FmuVariable]] = {}
         for name, v in variables.items():
@@ -61,8 +64,10 @@ class Buffers:
             begin += v.variable.size
         self._blocks.append(block)
         if block.size:
-            self._groups.append(binding.group_reader(list(members.values()), block))
-        if vtype.is_float:
+            self.group_readers.append(binding.group_reader(list(members.values()), block))
+        if vtype.is_float and block.size == 1:
+            self._scalars.append(block)
+        elif vtype.is_float:
             self._checked.append((block, np.zeros_like(block)))
 
     def read(self, time: int | None = None) -> None:
@@ -71,18 +76,21 @@ class Buffers:
         Raises:
             UnitError: The FMU refuses, or a number is not finite.
         """
-        for get in self._groups:
+        for get in self.group_readers:
             get()
+        for block in self._scalars:
+            if not math.isfinite(block.item()):
+                raise self._not_finite(time)
         for block, zeros in self._checked:
             # Infinity and NaN times zero are NaN: one product finds them all, four times as fast as isfinite().all().
             if zeros.dot(block) != 0.0:
-                raise UnitError(self._name, f"output {self._not_finite()} is not a finite number", time)
+                raise self._not_finite(time)
 
-    def _not_finite(self) -> str:
-        for name, values in self.values.items():
-            if name not in self.writers and values.dtype.kind == "f" and not np.isfinite(values).all():
-                return name + element_text(values)
-        return ""
+    def _not_finite(self, time: int | None) -> UnitError:
+        names = (n for n, v in self.values.items() if n not in self.writers and v.dtype.kind == "f")
+        found = next(n for n in names if not np.isfinite(self.values[n]).all())
+        what = f"output {found}{element_text(self.values[found])} is not a finite number"
+        return UnitError(self._name, what, time)
 
     def save(self) -> Saved:
         """Copies of all values."""

@@ -42,9 +42,11 @@ class CoSimulationUnit(FmuUnit):
         self._size: int | None = None
         self._now = math.nan
         self._saved = 0
-        self._next_event: float | None = None
-        self._clocks = Clocks(self.binding, self.table.exposed, self.buffers.values)
-        if self._clocks.timed and not self.binding.uses_event_mode:
+        #: Time of the next time event that the FMU has announced [s].
+        self.next_event: float | None = None
+        #: Its clocks.
+        self.clocks = Clocks(self.binding, self.table.exposed, self.buffers.values)
+        if self.clocks.timed and not self.binding.uses_event_mode:
             self.binding.free()
             raise InputError(archive.path, name, "its clocks need Event Mode, which it does not have (hasEventMode)",
                              "export it with Event Mode")  # fmt: skip
@@ -52,7 +54,7 @@ class CoSimulationUnit(FmuUnit):
     @property
     def is_plain(self) -> bool:
         """Whether a step is nothing but inputs, doStep and outputs: no Event Mode and no clocks."""
-        return not self.binding.uses_event_mode and self._clocks.is_empty
+        return not self.binding.uses_event_mode and self.clocks.is_empty
 
     def check_step(self, size: int) -> None:
         """Raise InputError if the FMU cannot make steps of `size` [ns]."""
@@ -72,24 +74,24 @@ class CoSimulationUnit(FmuUnit):
         self._mode = Mode.EVENT if self.binding.uses_event_mode else Mode.RUNNING
         if self._mode is Mode.EVENT:
             self._enter_step_mode = self.binding.checked("EnterStepMode")
-            self._clocks.begin(self._now)
+            self.clocks.begin(self._now)
             self._leave_event_mode()
 
     def _leave_event_mode(self) -> None:
         """Tick what ticks now, iterate until the discrete states settle, go back to Step Mode."""
-        if not self._clocks.is_empty:
-            self._clocks.activate(self._now, INSTANT, self._write)
-        self._next_event = self._settle().next_event
+        if not self.clocks.is_empty:
+            self.clocks.activate(self._now, INSTANT, self._write)
+        self.next_event = self._settle().next_event
         self._enter_step_mode()
         self._mode = Mode.RUNNING
 
     def _before_update(self) -> None:
-        if not self._clocks.is_empty:
-            self._clocks.read()
+        if not self.clocks.is_empty:
+            self.clocks.read()
 
     def _after_update(self) -> None:
-        if not self._clocks.is_empty:
-            self._clocks.ask_intervals(self._now)
+        if not self.clocks.is_empty:
+            self.clocks.ask_intervals(self._now)
 
     def set(self, name: str, value: AnyArray) -> None:
         """Copy a value to an input; a clock that is set true ticks at this instant."""
@@ -105,7 +107,7 @@ class CoSimulationUnit(FmuUnit):
         self.writers[name]()
 
     def _pass_on(self, name: str) -> None:
-        if name in self._clocks.clocked:
+        if name in self.clocks.clocked:
             return  # it is handed over when its clock ticks
         if self._mode is Mode.RUNNING and self.binding.uses_event_mode and self.table.exposed[name].is_discrete:
             self._enter_event_mode()
@@ -138,7 +140,7 @@ class CoSimulationUnit(FmuUnit):
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
             self._now = begin
-            self._clocks.silence()
+            self.clocks.silence()
             status = self._advance(begin, end)
         except UnitError as error:
             raise UnitError(self.name, error.what, self._reached, error.remedy) from error
@@ -159,10 +161,10 @@ class CoSimulationUnit(FmuUnit):
 
     def _due(self) -> float | None:
         """Time of the next time event or tick [s]."""
-        tick = self._clocks.next_tick
-        if self._next_event is None or tick is None:
-            return self._next_event if tick is None else tick
-        return min(self._next_event, tick)
+        tick = self.clocks.next_tick
+        if self.next_event is None or tick is None:
+            return self.next_event if tick is None else tick
+        return min(self.next_event, tick)
 
     def _is_due(self) -> bool:
         due = self._due()
@@ -197,6 +199,15 @@ class CoSimulationUnit(FmuUnit):
         self._now = end
         return StepStatus.OK
 
+    def moved_to(self, time: int, size: int) -> None:
+        """Whoever made the FMU's steps in place of `do_step` says where it stands.
+
+        Args:
+            time: Time reached [ns].
+            size: Size of the steps [ns].
+        """
+        self._now, self._size = seconds(time), size
+
     def save(self) -> SavedState:
         """As for every FMU; until it is released, the FMU is told that it may have to go back."""
         saved = super().save()
@@ -214,15 +225,15 @@ class CoSimulationUnit(FmuUnit):
         return super().checkpoint()
 
     def _extra(self) -> tuple[float, ...]:
-        event = math.nan if self._next_event is None else self._next_event
-        ticks = [x for clock in self._clocks.timed for x in clock.state()]
+        event = math.nan if self.next_event is None else self.next_event
+        ticks = [x for clock in self.clocks.timed for x in clock.state()]
         return (self._now, event, math.nan if self._size is None else self._size, *ticks)
 
     def _take_extra(self, extra: tuple[float, ...], time: int) -> None:
         self._now, event, size = extra[:3]
-        self._next_event = None if math.isnan(event) else event
+        self.next_event = None if math.isnan(event) else event
         self._size = None if math.isnan(size) else int(size)
-        for i, clock in enumerate(self._clocks.timed):
+        for i, clock in enumerate(self.clocks.timed):
             clock.take(extra[3 + 4 * i : 7 + 4 * i])
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:

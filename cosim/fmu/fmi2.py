@@ -60,9 +60,10 @@ class Fmi2Binding(Binding):
         self._callbacks = callbacks  # kept: the FMU holds its address
         fmu.instantiate(callbacks=callbacks, loggingOn=True)
         if self.interface == "co_simulation":
-            self._do_step = fmu.dll["fmi2DoStep"]
-            types = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int]
-            self._do_step.argtypes, self._do_step.restype = types, ctypes.c_int
+            step = fmu.dll["fmi2DoStep"]
+            step.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int]
+            step.restype = ctypes.c_int
+            self.step_function = step
         return fmu
 
     def configure(self, values: Sequence[tuple[FmuVariable, AnyArray]]) -> None:
@@ -78,7 +79,7 @@ class Fmi2Binding(Binding):
 
     def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:
         """One fmi2DoStep; after fmi2Discard the FMU is asked how far it came and whether it has terminated."""
-        status = self._do_step(self.fmu.component, time, size, is_final)
+        status = self.step_function(self.fmu.component, time, size, is_final)
         if status == DISCARD:
             return self._discarded(time)
         if status == _PENDING:

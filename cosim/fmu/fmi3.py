@@ -52,10 +52,12 @@ class Fmi3Binding(Binding):
         self._instantiate(slave, log)
         self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
         self._reached = ctypes.c_double()
-        self._results = tuple(ctypes.addressof(r) for r in (self._event, self._terminate, self._early, self._reached))
+        self.step_results = self._event, self._terminate, self._early, self._reached
+        self._addresses = tuple(ctypes.addressof(r) for r in self.step_results)
         types = [ctypes.c_double, ctypes.c_double, ctypes.c_bool, *[ctypes.c_void_p] * 4]
-        self._do_step = slave.dll["fmi3DoStep"]
-        self._do_step.argtypes, self._do_step.restype = [ctypes.c_void_p, *types], ctypes.c_int
+        step = slave.dll["fmi3DoStep"]
+        step.argtypes, step.restype = [ctypes.c_void_p, *types], ctypes.c_int
+        self.step_function = step
         return slave
 
     def _instantiate(self, slave: Any, log: Callable[..., None]) -> None:
@@ -91,7 +93,7 @@ class Fmi3Binding(Binding):
     def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:
         """One fmi3DoStep."""
         self._reached.value = time
-        status = self._do_step(self.fmu.component, time, size, is_final, *self._results)
+        status = self.step_function(self.fmu.component, time, size, is_final, *self._addresses)
         if status == DISCARD:
             return StepResult(min(max(self._reached.value, time), time + size), discarded=True)
         self.check("fmi3DoStep", status)

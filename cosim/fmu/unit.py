@@ -16,7 +16,19 @@ from cosim.fmu.buffers import Buffers, Saved, element_text
 from cosim.fmu.dependencies import dependencies
 from cosim.fmu.settings import FmuSettings, Table
 from cosim.fmu.versions import bind
-from cosim.unit import NANOSECONDS, AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable, VariableType, seconds
+from cosim.unit import (
+    NANOSECONDS,
+    AnyArray,
+    Coordinate,
+    StepOutcome,
+    Unit,
+    UnitError,
+    Variable,
+    VariableType,
+    are_equal,
+    is_finite,
+    seconds,
+)
 
 __all__ = ["FmuSettings", "FmuUnit", "Mode", "SavedState"]
 
@@ -118,10 +130,10 @@ class FmuUnit(Unit):
         buffer = self.buffers.values[name]
         if self._mode is Mode.INSTANTIATED:
             self._given.add(name)
-        elif buffer is not value and (buffer == value).all():
+        elif buffer is not value and are_equal(buffer, value):
             return  # the FMU has it already
         buffer[...] = value
-        if buffer.dtype.kind == "f" and not np.isfinite(buffer).all():
+        if buffer.dtype.kind == "f" and not is_finite(buffer):
             raise UnitError(self.name, f"input {name}{element_text(buffer)} is not a finite number")
         self._pass_on(name)
         self._is_stale = True

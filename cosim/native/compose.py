@@ -63,7 +63,7 @@ class Composer:
         return array if is_carried(array) else None
 
     def _propagation(self) -> Iterator[Action]:
-        for action in self._system._propagation._actions:
+        for action in self._system.propagation.actions:
             owner: Any = getattr(action, "__self__", None)
             if isinstance(owner, Transfer):
                 yield self._transfer(owner)
@@ -134,7 +134,7 @@ class Composer:
     def _read(self, unit: CoSimulationUnit, index: int) -> list[Call] | None:
         """Get all outputs; None where one needs Python."""
         calls: list[Call] = []
-        for access in unit.buffers._groups:
+        for access in unit.buffers.group_readers:
             found = read_calls(access, index)
             if found is None:
                 return None

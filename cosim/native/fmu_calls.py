@@ -10,7 +10,7 @@ from cosim.fmu.access import Access
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Call
 from cosim.native.layout import ELEMENT_TYPES, Code, Operation
-from cosim.unit import AnyArray, Array, seconds
+from cosim.unit import AnyArray, Array
 
 
 def write_call(access: Access, given: AnyArray, unit: int) -> Call | None:
@@ -45,7 +45,7 @@ def is_plain(unit: CoSimulationUnit, connected: set[str]) -> bool:
         unit: The FMU.
         connected: Its inputs that something is connected to.
     """
-    if not unit._clocks.is_empty:
+    if not unit.clocks.is_empty:
         return False
     # A discrete input that is set takes an FMU with Event Mode there.
     return not (unit.binding.uses_event_mode and any(unit.table.exposed[name].is_discrete for name in connected))
@@ -53,12 +53,7 @@ def is_plain(unit: CoSimulationUnit, connected: set[str]) -> bool:
 
 def next_event(unit: CoSimulationUnit) -> float:
     """Time of the next time event [s]; infinity if there is none."""
-    return math.inf if unit._next_event is None else unit._next_event
-
-
-def moved_to(unit: CoSimulationUnit, time: int, size: int) -> None:
-    """The FMU has been stepped to `time` [ns] with steps of `size` [ns]."""
-    unit._now, unit._size = seconds(time), size
+    return math.inf if unit.next_event is None else unit.next_event
 
 
 def step_call(unit: CoSimulationUnit, index: int, due: Array) -> Call:
@@ -69,22 +64,19 @@ def step_call(unit: CoSimulationUnit, index: int, due: Array) -> Call:
         index: Number of its wall time.
         due: Time of its next time event [s], shape (1,); kept up to date by the caller.
     """
-    binding: Any = unit.binding
+    binding = unit.binding
     is_fmi3 = binding.prefix == "fmi3"
     operation = Operation(
         code=Code.STEP_FMI3 if is_fmi3 else Code.STEP_FMI2,
         unit=index,
-        function=_address(binding._do_step),
+        function=_address(binding.step_function),
         component=binding.fmu.component,
         due=due.ctypes.data,
     )
-    if not is_fmi3:
-        return Call(operation, binding, "_do_step")
-    *flags, reached = binding._results
-    operation.flags[:] = flags
-    operation.reached = reached
-    results = (binding._event, binding._terminate, binding._early, binding._reached)
-    return Call(operation, binding, "_do_step", results)
+    if is_fmi3:
+        *flags, operation.reached = map(ctypes.addressof, binding.step_results)
+        operation.flags[:] = flags
+    return Call(operation, binding, "step_function", binding.step_results)
 
 
 def is_carried(array: AnyArray) -> bool:
@@ -111,14 +103,14 @@ def _access_call(access: Access, code: Code, unit: int) -> Call:
         code=code,
         unit=unit,
         target_type=ELEMENT_TYPES[access.buffer.dtype.name],
-        function=_address(access._call),
-        component=access._arguments[0],
+        function=_address(access.call),
+        component=access.arguments[0],
         references=ctypes.addressof(access.references),
         reference_count=len(access.references),
         target=access.buffer.ctypes.data,
         count=access.buffer.size,
     )
-    return Call(operation, access, "_call")
+    return Call(operation, access, "call")
 
 
 def _conversion(source: AnyArray, target: AnyArray, unit: int) -> Call:

@@ -11,7 +11,6 @@ import numpy as np
 
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Action
-from cosim.native.fmu_calls import moved_to
 from cosim.native.layout import Code, Cursor, Operation, PlanLayout, Recording, Return
 from cosim.native.library import library
 from cosim.system import System
@@ -161,7 +160,7 @@ class Plan:
     def _hand_over(self) -> None:
         """Tell the FMUs' units where they stand, so that Python can go on from here."""
         for unit in self._kept.units:
-            moved_to(unit, self._grid.start + self.index * self._grid.size, self._grid.size)
+            unit.moved_to(self._grid.start + self.index * self._grid.size, self._grid.size)
 
     def _share_out(self) -> None:
         for name, spent in zip(self._system.wall_time, self._wall_time.tolist()):

@@ -61,7 +61,7 @@ def native_plan(system: System, kind: Kind, grid: Grid, watch: Watch) -> Plan:
     record = composer.propagation()
     recordings: list[tuple[AnyArray, AnyArray]] = []
     for channel in watch.trace.channels:
-        unit, rows = system.units[channel.unit], watch.trace._data[channel.name]
+        unit, rows = system.units[channel.unit], watch.trace.rows[channel.name]
         live = composer.live(unit, channel.variable.name)
         if live is not None and live.dtype == rows.dtype:
             recordings.append((live, rows))

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from cosim.system import System
-from cosim.unit import Causality, Coordinate, Variable, VariableType, seconds
+from cosim.unit import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
 
 _RECORDED = {Causality.OUTPUT, Causality.LOCAL}
 
@@ -52,19 +52,24 @@ class Trace:
         self.times = times
         self.channels = _channels(system)
         self.count = 0
-        self._data = {c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels}
+        #: Name of a channel to its values, shape (output times, ...); the first `count` rows are recorded.
+        self.rows: dict[str, AnyArray] = {
+            c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels
+        }
+        units = system.units
+        self._bound = [(self.rows[c.name], units[c.unit].get, c.variable.name) for c in self.channels]
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
         if self.times[self.count] != time:
             raise ValueError(f"output {self.count} belongs to {self.times[self.count]} ns, not {time} ns")
-        for channel in self.channels:
-            self._data[channel.name][self.count] = self.system.units[channel.unit].get(channel.variable.name)
+        for rows, get, name in self._bound:
+            rows[self.count] = get(name)
         self.count += 1
 
     def chunk(self, first: int) -> dict[str, np.ndarray[Any, Any]]:
         """Values recorded from output `first` on, by channel name; text as fixed-width text, which files can hold."""
-        chosen = {name: values[first : self.count] for name, values in self._data.items()}
+        chosen = {name: values[first : self.count] for name, values in self.rows.items()}
         return {name: v.astype(np.str_) if v.dtype == object else v for name, v in chosen.items()}
 
     def load(self, chunk: Mapping[str, np.ndarray[Any, Any]]) -> None:
@@ -72,7 +77,7 @@ class Trace:
         length = 0
         for name, values in chunk.items():
             length = len(values)
-            self._data[name][self.count : self.count + length] = values
+            self.rows[name][self.count : self.count + length] = values
         self.count += length
 
     def dataset(self) -> xr.Dataset:
@@ -82,7 +87,7 @@ class Trace:
             attributes = {"long_name": channel.variable.description or channel.name}
             if channel.variable.type.is_number:  # text, switches and enumerations have no unit
                 attributes["units"] = channel.variable.unit
-            values = self._data[channel.name][: self.count]
+            values = self.rows[channel.name][: self.count]
             variables[channel.name] = (("time", *channel.dims), values, attributes)
         moments = np.array([seconds(t) for t in self.times[: self.count]])
         coordinates: dict[str, Any] = {"time": ("time", moments, {"units": "s", "long_name": "simulated time"})}

@@ -76,7 +76,7 @@ def run(make: Callable[[], System], course: Course, is_native: bool, hand_over: 
         loop = _native if is_native else _python
         with np.errstate(invalid="ignore", over="ignore"):  # values that are not finite are found and named anyway
             index, ending, share = loop(system, course, trace, hand_over)
-        rows = {c.name: trace._data[c.name][: trace.count].copy() for c in trace.channels}
+        rows = {c.name: trace.rows[c.name][: trace.count].copy() for c in trace.channels}
         now = {f"{n}.{v}": np.array(u.get(v)) for n, u in system.units.items() for v in u.variables}
         return Result(rows, now, index, ending, share, dict(system.wall_time))
     finally:
