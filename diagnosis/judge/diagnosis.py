@@ -1,0 +1,152 @@
+"""What a diagnosis says; `diagnosis.json` is this, key by key."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+
+class Verdict(Enum):
+    """What the recordings say about the model."""
+
+    CONSISTENT = "consistent"
+    RECALIBRATED = "recalibrated"
+    MEASUREMENT_FAULT = "measurement fault"
+    MISSING_PHYSICS = "missing physics"
+    UNNAMED_PHYSICS = "unnamed physics"
+    CANNOT_TELL = "cannot tell"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter of a finding.
+
+    Args:
+        name: Symbol in the law.
+        unit: SI unit.
+        value: Estimate.
+        lower: Lower end of the 95 % interval.
+        upper: Upper end.
+    """
+
+    name: str
+    unit: str
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another explanation of the same residuals.
+
+    Args:
+        effect: Identifier of its term.
+        place: Where it would act.
+        gain: Fall of -2 log posterior.
+        probability: Among all explanations that were fitted.
+    """
+
+    effect: str
+    place: str
+    gain: float
+    probability: float
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One effect that the model lacks.
+
+    Args:
+        unit: electrical, thermal, stiffness, mechanical or measurement.
+        place: For people: `string[3]`, `all coils`.
+        elements: Coils, strings or channels concerned, counted from 1.
+        intervals: Times [s] in which it shows.
+        channels: Channels in which it shows most.
+        effect: Identifier in the catalogue, or of an unnamed term.
+        is_named: Whether the catalogue has a name for it.
+        statement: In plain words.
+        law: Formula.
+        parameters: Estimates.
+        gain: Fall of -2 log posterior by it, all else kept.
+        probability: Of this effect against all that were fitted in its place.
+        ambiguous_with: Effects that the data cannot tell from it.
+        alternatives: Others that were fitted, best first.
+        confused_with: Effect to what would decide, from the catalogue.
+    """
+
+    unit: str
+    place: str
+    elements: tuple[str, ...]
+    intervals: tuple[tuple[float, float], ...]
+    channels: tuple[str, ...]
+    effect: str
+    is_named: bool
+    statement: str
+    law: str
+    parameters: tuple[Estimate, ...]
+    gain: float
+    probability: float
+    ambiguous_with: tuple[str, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
+    confused_with: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ChannelFit:
+    """How well one channel of one recording is met.
+
+    Args:
+        recording: Its title.
+        is_held_out: Whether it was kept from all fits.
+        channel: Name.
+        unit: SI unit of the RMSE.
+        rmse: By `before`, `recalibrated`, `after`.
+        chi_square: Per sample, by the same.
+        whiteness: Largest standardised sum of residuals over a window, by the same.
+    """
+
+    recording: str
+    is_held_out: bool
+    channel: str
+    unit: str
+    rmse: dict[str, float]
+    chi_square: dict[str, float]
+    whiteness: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer.
+
+    Args:
+        verdict: One word.
+        statement: In plain words.
+        findings: Effects, the largest gain first.
+        fit: Per channel.
+        margin: Gain that an effect had to exceed.
+        false_alarm_rate: Probability that chance alone gives the first finding its gain.
+        structure_before: Largest standardised sum of residuals left after recalibration.
+        structure_after: The same with the findings.
+        recalibration: Parameters of the model that moved by more than two prior deviations: name to factor or change.
+        isolability: Statements about what these channels can tell apart.
+        amended_model: Path of the amended scenario, or None.
+        seconds: Wall time.
+        simulations: Simulations made.
+        seed: Of all random numbers.
+    """
+
+    verdict: Verdict
+    statement: str
+    findings: tuple[Finding, ...]
+    fit: tuple[ChannelFit, ...]
+    margin: float
+    false_alarm_rate: float
+    structure_before: float
+    structure_after: float
+    recalibration: dict[str, float]
+    isolability: tuple[str, ...]
+    amended_model: str | None
+    seconds: float
+    simulations: int
+    seed: int

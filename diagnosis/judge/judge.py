@@ -1,0 +1,167 @@
+"""Findings and verdict of a search."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
+from diagnosis.search.fit import Fit
+from diagnosis.search.problem import Point, Term
+from diagnosis.search.search import Explanation, Outcome
+from diagnosis.simulator.bank_model import BankModel
+
+#: Half width of a 95 % interval in standard deviations.
+NORMAL_95 = 1.959963984540054
+#: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
+UNSEPARATED = 6.0
+#: A parameter that moved by more prior deviations than this is told.
+MOVED = 2.0
+#: Fall of -2 log posterior per parameter by which a recalibration counts as needed.
+NEEDED = 4.0
+
+
+def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
+    """One word for a search.
+
+    Args:
+        outcome: What the search found.
+        nominal_cost: -2 log posterior of the model as it was.
+    """
+    terms = outcome.best.terms
+    if not terms:
+        if not outcome.base_structure.is_noise:
+            return Verdict.CANNOT_TELL
+        moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
+        fell = nominal_cost - outcome.base.cost
+        return Verdict.RECALIBRATED if moved or fell > NEEDED * len(outcome.base.point.base) else Verdict.CONSISTENT
+    if all(t.unit == "measurement" for t in terms):
+        return Verdict.MEASUREMENT_FAULT
+    if any(not t.is_named for t in terms):
+        return Verdict.UNNAMED_PHYSICS
+    return Verdict.MISSING_PHYSICS
+
+
+def probabilities(rivals: tuple[Explanation, ...]) -> Array:
+    """Posterior probabilities of explanations with equally many terms (Laplace's approximation, equal priors)."""
+    costs = np.array([e.fit.cost + _log_volume(e.fit) for e in rivals])
+    weights = np.exp(-0.5 * (costs - costs.min()))
+    return np.asarray(weights / weights.sum())
+
+
+def _log_volume(fit: Fit) -> float:
+    """ln det of the information about the terms' shape parameters: a free shape must pay for itself."""
+    extra = sum(len(t.parameters) - 1 for t in fit.point.terms)
+    return extra * float(np.log(len(fit.residuals)))
+
+
+def findings(model: BankModel, outcome: Outcome) -> tuple[Finding, ...]:
+    """Effects of the accepted explanation, the largest gain first."""
+    best = outcome.best
+    ordered = sorted(best.terms, key=lambda t: -best.gains.get(t, 0.0))
+    return tuple(_finding(model, outcome, term) for term in ordered)
+
+
+def _finding(model: BankModel, outcome: Outcome, term: Term) -> Finding:
+    candidate, place = model.where(term)
+    fit = outcome.best.fit
+    alternatives, probability = _alternatives(outcome, term)
+    near = [a for a in alternatives if a.gain > alternatives[0].gain - UNSEPARATED] if alternatives else []
+    effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
+    return Finding(
+        unit=term.unit,
+        place=place.label,
+        elements=_elements(model, term),
+        intervals=_intervals(model, effect),
+        channels=_channels(model, effect),
+        effect=term.identifier,
+        is_named=term.is_named,
+        statement=f"{candidate.name}, {place.label}",
+        law=candidate.law,
+        parameters=estimates(fit, term),
+        gain=outcome.best.gains.get(term, 0.0),
+        probability=probability,
+        ambiguous_with=tuple(sorted({a.effect for a in near if a.effect != term.identifier})),
+        alternatives=tuple(alternatives[:8]),
+        confused_with=dict(candidate.confused_with),
+    )
+
+
+def _alternatives(outcome: Outcome, term: Term) -> tuple[list[Alternative], float]:
+    """Explanations that have another term in the place of this one, and the probability of this one."""
+    others = set(outcome.best.terms) - {term}
+    rivals = tuple(e for e in outcome.rivals if others <= set(e.terms) and len(e.terms) == len(others) + 1)
+    if not rivals:
+        return [], 1.0
+    chances = probabilities(rivals)
+    worst = max(e.fit.cost for e in rivals)
+    found, own = [], 0.0
+    for explanation, chance in sorted(zip(rivals, chances), key=lambda pair: pair[0].fit.cost):
+        other = next(t for t in explanation.terms if t not in others)
+        gain = outcome.base.cost - explanation.fit.cost if not others else worst - explanation.fit.cost
+        found.append(Alternative(other.identifier, other.place, float(gain), float(chance)))
+        if other.identifier == term.identifier:
+            own += float(chance)
+    return found, own
+
+
+def estimates(fit: Fit, term: Term) -> tuple[Estimate, ...]:
+    """Parameters of a term with 95 % intervals from the curvature of the posterior, cut at their bounds."""
+    covariance = fit.covariance
+    begin = len(fit.point.base)
+    for other, values in fit.point.terms.items():
+        if other == term:
+            break
+        begin += len(values)
+    found = []
+    for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
+        half = NORMAL_95 * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
+        found.append(Estimate(p.name, p.unit, value, max(value - half, p.lower), min(value + half, p.upper)))
+    return tuple(found)
+
+
+def _elements(model: BankModel, term: Term) -> tuple[str, ...]:
+    local = model.shows_in(term)
+    if local is None:
+        return (term.place,)
+    return tuple(dict.fromkeys(model.layout.names[c].split(".")[0] for c in local[0])) or (term.place,)
+
+
+def _intervals(model: BankModel, effect: Array) -> tuple[tuple[float, float], ...]:
+    """Times in which nine tenths of the effect lie, as few pieces as there are gaps of a tenth of the recording."""
+    layout = model.layout
+    times = np.unique(layout.time)
+    strength = np.bincount(np.searchsorted(times, layout.time), effect**2, minlength=len(times))
+    order = np.argsort(-strength)
+    share = np.cumsum(strength[order]) / max(float(strength.sum()), 1e-300)
+    kept = np.sort(times[order[: int(np.searchsorted(share, 0.9)) + 1]])
+    gap = 0.1 * (times[-1] - times[0])
+    cuts = np.flatnonzero(np.diff(kept) > gap)
+    begins = np.concatenate([[0], cuts + 1])
+    ends = np.concatenate([cuts, [len(kept) - 1]])
+    return tuple((float(kept[a]), float(kept[b])) for a, b in zip(begins, ends))
+
+
+def _channels(model: BankModel, effect: Array) -> tuple[str, ...]:
+    """Channels in which the effect is largest, down to a tenth of the largest, at most twelve."""
+    strength = np.bincount(np.asarray(model.layout.channel, dtype=int), effect**2, minlength=len(model.layout.names))
+    order = np.argsort(-strength)
+    return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
+
+
+def recalibration(model: BankModel, fit: Fit) -> dict[str, float]:
+    """Parameters that moved by more than `MOVED` prior deviations: factor where relative, change where not."""
+    moved = {}
+    for parameter, z in zip(model.parameters, fit.point.base):
+        if abs(z) > MOVED:
+            amount = parameter.deviation * float(z)
+            moved[parameter.name] = float(np.exp(amount)) if parameter.is_relative else amount
+    return moved
+
+
+def nominal_cost(model: BankModel) -> float:
+    """-2 log posterior of the model as the scenario has it."""
+    from diagnosis.search.fit import cost
+
+    base = np.zeros(len(model.parameters))
+    return cost(model.residuals([Point(base)])[0], base)
