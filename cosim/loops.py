@@ -13,7 +13,7 @@ from scipy.optimize import anderson, root
 
 from cosim.connection import ConnectionFault, Transfer
 from cosim.ordering import in_order
-from cosim.unit import Array, Unit, UnitError
+from cosim.unit import Array, Unit, UnitError, VariableType
 
 #: Largest difference of a loop's inputs, relative to 1 + their size, at which the loop counts as closed.
 TOLERANCE = 1e-10
@@ -139,6 +139,22 @@ class Propagation:
         """Set the inputs and let the outputs follow; raises UnitError where a loop has no solution."""
         for action in self.actions:
             action()
+
+    @property
+    def settled(self) -> list[Transfer]:
+        """Transfers that would bring nothing if they were carried out again: what they read has not changed since.
+
+        A clock ticks each time it is set, so transfers into clocks are left out.
+        """
+        found: list[Transfer] = []
+        for action in self.actions:
+            owner = getattr(action, "__self__", None)
+            if isinstance(owner, Transfer):
+                found += [owner] if owner.variable.type is not VariableType.CLOCK else []
+                continue
+            changed = owner.units if isinstance(owner, AlgebraicLoop) else [owner]
+            found = [t for t in found if not any(p.source is unit for p in t.parts for unit in changed)]
+        return found
 
     def _edges(self, through: Mapping[str, Mapping[str, frozenset[str]]]) -> list[tuple[int, int]]:
         """(before, after): input `after` is fed by an output that depends directly on input `before`."""

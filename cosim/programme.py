@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import bisect
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -29,15 +31,21 @@ class Course:
     dim: str | None
     is_linear: bool
 
-    def at(self, time: float) -> Array:
-        """Value at a time [ns]; before the first and after the last point their values hold."""
-        if self.is_linear:
-            moment = np.array(self.times, dtype=np.float64)
-            columns = self.values.reshape(len(moment), -1).T
-            value = np.array([np.interp(time, moment, column) for column in columns])
-            return value.reshape(self.values.shape[1:])
-        index = int(np.searchsorted(np.array(self.times), time, side="right")) - 1
-        return np.asarray(self.values[max(index, 0)])
+    def at(self, time: float) -> Array | float:
+        """Value at a time [ns], shape (n,) or a number; before the first and after the last point their values hold."""
+        point = max(bisect.bisect_right(self.times, time) - 1, 0)
+        begin = self.times[point]
+        left: Array | float = self._rows[point]
+        if not self.is_linear or point + 1 == len(self.times) or time <= begin:
+            return left
+        # The formula of numpy.interp, in its order of operations, as in native/course.c.
+        slope: Array | float = (self._rows[point + 1] - left) / float(self.times[point + 1] - begin)
+        return slope * (time - begin) + left
+
+    @cached_property
+    def _rows(self) -> list[Any]:
+        """Value of every point: floats (numpy's own scalars cost several times as much), or arrays."""
+        return self.values.tolist() if self.values.ndim == 1 else list(self.values)
 
 
 class ProgrammeUnit(Unit):

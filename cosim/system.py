@@ -36,6 +36,10 @@ class System:
     wall_time: dict[str, float] = field(init=False)
     has_parallel_units: bool = field(init=False)
     transfers: dict[str, list[Transfer]] = field(init=False)
+    #: Names of all units but the sources, in order.
+    movers: list[str] = field(init=False)
+    #: Connections into them that `propagate` leaves to be carried out.
+    unsettled: list[Transfer] = field(init=False)
 
     def __post_init__(self) -> None:
         self.has_parallel_units = sum(isinstance(u, ParallelUnit) for u in self.units.values()) > 1
@@ -50,6 +54,9 @@ class System:
         self._check_inputs()
         #: What `propagate` does.
         self.propagation = Propagation(self.units, self.transfers, lambda u: u.feedthrough, is_complete=False)
+        self.movers = [name for name in self.units if name not in self.sources]
+        settled = {id(transfer) for transfer in self.propagation.settled}
+        self.unsettled = [t for name in self.movers for t in self.transfers[name] if id(t) not in settled]
         self._initial = Propagation(self.units, self.transfers, lambda u: u.initial_feedthrough, is_complete=True)
 
     @property
@@ -206,11 +213,6 @@ class System:
             if outcome.status is not StepStatus.OK:
                 return outcome
         return outcome
-
-    @property
-    def movers(self) -> list[str]:
-        """Names of all units but the sources, in order."""
-        return [name for name in self.units if name not in self.sources]
 
     def value(self, name: str, variable: str) -> AnyArray:
         """Copy of a unit's variable."""

@@ -24,7 +24,6 @@ def step(system: System, time: int, size: int) -> StepOutcome:
     """
     system.sample_sources(time, size)
     system.propagate()
-    movers = system.movers
-    for name in movers:
-        system.exchange(name)
-    return system.step_together(movers, time, size)
+    for transfer in system.unsettled:
+        transfer.carry_out()
+    return system.step_together(system.movers, time, size)

@@ -42,11 +42,10 @@ class Composer:
         system = self._system
         actions = [self._step(name) for name in system.sources]
         actions += self.propagation()
-        movers = [name for name in system.units if name not in system.sources]
         if kind == "jacobi":
-            actions += [self._transfer(t) for name in movers for t in system.transfers[name]]
-            return actions + [self._step(name) for name in movers]
-        for name in movers:
+            actions += [self._transfer(t) for t in system.unsettled]
+            return actions + [self._step(name) for name in system.movers]
+        for name in system.movers:
             actions += [self._transfer(t) for t in system.transfers[name]]
             actions.append(self._step(name))
         return actions

@@ -80,6 +80,20 @@ def test_a_single_point_is_a_constant():
     assert [float(unit.get("voltage")), *over(unit, "voltage", 0, 40, 10)] == [3.0] * 5
 
 
+def test_a_ramp_is_that_of_numpy_to_the_last_bit():
+    """The loop in C has the same formula: both loops must agree in every bit."""
+    random = np.random.default_rng(3)
+    times = np.cumsum(random.integers(1, 10**10, 40)) - 10**11
+    values = random.normal(size=(40, 3)) * 10.0 ** random.integers(-9, 9, (40, 3))
+    wide = Course(tuple(times.tolist()), values, "V", "string", True)
+    narrow = Course(wide.times, values[:, 0].copy(), "V", None, True)
+    moments = [*random.uniform(times[0] - 1e9, times[-1] + 1e9, 200), *times.astype(float)]
+    for moment in moments:
+        expected = [np.interp(moment, times.astype(float), column) for column in values.T]
+        assert np.asarray(wide.at(moment)).tolist() == expected
+        assert narrow.at(moment) == expected[0]
+
+
 def test_a_resumed_programme_holds_what_it_held(given):
     over(given, "ramp", 0, SECOND // 2, SECOND // 2)
     fresh = ProgrammeUnit("given", given.courses)
