@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any
 
@@ -92,7 +92,8 @@ class FmuUnit(Unit):
         self.name, self.archive, self.settings = name, archive, settings
         self.coordinates: Mapping[str, Coordinate] = {}
         self.table = Table(name, archive, settings)
-        self.variables: Mapping[str, Variable] = {n: v.variable for n, v in self.table.exposed.items()}
+        variables = {n: v.variable for n, v in self.table.exposed.items()}
+        self.variables: Mapping[str, Variable] = variables
         found = dependencies(archive.description, self.table.exposed)
         self.feedthrough, self.initial_feedthrough = found.feedthrough, found.initial
         self.binding: Binding = bind(archive, interface, name)
@@ -113,6 +114,7 @@ class FmuUnit(Unit):
             for key, value in self.table.start_values(self.binding).items():
                 self.buffers.values[key][...] = value
                 self._given.add(key)
+                variables[key] = replace(variables[key], start=value)  # what elements that nothing leads into keep
         except BaseException:
             self.binding.free()
             raise
