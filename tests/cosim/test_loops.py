@@ -159,9 +159,22 @@ class Late(Map):
         self._store.arrays["event"][...] = self.get("input") < 0.75
 
 
+class Counting(Map):
+    """Shows its input at once, and adds it up over the steps."""
+
+    def __init__(self, name) -> None:
+        super().__init__(name, lambda u: u)
+        self.variables["sum"] = Variable("sum", Causality.OUTPUT, (), "1")
+        self._store.arrays["sum"] = np.array(0.0)
+
+    def do_step(self, time, size):
+        self._store.arrays["sum"] += self.get("input")
+        return super().do_step(time, size)
+
+
 def with_event():
     """x' = u - x, u = event of a unit that sees x; whoever reads the event first reads it too early."""
-    units = {"early": Map("early", lambda u: u), "late": Late("late"), "x": Relaxation("x", 1.0, 1.0, 0.0)}
+    units = {"early": Counting("early"), "late": Late("late"), "x": Relaxation("x", 1.0, 1.0, 0.0)}
     links = [("late", "event", "early"), ("x", "state", "late"), ("early", "output", "x")]
     return System(units, [Connection((a, b), (c, "input")) for a, b, c in links])
 
