@@ -17,6 +17,7 @@ from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
+from diagnosis.recording.command import record
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
@@ -32,6 +33,7 @@ app = typer.Typer(
 app.add_typer(fmu.app, name="fmu")
 app.add_typer(ssp.app, name="ssp")
 app.command()(compare)
+app.command()(record)
 
 ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
 

@@ -6,6 +6,8 @@ import numpy as np
 
 from cosim.unit import Array
 
+#: No reading is trusted beyond this share of its range: a simulation that agrees so well is right.
+LEAST = 1e-6
 #: Median of |x| of a normal distribution with deviation 1.
 _MEDIAN_TO_DEVIATION = 0.674489750196082
 
@@ -27,7 +29,9 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
 
     Source: Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633 (pseudo-residuals); median for robustness.
     """
-    floor = max(quantum / np.sqrt(12.0), 1e-9 * float(np.max(np.abs(values), initial=0.0)), np.finfo(float).tiny)
+    spread = float(np.ptp(values)) if len(values) else 0.0
+    size = float(np.max(np.abs(values), initial=0.0))
+    floor = max(quantum / np.sqrt(12.0), LEAST * spread, 1e-9 * size, np.finfo(float).tiny)
     if len(values) < 3:
         return float(floor)
     before, after = np.diff(times)[:-1], np.diff(times)[1:]

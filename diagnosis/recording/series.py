@@ -42,13 +42,13 @@ class Series:
         times: [s], shape (outputs,).
         values: SI, shape (outputs,).
         is_flow: Whether it jumps with the supply.
-        variable: Name in the results.
+        unit: SI unit of the values; of a quantity without a name of its own, that of the variable.
     """
 
     times: Array
     values: Array
     is_flow: bool
-    variable: str
+    unit: str
 
 
 def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
@@ -67,8 +67,13 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     elements = _elements(results, found, target, source)
     values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)
     values = values[:, np.ravel_multi_index(elements, found.shape[1:]) if elements else 0]
-    factor, offset = conversion(str(found.attrs.get("units", "1")), target.si_unit)
-    return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, variable)
+    own = str(found.attrs.get("units", "1"))
+    unit = own if target.si_unit == "1" else target.si_unit
+    try:
+        factor, offset = conversion(own, unit)
+    except ValueError as error:
+        raise InputError(source, f"channels.{target}", str(error), f"{variable} is in {own}") from error
+    return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
 
 
 def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
