@@ -47,7 +47,7 @@ def conspicuous(residuals: Array, layout: Layout) -> set[int]:
 
 
 def focus(model: Model, residuals: Array, terms: Sequence[Term]) -> list[Term]:
-    """Terms that are not local, and local ones that show where something is left."""
+    """Terms that are not local, and named local ones that show where something is left."""
     shows_in = getattr(model, "shows_in", None)
     if shows_in is None:
         return list(terms)
@@ -60,6 +60,14 @@ def focus(model: Model, residuals: Array, terms: Sequence[Term]) -> list[Term]:
             continue
         channels, is_every = local
         inside = [c in chosen for c in channels]
+        if not term.is_named:
+            continue  # they come in at the places that named terms single out
         if inside and (all(inside) if is_every else any(inside)):
             kept.append(term)
     return kept
+
+
+def unnamed_at(terms: Sequence[Term], places: Sequence[str], known: Sequence[Term]) -> list[Term]:
+    """Unnamed terms at places that scored well, without those that were scored already."""
+    done = set(known)
+    return [t for t in terms if not t.is_named and t.place in places and t not in done]

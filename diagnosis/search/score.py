@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.fit import Fit, huber_weights
-from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.problem import Model, Term, strength_slopes
 
 #: Strength at which a term is simulated, as a share of its first start value: small enough for a straight line.
 SHARE = 0.02
@@ -68,7 +68,7 @@ class Projection:
         length = np.einsum("ij,ij->i", remaining, remaining)
         along = remaining @ self._free
         safe = np.where(length > 0, length, 1.0)
-        return -along / safe, along**2 / safe
+        return np.asarray(-along / safe), np.asarray(along**2 / safe)
 
 
 def shapes(term: Term) -> Iterator[tuple[float, ...]]:
@@ -93,6 +93,11 @@ class Scoring:
     ranked: list[Score]
     tried: int
     chance: Array
+
+    def joined(self, other: Scoring) -> Scoring:
+        """Both together; they were scored against the same nulls."""
+        ranked = sorted((*self.ranked, *other.ranked), key=lambda s: -s.gain)
+        return Scoring(ranked, self.tried + other.tried, np.maximum(self.chance, other.chance))
 
     def margin(self, level: float) -> float:
         """Gain that the best of all terms exceeds with probability `level` where none is there."""
@@ -149,9 +154,7 @@ def _is_one_sided(term: Term) -> bool:
 def _batch(
     model: Model, base: Fit, tasks: Sequence[tuple[Term, tuple[float, ...]]], projection: Projection
 ) -> Iterator[Score]:
-    points: list[Point] = [base.point.plus(term, values) for term, values in tasks]
-    strengths = np.array([values[0] for _, values in tasks])
-    slopes = (model.residuals(points) - base.residuals) / strengths[:, None]
+    slopes = strength_slopes(model, base.point, base.residuals, tasks)
     usable = np.isfinite(slopes).all(axis=1)
     slopes[~usable] = 0.0
     remaining = projection.remove(slopes)

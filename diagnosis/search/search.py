@@ -8,11 +8,18 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.fit import Fit, fit, fit_best
-from diagnosis.search.focus import focus
+from diagnosis.search.fit import Fit, cost, fit, fit_best
+from diagnosis.search.focus import focus, unnamed_at
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.score import Score, Scoring, score
 from diagnosis.search.structure import Structure, structure
+
+#: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
+HOPEFUL = 0.4
+#: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
+STRAINED = 2.5
+#: Places at which unnamed terms are tried too.
+PLACES = 4
 
 
 @dataclass(frozen=True)
@@ -110,7 +117,7 @@ def search(
     margin, rate, tried = settings.floor, 1.0, 0
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
-        grown, scoring = _grow(model, terms, current, settings)
+        grown, scoring = _grow(model, terms, current, settings, margin)
         tried += scoring.tried
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
@@ -129,20 +136,29 @@ def search(
 
 
 def _grow(
-    model: Model, terms: Sequence[Term], current: Sequence[Explanation], settings: Settings
+    model: Model, terms: Sequence[Term], current: Sequence[Explanation], settings: Settings, margin: float
 ) -> tuple[list[Explanation], Scoring]:
     """Explanations with one term more, best first, and the scoring of the first model."""
     grown: dict[frozenset[Term], Explanation] = {}
     scorings = []
     for explanation in current:
-        near = focus(model, explanation.fit.residuals, terms)
-        scoring = score(model, explanation.fit, near, seed=settings.seed)
+        scoring = _scored(model, explanation.fit, terms, settings)
         scorings.append(scoring)
-        for candidate in _choice(scoring.ranked, settings.refits):
+        hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
+        for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
             if key not in grown:
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
     return sorted(grown.values(), key=lambda e: e.fit.cost), scorings[0]
+
+
+def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) -> Scoring:
+    """Scores of all terms worth trying: unnamed ones at single elements where a named one scores well."""
+    near = focus(model, base.residuals, terms)
+    first = score(model, base, near, seed=settings.seed)
+    places = list(dict.fromkeys(s.term.place for s in first.ranked[:40]))[:PLACES]
+    more = unnamed_at(terms, places, near)
+    return first.joined(score(model, base, more, seed=settings.seed)) if more else first
 
 
 def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
@@ -159,12 +175,16 @@ def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
 def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
     """Fit all again with a term more, from the recalibrated and from the nominal point and from each start."""
     term = candidate.term
-    points = [before.point.plus(term, candidate.values)]
+    here = before.point.plus(term, candidate.values)
+    if np.max(np.abs(before.point.base), initial=0.0) < STRAINED:
+        return fit(model, here)
     nominal = Point(np.zeros_like(before.point.base), before.point.terms)
-    points.append(nominal.plus(term, candidate.values))
-    points.extend(nominal.plus(term, (start, *candidate.values[1:])) for start in term.parameters[0].starts[:2])
-    rough = min((fit(model, point, iterations=8) for point in points), key=lambda f: f.cost)
-    return fit_best(model, [rough.point], iterations=60)
+    starts = [candidate.values[0], *term.parameters[0].starts[:3]]
+    points = [here, *(nominal.plus(term, (start, *candidate.values[1:])) for start in starts)]
+    values = model.residuals(points)
+    costs = [cost(v, p.base) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
+    best = [points[i] for i in np.argsort(costs)[:2]]
+    return fit_best(model, [min((fit(model, p, iterations=5) for p in best), key=lambda f: f.cost).point])
 
 
 def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import norm
 
 from cosim.unit import Array
 from diagnosis.search.problem import Layout
 
 #: Samples per window.
 WINDOWS = (1, 4, 12)
-#: Largest z that counts as noise; a recording has thousands of windows.
-LIMIT = 4.5
+#: Probability that noise alone is taken for structure.
+LEVEL = 0.01
 
 
 @dataclass(frozen=True)
@@ -25,17 +26,24 @@ class Structure:
         channels: Name of the channel or group of channels that it was found in.
         begin: Begin of its window [s].
         end: End of its window [s].
+        looked_at: Windows that were looked at.
     """
 
     z: float
     channels: str
     begin: float
     end: float
+    looked_at: int = 0
+
+    @property
+    def limit(self) -> float:
+        """Largest |z| that noise alone passes in one of a hundred recordings (windows counted as independent)."""
+        return float(norm.isf(LEVEL / (2.0 * max(self.looked_at, 1))))
 
     @property
     def is_noise(self) -> bool:
         """Whether nothing but noise is left."""
-        return abs(self.z) <= LIMIT
+        return abs(self.z) <= self.limit
 
 
 def structure(residuals: Array, layout: Layout, groups: Mapping[str, Array] | None = None) -> Structure:
@@ -67,6 +75,8 @@ def _larger(best: Structure, values: Array, times: Array, name: str) -> Structur
             continue
         sums = np.convolve(values, np.ones(window), mode="valid") / np.sqrt(window)
         peak = int(np.argmax(np.abs(sums)))
+        count = best.looked_at + len(sums)
         if abs(sums[peak]) > abs(best.z):
             best = Structure(float(sums[peak]), name, float(times[peak]), float(times[peak + window - 1]))
+        best = replace(best, looked_at=count)
     return best

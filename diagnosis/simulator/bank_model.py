@@ -15,6 +15,7 @@ from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import Place, coil_label, merge, places
+from diagnosis.bank.probes import Probe, probe_sensitivities
 from diagnosis.bank.sensitivities import Direction, sensitivities
 from diagnosis.bank.steps import choose_step
 from diagnosis.candidates.candidate import CandidateTerm
@@ -83,6 +84,7 @@ class BankModel:
         self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2
     ) -> None:
         self._threads = threads
+        self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
         self.bank = Bank(translations[0].layout, catalogue)
         self._candidates = {t.identifier: t for t in catalogue}
@@ -217,6 +219,20 @@ class BankModel:
             terms[candidate.identifier] = own
         return BankParameters(base, terms)
 
+    def groups(self) -> dict[str, AnyArray]:
+        """Channels that are looked at together: the same quantity in every string, and over all coils."""
+        found: dict[str, list[int]] = {}
+        number = 0
+        for run in self.runs:
+            for s in run.series:
+                if QUANTITIES[s.quantity].axis == "coil":
+                    found.setdefault(f"every {s.quantity}", []).append(number)
+                    if self.coils.strings:
+                        string = int(self.coils.string_of_coil[s.element]) + 1
+                        found.setdefault(f"{s.quantity} in string[{string}]", []).append(number)
+                number += 1
+        return {name: np.array(members) for name, members in found.items() if len(members) > 1}
+
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""
         found = np.full((len(points), len(self.layout.time)), np.inf)
@@ -232,7 +248,46 @@ class BankModel:
             begin += count
         return found
 
+    def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+        """Derivative of the residuals by the strength of terms, shape (tasks, residuals).
+
+        Args:
+            point: Where; the terms are absent there.
+            tasks: Terms with the values of their parameters; the strength is the step of the difference.
+        """
+        found = np.full((len(tasks), len(self.layout.time)), np.inf)
+        probes: dict[tuple[str, tuple[float, ...]], list[int]] = {}
+        for i, (term, values) in enumerate(tasks):
+            probes.setdefault((term.identifier, values), []).append(i)
+        begin = 0
+        for number, run in enumerate(self.runs):
+            parameters = self.bank_parameters(point, number)
+            end = begin + sum(len(s.samples) for s in run.series)
+            for (identifier, values), members in probes.items():
+                term = tasks[members[0]][0]
+                shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
+                at = [self._places[tasks[i][0]][1] for i in members]
+                probe = Probe(self._candidates[identifier], shape, at, values[0])
+                self.simulations += len(members)
+                try:
+                    _, slopes = probe_sensitivities(self.bank, parameters, run.inputs, run.times, probe, self._threads)
+                except BankError:
+                    continue
+                found[members, begin:end] = self._scaled(run, slopes)
+            begin = end
+        return found
+
+    @staticmethod
+    def _scaled(run: _Run, slopes: Mapping[str, Array]) -> Array:
+        """Derivatives of outputs to those of the residuals, shape (rows, residuals of the run)."""
+        parts = []
+        for s in run.series:
+            part = -slopes[s.quantity][:, s.samples, s.element] / _deviation(s.channel)
+            parts.append(np.where(s.used, part, 0.0))
+        return np.concatenate(parts, axis=1)
+
     def _simulate(self, run: _Run, parameters: Sequence[BankParameters]) -> list[dict[str, Array] | None]:
+        self.simulations += len(parameters)
         try:
             batch = self.bank.simulate_batch(parameters, run.inputs, run.times, self._threads)
         except BankError:

@@ -1,0 +1,101 @@
+"""`cosim diagnose`: recordings and a scenario in, a diagnosis out."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from cosim.errors import InputError
+from cosim.scenario import Scenario
+from diagnosis.candidates.registry import catalogue
+from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
+from diagnosis.judge.held_out import carried_over, channel_fits
+from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
+from diagnosis.recording.recording import Recording
+from diagnosis.search.problem import Point
+from diagnosis.search.search import Outcome, Settings, search
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.translate import NoBank, not_for_bank
+
+
+def diagnose(
+    scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording], settings: Settings,
+    on_progress: Callable[[str], None] = lambda text: None,
+) -> tuple[Diagnosis, BankModel, Outcome]:  # fmt: skip
+    """Find out what a scenario leaves out.
+
+    Args:
+        scenario: The model as it is.
+        training: Recordings that are fitted.
+        held_out: Recordings that judge; nothing is fitted to them.
+        settings: Of the search.
+        on_progress: Told what is being done.
+
+    Returns:
+        The diagnosis, and model and outcome for figures.
+
+    Raises:
+        InputError: A recording does not fit the scenario, or the scenario is none that can be diagnosed.
+    """
+    begin = clock.perf_counter()
+    try:
+        model = BankModel(scenario, training, catalogue())
+        judge = BankModel(scenario, held_out, catalogue()) if held_out else None
+    except NoBank as reason:
+        raise not_for_bank(scenario.path, reason) from reason
+    terms = model.terms()
+    outcome = search(model, terms, settings, model.groups(), on_progress)
+    word = verdict(outcome, nominal_cost(model))
+    points = {
+        "before": Point(np.zeros(len(model.parameters))),
+        "recalibrated": outcome.base.point,
+        "after": outcome.best.fit.point,
+    }
+    on_progress("judging by the recordings held out")
+    fits: list[ChannelFit] = channel_fits(model, training, points, is_held_out=False)
+    if judge is not None:
+        carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
+        fits += channel_fits(judge, held_out, carried, is_held_out=True)
+    found = findings(model, outcome)
+    return (
+        Diagnosis(
+            verdict=word,
+            statement=_statement(word, found),
+            findings=found,
+            fit=tuple(fits),
+            margin=outcome.margin,
+            false_alarm_rate=outcome.false_alarm_rate,
+            structure_before=outcome.base_structure.z,
+            structure_after=outcome.left.z,
+            recalibration=recalibration(model, outcome.best.fit),
+            isolability=(),
+            amended_model=None,
+            seconds=clock.perf_counter() - begin,
+            simulations=model.simulations,
+            seed=settings.seed,
+        ),
+        model,
+        outcome,
+    )
+
+
+def _statement(word: Verdict, found: Sequence[object]) -> str:
+    effects = "; ".join(getattr(f, "statement", "") for f in found)
+    return {
+        Verdict.CONSISTENT: "The model as it is agrees with the recordings within the noise of the sensors.",
+        Verdict.RECALIBRATED: "The model agrees with the recordings once its own parameters are recalibrated.",
+        Verdict.MEASUREMENT_FAULT: f"A sensor is at fault: {effects}.",
+        Verdict.MISSING_PHYSICS: f"The model leaves out: {effects}.",
+        Verdict.UNNAMED_PHYSICS: f"The model leaves out something that the catalogue has no name for: {effects}.",
+        Verdict.CANNOT_TELL: "Something is left that no effect of the catalogue explains.",
+    }[word]
+
+
+def refuse_nothing_to_judge(held_out: Sequence[Path]) -> None:
+    """Raise InputError where no recording is held out: a fit must not judge itself."""
+    if not held_out:
+        raise InputError("--held-out", "", "no recording is held out",
+                         "give at least one recording that was made with another programme")  # fmt: skip
