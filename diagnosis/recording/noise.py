@@ -4,39 +4,107 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 
+#: Quantiles 0.25 and 0.5 of |x| of a normal distribution with deviation 1.
+_QUARTER, _MEDIAN = 0.318639363964375, 0.674489750196082
 #: No reading is trusted beyond this share of its range: a simulation that agrees so well is right.
 LEAST = 1e-6
-#: Median of |x| of a normal distribution with deviation 1.
-_MEDIAN_TO_DEVIATION = 0.674489750196082
+#: Bends beyond this many deviations belong to switches.
+_SWITCH = 4.0
+#: Share by which an estimate with cubics must be lower, to say that the signal itself bends.
+_CURVED = 0.25
+#: A sensor rounds where at least this share of neighbouring readings are equal.
+_TIES = 0.05
+#: Times that dither is drawn, to average its own scatter out.
+_DRAWS = 8
 
 
 def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     """Standard deviation of the white noise on a smooth signal.
 
-    The second difference of three neighbours (with unequal spacing: the distance of the middle one from the line
-    through the others) removes value and slope; the median of its size is blind to the few samples around switches,
-    where the signal itself bends, which differences alone would count as noise (up to a third too much).
+    Each reading is compared with the line through its two neighbours (with unequal spacing too), which removes value
+    and slope; where the cubic through four neighbours leaves less, the signal is curved and that one counts. Readings
+    around switches, where the signal itself bends, are recognised by their size and left out: differences alone would
+    count them as noise. Rounded readings are dithered with one step of uniform noise, whose variance is taken off
+    again: the distances of rounded readings take few values, and their median would jump between them.
 
     Args:
         times: Shape (samples,) [s], rising.
         values: Shape (samples,).
-        quantum: Step of a quantised reading.
+        quantum: Step of a quantised reading; 0 finds it.
 
     Returns:
-        The deviation, at least that of rounding to the quantum, quantum / sqrt(12), and never 0.
+        The deviation, rounding included, at least that of rounding to the quantum, quantum / sqrt(12), and never 0.
 
-    Source: Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633 (pseudo-residuals); median for robustness.
+    Source: Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633 (pseudo-residuals); dither: Lipshitz,
+    Wannamaker, Vanderkooy, J. Audio Eng. Soc. 40 (1992) 355-375.
     """
     spread = float(np.ptp(values)) if len(values) else 0.0
     size = float(np.max(np.abs(values), initial=0.0))
-    floor = max(quantum / np.sqrt(12.0), LEAST * spread, 1e-9 * size, np.finfo(float).tiny)
+    step = quantum or find_quantum(values)
+    floor = max(step / np.sqrt(12.0), LEAST * spread, 1e-9 * size, float(np.finfo(float).tiny))
     if len(values) < 3:
-        return float(floor)
-    before, after = np.diff(times)[:-1], np.diff(times)[1:]
-    share = after / (before + after)
-    bend = values[1:-1] - share * values[:-2] - (1.0 - share) * values[2:]
-    scale = np.sqrt(1.0 + share**2 + (1.0 - share) ** 2)
-    found = float(np.median(np.abs(bend / scale))) / _MEDIAN_TO_DEVIATION
-    return float(max(found, floor))
+        return floor
+    found = _deviation(times, values, step, 1)
+    if len(values) >= 16:
+        finer = _deviation(times, values, step, 2)
+        found = finer if finer < (1.0 - _CURVED) * found else found
+    return max(found, floor)
+
+
+def find_quantum(values: Array) -> float:
+    """Step to which readings are rounded; 0 where neighbouring readings are hardly ever equal.
+
+    Readings that stand still at one value (a current that is off) do not count: they must be equal at several values.
+    """
+    if len(values) < 8:
+        return 0.0
+    equal = np.diff(values) == 0.0
+    levels = np.unique(values[1:][equal])
+    if np.mean(equal) < _TIES or len(levels) < 3:
+        return 0.0
+    gaps = np.diff(np.unique(values))
+    # Rounding of decimals may split a step (0.06 and 0.07 for 0.0625): the mean of the smallest ones.
+    smallest = float(gaps[gaps > 1e-9 * np.max(np.abs(values))].min())
+    return float(np.mean(gaps[(gaps >= smallest) & (gaps < 1.5 * smallest)]))
+
+
+def _deviation(times: Array, values: Array, quantum: float, reach: int) -> float:
+    """Deviation from the bends, with `reach` neighbours on each side."""
+    if not quantum:
+        return _scale(_bends(times, values, reach))
+    random = np.random.default_rng(0)
+    variances = []
+    for _ in range(_DRAWS):
+        dithered = values + quantum * (random.random(len(values)) - 0.5)
+        variances.append(_scale(_bends(times, dithered, reach)) ** 2)
+    return float(np.sqrt(max(float(np.mean(variances)) - quantum**2 / 12.0, 0.0)))
+
+
+def _bends(times: Array, values: Array, reach: int) -> Array:
+    """Distance of each reading from the polynomial through its neighbours, in deviations of white noise."""
+    count = len(values) - 2 * reach
+    offsets = [k for k in range(-reach, reach + 1) if k]
+    index = np.arange(reach, reach + count)
+    nodes = np.stack([times[index + k] - times[index] for k in offsets], axis=1)
+    weights = np.ones_like(nodes)
+    for i in range(len(offsets)):
+        for j in range(len(offsets)):
+            if i != j:
+                weights[:, i] *= -nodes[:, j] / (nodes[:, i] - nodes[:, j])
+    neighbours = np.stack([values[index + k] for k in offsets], axis=1)
+    bend = values[index] - np.einsum("ij,ij->i", weights, neighbours)
+    return np.asarray(bend / np.sqrt(1.0 + np.sum(weights**2, axis=1)))
+
+
+def _scale(bends: Array) -> float:
+    """Deviation of bends; the largest ones are left out, once the smaller ones have told what is large."""
+    size: AnyArray = np.abs(bends)
+    scale = float(np.quantile(size, 0.25)) / _QUARTER
+    for _ in range(5):
+        kept = size[size <= _SWITCH * scale]
+        if not kept.size:
+            break
+        scale = float(np.median(kept)) / _MEDIAN
+    return scale
