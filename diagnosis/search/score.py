@@ -155,7 +155,7 @@ def _batch(
     model: Model, base: Fit, tasks: Sequence[tuple[Term, tuple[float, ...]]], projection: Projection
 ) -> Iterator[Score]:
     slopes = strength_slopes(model, base.point, base.residuals, tasks)
-    usable = np.isfinite(slopes).all(axis=1)
+    usable = np.asarray(np.isfinite(slopes).all(axis=1))
     slopes[~usable] = 0.0
     remaining = projection.remove(slopes)
     amounts, gains = projection.gain(remaining)
