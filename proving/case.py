@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +14,11 @@ import yaml
 from proving.effects.effect import Effect
 from proving.effects.measurement import Clipping, SensorFault
 from proving.programme import Programme
-from proving.recording import write_clean, write_recording
+from proving.recording import Bank, write_clean, write_recording
 from proving.rig import Rig
-from proving.sensors import Readings, Sensors, drawn_sensors, read
+from proving.sensors import Sensors, drawn_sensors, read
 from proving.setups import Setup
-from proving.truth import Truth
+from proving.truth import Trace, Truth
 
 _SCENARIOS = Path(__file__).resolve().parent / "scenarios"
 
@@ -38,6 +38,8 @@ class Case:
         training: Programmes to learn from.
         held_out: Programmes to judge by.
         hidden: Identifiers to be taken out of the catalogue.
+        sensors: By kind.
+        engine: `own`, or `mujoco` for the loads.
     """
 
     identifier: str
@@ -51,6 +53,55 @@ class Case:
     held_out: list[Programme]
     hidden: tuple[str, ...] = ()
     sensors: dict[str, Sensors] = field(default_factory=dict)
+    engine: str = "own"
+
+    def write(self, cases: Path, answers: Path, rng: np.random.Generator) -> None:
+        """Runs the case and writes its recordings and its answer; its faults spoil its sensors.
+
+        Args:
+            cases: Folder that the diagnosis is given; the case gets a folder of its own.
+            answers: Folder that it is not given.
+            rng: Source of noise.
+
+        Raises:
+            WireError: A truth does not converge.
+        """
+        folder = cases / self.identifier
+        folder.mkdir(parents=True, exist_ok=True)
+        names = [f"training_{n + 1}" for n in range(len(self.training))]
+        names += [f"held_out_{n + 1}" for n in range(len(self.held_out))]
+        is_noise_told = bool(rng.random() < 0.6)
+        written: dict[str, Sequence[Bank]] = {}
+        for name, programme in zip(names, [*self.training, *self.held_out]):
+            trace = _run(self, programme)
+            if not written:
+                _spoil(self, trace.signal)
+            banks = [(s, read(s, trace, programme.stop, rng)) for s in self.sensors.values()]
+            title = f"{self.setup.name}, {name.replace('_', ' ')}"
+            write_recording(folder / name, title, self.setup.overrides(programme), banks, is_noise_told)
+            written[name] = banks
+        (folder / "scenario.yaml").write_text((_SCENARIOS / f"{self.setup.name}.yaml").read_text())
+        task = {
+            "scenario": "scenario.yaml", "training": names[: len(self.training)],
+            "held_out": names[len(self.training) :], "hidden": list(self.hidden),
+        }  # fmt: skip
+        (folder / "task.yaml").write_text(yaml.safe_dump(task, sort_keys=False))
+        answers.mkdir(parents=True, exist_ok=True)
+        (answers / f"{self.identifier}.json").write_text(json.dumps(_answer(self), indent=1) + "\n")
+        held_out = {n: b for n, b in written.items() if n.startswith("held_out")}
+        write_clean(answers / f"{self.identifier}.npz", held_out)
+
+
+def _run(case: Case, programme: Programme) -> Trace:
+    """The truth over a programme; loads swing in MuJoCo where that is the engine."""
+    instants = tuple(e.parameters["instant"] for e in case.effects if "instant" in e.parameters)
+    trace = Truth(case.rig, case.effects).run(programme, case.setup.step, instants)
+    if case.engine == "mujoco":
+        from proving.mujoco_load import hang  # only cases of this engine need MuJoCo
+
+        loads = [e for e in case.effects if e.unit == "mechanical"]
+        trace = replace(trace, states=trace.states | {"extension": hang(trace, case.rig, loads)})
+    return trace
 
 
 def drawn_chain(setup: Setup, rng: np.random.Generator) -> dict[str, Sensors]:
@@ -59,44 +110,6 @@ def drawn_chain(setup: Setup, rng: np.random.Generator) -> dict[str, Sensors]:
     if rng.random() < 0.1:
         chain["temperature"].outliers = 0.01
     return chain
-
-
-def write_case(case: Case, cases: Path, answers: Path, rng: np.random.Generator) -> None:
-    """Runs a case and writes its recordings and its answer.
-
-    Args:
-        case: The case; its sensors are spoiled by its faults.
-        cases: Folder that the diagnosis is given; the case gets a folder of its own.
-        answers: Folder that it is not given.
-        rng: Source of noise.
-
-    Raises:
-        WireError: A truth does not converge.
-    """
-    folder = cases / case.identifier
-    folder.mkdir(parents=True, exist_ok=True)
-    names = [f"training_{n + 1}" for n in range(len(case.training))]
-    names += [f"held_out_{n + 1}" for n in range(len(case.held_out))]
-    is_noise_told = bool(rng.random() < 0.6)
-    instants = tuple(e.parameters["instant"] for e in case.effects if "instant" in e.parameters)
-    written: dict[str, Sequence[tuple[Sensors, Readings]]] = {}
-    for name, programme in zip(names, [*case.training, *case.held_out]):
-        trace = Truth(case.rig, case.effects).run(programme, case.setup.step, instants)
-        if not written:
-            _spoil(case, trace.signal)
-        banks = [(s, read(s, trace, programme.stop, rng)) for s in case.sensors.values()]
-        title = f"{case.setup.name}, {name.replace('_', ' ')}"
-        write_recording(folder / name, title, case.setup.overrides(programme), banks, is_noise_told)
-        written[name] = banks
-    (folder / "scenario.yaml").write_text((_SCENARIOS / f"{case.setup.name}.yaml").read_text())
-    task = {
-        "scenario": "scenario.yaml", "training": names[: len(case.training)],
-        "held_out": names[len(case.training) :], "hidden": list(case.hidden),
-    }  # fmt: skip
-    (folder / "task.yaml").write_text(yaml.safe_dump(task, sort_keys=False))
-    answers.mkdir(parents=True, exist_ok=True)
-    (answers / f"{case.identifier}.json").write_text(json.dumps(_answer(case), indent=1) + "\n")
-    write_clean(answers / f"{case.identifier}.npz", {n: b for n, b in written.items() if n.startswith("held_out")})
 
 
 def _spoil(case: Case, signal: Any) -> None:
@@ -111,7 +124,8 @@ def _spoil(case: Case, signal: Any) -> None:
         fault.spoil(bank)
 
 
-_VERDICTS = {
+#: Kind of case to the verdicts that are right.
+VERDICTS = {
     "single": ["missing physics"], "two": ["missing physics"], "null": ["consistent", "recalibrated"],
     "parameters": ["recalibrated"], "sensor": ["measurement fault"], "outside": ["unnamed physics"],
     "leave_one_out": ["unnamed physics", "cannot tell"],
@@ -122,8 +136,8 @@ def _answer(case: Case) -> dict[str, Any]:
     rig = case.rig
     numbers = ("resistance", "conductance", "capacity", "weight", "stiffness", "shift", "end", "thermometer")
     return {
-        "case": case.identifier, "kind": case.kind, "setup": case.setup.name, "engine": "own",
-        "verdicts": _VERDICTS[case.kind], "hidden": list(case.hidden),
+        "case": case.identifier, "kind": case.kind, "setup": case.setup.name, "engine": case.engine,
+        "verdicts": VERDICTS[case.kind], "hidden": list(case.hidden),
         "findings": [_finding(case, e) for e in _all(case)],
         "rig": {n: np.asarray(getattr(rig, n)).tolist() for n in numbers}
         | {"room": rig.room, "slew": rig.slew, "duhem": rig.duhem, "spread": rig.spread},

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from proving.case import Case, drawn_chain, write_case
+from proving.case import VERDICTS, Case, drawn_chain
 from proving.draw import drawn_effect, fits, in_order
 from proving.effects import measurement
 from proving.effects.effect import STRENGTHS, Effect, Strength
 from proving.effects.measurement import SensorFault, drawn_fault
+from proving.pendulum import arm
+from proving.pendulum.case import PendulumCase, drawn_pendulum
 from proving.programme import Programme
 from proving.rig import drawn_rig
 from proving.setups import EFFECTS, SETUPS, SHARES, Setup
@@ -20,6 +22,9 @@ from proving.setups import EFFECTS, SETUPS, SHARES, Setup
 KINDS = {
     "single": 0.36, "null": 0.16, "parameters": 0.06, "sensor": 0.1, "two": 0.12, "outside": 0.1, "leave_one_out": 0.1
 }  # fmt: skip
+#: Share of the cases (but sensor faults) that are a pendulum, and of the loads that MuJoCo swings where it can.
+PENDULUM_SHARE, MUJOCO_SHARE = 0.12, 0.7
+_OF_MUJOCO = {"slide_friction", "supply_wire_stiffness", "thermal_contraction", "tilt", "viscous_damping"}
 #: Effects that a programme of one shape alone shows: it is among the training and the held-out ones.
 _NEEDS = {
     "minor_loop_memory": ("partial", "inner"),
@@ -54,6 +59,11 @@ class Dealer:
         def deck(effects: Sequence[object]) -> Deck:
             return Deck([(e, s) for e in effects for s in STRENGTHS], rng)
 
+        on_arm = [e for e in arm.EFFECTS if e.is_named]
+        self.arm_decks = {
+            "single": deck(on_arm), "two": deck(on_arm), "leave_one_out": deck(on_arm),
+            "outside": deck([e for e in arm.EFFECTS if not e.is_named]),
+        }  # fmt: skip
         self.decks = {
             "single": deck(named), "two": deck(named), "leave_one_out": deck(named), "sensor": deck(faults),
             "outside": deck(both),
@@ -63,8 +73,20 @@ class Dealer:
         """An effect or fault and its strength, for a kind of case."""
         return self.decks[kind].deal()  # type: ignore[return-value]  # as put in
 
+    def deal_for_arm(self, kind: str) -> list[tuple[arm.ArmEffect, Strength]]:
+        """Effects on the pendulum's arm, for a kind of case."""
+        if kind in ("null", "parameters"):
+            return []
+        dealt = [self.arm_decks[kind].deal()]
+        while kind == "two" and len(dealt) < 2:
+            other = self.arm_decks[kind].deal()
+            dealt += [other] if other[0] is not dealt[0][0] else []  # type: ignore[index]
+        return dealt  # type: ignore[return-value]  # as put in
 
-def drawn_cases(count: int, seed: int, kinds: Sequence[str] = ()) -> list[tuple[Case, np.random.Generator]]:
+
+def drawn_cases(
+    count: int, seed: int, kinds: Sequence[str] = ()
+) -> list[tuple[Case | PendulumCase, np.random.Generator]]:
     """Cases, each with the source of its noise; the same seed draws the same.
 
     Args:
@@ -85,7 +107,15 @@ def drawn_cases(count: int, seed: int, kinds: Sequence[str] = ()) -> list[tuple[
     shares = {k: KINDS[k] for k in kinds or KINDS}
     plan = _plan(shares, count, rng)
     sources = [np.random.default_rng(np.random.SeedSequence([seed, 1, n])) for n in range(count)]
-    return [(_drawn_case(f"case_{n + 1:04d}", kind, dealer, sources[n]), sources[n]) for n, kind in enumerate(plan)]
+    drawn: list[tuple[Case | PendulumCase, np.random.Generator]] = []
+    for n, (kind, source) in enumerate(zip(plan, sources)):
+        identifier = f"case_{n + 1:04d}"
+        if kind != "sensor" and source.random() < PENDULUM_SHARE:
+            wanted = dealer.deal_for_arm(kind)
+            drawn.append((drawn_pendulum(identifier, kind, wanted, VERDICTS[kind], source), source))
+        else:
+            drawn.append((_drawn_case(identifier, kind, dealer, source), source))
+    return drawn
 
 
 def _plan(shares: dict[str, float], count: int, rng: np.random.Generator) -> list[str]:
@@ -114,10 +144,12 @@ def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Gener
             faults.append(drawn_fault(effect, chain, strength, rng))
         else:
             effects.append(drawn_effect(effect, setup, rig, strength, rng))
+    is_mujoco = _loads_of_mujoco(effects) and rng.random() < MUJOCO_SHARE
     training, held_out = _programmes(setup, [e.identifier for e, _ in wanted], rng)
     return Case(
         identifier, kind, setup, rig, in_order(effects), faults, {e.identifier: s for e, s in wanted}, training,
         held_out, tuple(e.identifier for e, _ in wanted) if kind == "leave_one_out" else (), chain,
+        "mujoco" if is_mujoco else "own",
     )  # fmt: skip
 
 
@@ -128,6 +160,12 @@ def _setup(effects: Sequence[type[Effect] | type[SensorFault]], rng: np.random.G
     return able[int(rng.choice(len(able), p=shares / shares.sum()))]
 
 
+def _loads_of_mujoco(effects: Sequence[Effect]) -> bool:
+    """Whether there are loads with effects that MuJoCo can make, and nothing that hears their motion."""
+    loads = [e.identifier for e in effects if e.unit == "mechanical"]
+    return bool(loads) and set(loads) <= _OF_MUJOCO and all(e.identifier != "motion_draught" for e in effects)
+
+
 def _able(effects: Sequence[type[Effect] | type[SensorFault]]) -> list[Setup]:
     return [s for s in SETUPS.values() if all(_can(e, s) for e in effects)]
 
@@ -135,7 +173,9 @@ def _able(effects: Sequence[type[Effect] | type[SensorFault]]) -> list[Setup]:
 def _can(effect: type[Effect] | type[SensorFault], setup: Setup) -> bool:
     if issubclass(effect, SensorFault):
         is_swap = effect.places == ("swap",)
-        return any(k in setup.sensors for k in effect.kinds) and not (is_swap and setup.sheet.coils == 1)
+        # Where all strings are driven alike, exchanged sensors look like exchanged parameters.
+        is_apart = setup.sheet.is_per_string or setup.sheet.is_driven_by_power
+        return any(k in setup.sensors for k in effect.kinds) and (is_apart or not is_swap)
     return fits(effect, setup)
 
 
@@ -168,4 +208,4 @@ def write_cases(folder: str | Path, count: int, seed: int, kinds: Sequence[str] 
     """
     folder = Path(folder)
     for case, rng in drawn_cases(count, seed, kinds):
-        write_case(case, folder / "cases", folder / "answers", rng)
+        case.write(folder / "cases", folder / "answers", rng)

@@ -134,5 +134,5 @@ def drawn_rig(sheet: DataSheet, rng: np.random.Generator, scatter: float = 1.0) 
         room=scatter * 0.2 * rng.standard_normal(),
         slew=rng.uniform(0.002, 0.02),
         duhem=rng.uniform(0.0, 0.03),
-        spread=rng.uniform(0.2, 0.6),
+        spread=rng.uniform(0.1, 0.35),
     )

@@ -69,7 +69,7 @@ def _apart(shape: Shape, count: int, slower: float = 1.0) -> Shape:
 
     def drawn(rng: np.random.Generator, top: float, stop: float) -> Programme:
         own = [shape(rng, top, stop / slower) for _ in range(count)]
-        slow = [replace(p, times=np.round(slower * p.times, 1), stop=stop) for p in own]
+        slow = [replace(p, times=np.round(slower * p.times, 0 if slower > 1.0 else 1), stop=stop) for p in own]
         times = np.unique(np.concatenate([p.times for p in slow]))
         levels = np.array([[float(p.at(t)) for p in slow] for t in times])
         return Programme(times, levels, stop)

@@ -176,13 +176,22 @@ def drawn_fault(
     if place_kind == "channel":
         chosen: tuple[str, ...] = (str(rng.choice(list(names))),)
     elif place_kind == "swap":
-        chosen = tuple(str(v) for v in rng.choice(list(names), 2, replace=False))
+        first = str(rng.choice(list(names)))
+        # Coils of one string are so alike that other parameters explain an exchange: take two strings.
+        chosen = (first, str(rng.choice([n for n in names if _string(n) != _string(first)])))
     else:
         chosen = names
     level = ("weak", "medium", "strong").index(strength)
     parameters = {name: values[level] * float(rng.uniform(0.9, 1.1)) for name, values in fault.strengths.items()}
+    if "exchange" in parameters:
+        parameters["exchange"] = 1.0
     for name in fault.relative:
         parameters[name] *= TYPICAL[kind]
     if fault.signed and rng.random() < 0.5:
         parameters[fault.signed] *= -1.0
     return fault(Place(place_kind, (), np.zeros(0), chosen), parameters)
+
+
+def _string(name: str) -> str:
+    """`coil[2,5].temperature` -> `2`."""
+    return name.partition("[")[2].partition("]")[0].partition(",")[0]

@@ -14,8 +14,10 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from proving.__main__ import main
+from proving.case import Case
 from proving.cases import KINDS, drawn_cases, write_cases
 from proving.effects import measurement
+from proving.pendulum.case import PendulumCase
 from proving.setups import EFFECTS, SETUPS
 
 SEED = 12
@@ -41,8 +43,8 @@ def test_every_recording_loads_and_its_scenario_follows_what_was_done(written):
         assert scenario.time.stop.to("s") == pytest.approx(recording.end, abs=1.0)
         assert all(np.isfinite(c.values).all() for c in recording.channels.values())
         temperatures = [c for c in recording.channels.values() if c.target.quantity == "temperature"]
-        assert temperatures
-        for channel in temperatures:
+        assert temperatures or set(recording.channels) == {"arm.angle"}
+        for channel in temperatures:  # none on the arm
             assert 280.0 < np.median(channel.values) < 360.0  # kelvin, not degrees Celsius
 
 
@@ -90,6 +92,8 @@ def test_answers_tell_effect_place_and_strength(written):
 def test_clean_held_out_readings_lie_under_the_noise(written):
     for file in sorted((written / "answers").glob("*.npz")):
         answer = json.loads(file.with_suffix(".json").read_text())
+        if answer["setup"] == "pendulum":
+            continue  # test_pendulum.py
         recording = load_recording(written / "cases" / file.stem / "held_out_1")
         clean = np.load(file)
         stamps, values = (clean[f"held_out_1/temperature/{n}"] for n in ("stamps", "clean"))
@@ -104,7 +108,7 @@ def test_the_same_seed_writes_the_same_bytes(tmp_path):
     for name in ("first", "second"):
         write_cases(tmp_path / name, 2, 7, ["single", "sensor"])
     files = sorted(p.relative_to(tmp_path / "first") for p in (tmp_path / "first").rglob("*") if p.is_file())
-    assert len(files) == 2 * (2 + 3 * 3 + 2) or len(files) > 12
+    assert len(files) >= 2 * (2 + 3 * 2 + 2)  # of each case: scenario, task, three sidecars and tables, answer
     same, different, missing = filecmp.cmpfiles(
         tmp_path / "first", tmp_path / "second", [str(f) for f in files], shallow=False
     )
@@ -119,6 +123,13 @@ def test_kinds_come_by_their_shares_and_effects_equally_often():
     counts = Counter(c.kind for c in cases)
     for kind, share in KINDS.items():
         assert counts[kind] == pytest.approx(400 * share / sum(KINDS.values()), abs=1.0)
+    pendulums = [c for c in cases if isinstance(c, PendulumCase)]
+    assert 0.05 < len(pendulums) / len(cases) < 0.17
+    assert {c.engine for c in pendulums} == {"own", "bullet", "mujoco"}
+    cases = [c for c in cases if isinstance(c, Case)]
+    mechanical = [c for c in cases if any(e.unit == "mechanical" for e in c.effects)]
+    moved = [*mechanical, *pendulums]
+    assert sum(c.engine == "mujoco" for c in moved) >= len(moved) / 4  # as the aims ask
     singles = Counter(c.effects[0].identifier for c in cases if c.kind == "single")
     assert set(singles) == {e.identifier for e in EFFECTS if e.is_named}
     assert max(singles.values()) - min(singles.values()) <= 3  # three strengths to a deck

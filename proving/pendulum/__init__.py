@@ -1,0 +1,1 @@
+"""A pendulum with concealed friction: three engines, one law."""
