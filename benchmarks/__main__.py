@@ -1,8 +1,20 @@
-"""`python -m benchmarks`: every measurement, one after the other."""
+"""`python -m benchmarks`: every measurement that needs nothing but the project's own environment, one after the other.
+
+The peers (`python -m benchmarks.peers.run`) need an environment of their own.
+"""
 
 from __future__ import annotations
 
-from benchmarks import bullet_convergence, macro_step, units, whole_run
+from benchmarks import (
+    bullet_convergence,
+    isolation,
+    loop,
+    macro_step,
+    quarter_truck,
+    two_mass,
+    units,
+    whole_run,
+)
 
-for measurement in (whole_run, units, macro_step, bullet_convergence):
+for measurement in (whole_run, units, loop, two_mass, quarter_truck, isolation, macro_step, bullet_convergence):
     measurement.main([])

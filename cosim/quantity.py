@@ -90,15 +90,18 @@ class PhysicalValue:
         return cls(float(match["number"]), match["unit"], str(value))
 
     def to(self, unit: str) -> float:
-        """The number in another unit.
+        """The number in another unit; in its own unit it is the number as written, to the last bit.
 
         Raises:
             ValueError: The units measure different things, or a dimensional value was written without a unit.
         """
         if not self.unit and parse_unit(unit).dimensionality != parse_unit("1").dimensionality:
             raise ValueError(f"{self.number:g} has no unit; write for example `{self.number:g} {unit}`")
+        given, asked = parse_unit(self.unit), parse_unit(unit)
+        if given == asked:
+            return self.number
         try:
-            wanted = registry().Quantity(self.number, parse_unit(self.unit)).to(parse_unit(unit))
+            wanted = registry().Quantity(self.number, given).to(asked)
         except (pint.PintError, ArithmeticError) as error:
             raise ValueError(f"`{self}` is no quantity in {unit}") from error
         if not math.isfinite(wanted.magnitude):

@@ -134,14 +134,15 @@ class CoSimulationUnit(FmuUnit):
             raise UnitError(self.name, "it cannot change its communication step size "
                             "(canHandleVariableCommunicationStepSize is false)", time,
                             "choose an algorithm with constant steps")  # fmt: skip
-        begin, end = seconds(time), seconds(time + size)
-        begin = self._now if abs(self._now - begin) * NANOSECONDS <= 1.0 else begin
+        begin, end, length = seconds(time), seconds(time + size), seconds(size)
+        if begin != self._now and abs(self._now - begin) * NANOSECONDS <= 1.0:
+            begin, length = self._now, end - self._now
         try:
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
             self._now = begin
             self.clocks.silence()
-            status = self._advance(begin, end)
+            status = self._advance(begin, end, length)
         except UnitError as error:
             raise UnitError(self.name, error.what, self._reached, error.remedy) from error
         if status is StepStatus.DISCARDED:
@@ -170,14 +171,16 @@ class CoSimulationUnit(FmuUnit):
         due = self._due()
         return due is not None and due <= self._now + INSTANT
 
-    def _advance(self, begin: float, end: float) -> StepStatus:
+    def _advance(self, begin: float, end: float, length: float) -> StepStatus:
+        """From begin to end; a whole step is passed with its own length, not with the rounding of end - begin."""
         self._now, stuck = begin, 0
         while self._now < end - INSTANT:
             if not self._is_due():
                 due = self._due()
                 stop = end if due is None else min(end, due)
                 before = self._now
-                result = self.binding.do_step(before, stop - before, self._saved == 0)
+                is_whole = before == begin and stop == end
+                result = self.binding.do_step(before, length if is_whole else stop - before, self._saved == 0)
                 self._now = result.reached if result.early or result.discarded else stop
                 if result.terminate:
                     raise self._terminated()

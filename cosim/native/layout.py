@@ -7,8 +7,9 @@ from enum import IntEnum
 
 from cosim.unit import VariableType
 
-#: Changes with every change of the structures; the library says for which one it was compiled.
-LAYOUT_VERSION = 3
+#: Changes with every change of the structures or of what is done with them; the library says for which one it was
+#: compiled.
+LAYOUT_VERSION = 4
 
 
 class Code(IntEnum):

@@ -1,6 +1,7 @@
 /* A plan: what one macro-step does, as a flat list of operations on the buffers of the units.
  *
- * cosim/native/layout.py declares the same structures for ctypes; LAYOUT_VERSION changes with them.
+ * cosim/native/layout.py declares the same structures for ctypes; LAYOUT_VERSION changes with them,
+ * and with what is done.
  */
 #ifndef COSIM_NATIVE_PLAN_H
 #define COSIM_NATIVE_PLAN_H
@@ -8,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define LAYOUT_VERSION 3
+#define LAYOUT_VERSION 4
 
 #if defined(_WIN32)
 #define EXPORT __declspec(dllexport)

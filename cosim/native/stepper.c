@@ -71,16 +71,17 @@ static inline int read_checked(const Operation *operation, Cursor *cursor, bool 
     return cursor->element >= 0 ? NOT_FINITE : REACHED;
 }
 
-/* A macro-step in nanoseconds and in seconds, each end rounded on its own, as in cosim/unit.py. */
+/* A macro-step in nanoseconds and in seconds, its ends and its length each rounded on their own, as in cosim/unit.py:
+ * the FMU gets 0.001 for a millisecond, not end - begin. */
 typedef struct {
     int64_t time, size;
-    double begin, end;
+    double begin, end, length;
 } Step;
 
 static Step step_at(const Plan *plan, int64_t index)
 {
     const int64_t time = plan->start + index * plan->size;
-    return (Step){time, plan->size, (double)time / 1e9, (double)(time + plan->size) / 1e9};
+    return (Step){time, plan->size, (double)time / 1e9, (double)(time + plan->size) / 1e9, (double)plan->size / 1e9};
 }
 
 static inline bool meets_event(const Operation *o, double end)
@@ -93,7 +94,7 @@ static inline int step_fmi2(const Operation *o, Cursor *cursor, const Step *step
     if (meets_event(o, step->end)) {
         return CALLED;
     }
-    cursor->status = ((StepFmi2)o->function)(o->component, step->begin, step->end - step->begin, 1);
+    cursor->status = ((StepFmi2)o->function)(o->component, step->begin, step->length, 1);
     return cursor->status > STATUS_WARNING ? REFUSED : REACHED;
 }
 
@@ -102,9 +103,9 @@ static inline int step_fmi3(const Operation *o, Cursor *cursor, const Step *step
     if (meets_event(o, step->end)) {
         return CALLED;
     }
-    const double time = step->begin, size = step->end - step->begin;
     bool *const event = o->flags[0], *const terminate = o->flags[1], *const early = o->flags[2];
-    cursor->status = ((StepFmi3)o->function)(o->component, time, size, true, event, terminate, early, o->reached);
+    const StepFmi3 function = (StepFmi3)o->function;
+    cursor->status = function(o->component, step->begin, step->length, true, event, terminate, early, o->reached);
     if (cursor->status > STATUS_WARNING) {
         return REFUSED;
     }

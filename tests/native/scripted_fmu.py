@@ -17,7 +17,8 @@ INPUTS = (("u", "Float64", 1, 1), ("ua", "Float64", 2, 3), ("uf", "Float32", 5, 
           ("ub", "Boolean", 7, 1))  # fmt: skip
 OUTPUTS = (("y", "Float64", 11, 1), ("ya", "Float64", 12, 3), ("yf", "Float32", 15, 1), ("yi", "Int32", 16, 1),
            ("yb", "Boolean", 17, 1), ("z", "Float64", 18, 1))  # fmt: skip
-PARAMETERS = (("rate", 21, 1.0), ("moment", 22, 0.0), ("kind", 23, 0.0), ("gain", 24, 1.0))
+PARAMETERS = (("rate", 21, 1.0), ("moment", 22, 0.0), ("kind", 23, 0.0), ("gain", 24, 1.0),
+              ("fixed_step", 25, 0.0))  # fmt: skip
 FMI2_TYPES = {"Float64": "Real", "Float32": "Real", "Int32": "Integer", "Boolean": "Boolean"}
 
 

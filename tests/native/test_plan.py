@@ -258,6 +258,20 @@ def test_the_end_is_reached_exactly_after_a_million_steps(scripted):
     assert (outcome.status, outcome.time) == (StepStatus.OK, 10**9)
 
 
+@BOTH_VERSIONS
+@pytest.mark.parametrize("size", [MS, 7 * MS, 100_000])
+def test_every_whole_step_is_passed_as_the_number_that_the_user_wrote(scripted, version, size):
+    """An FMU with a step of its own may compare: 0.001, not 1.001 - 1.0 = 0.00099999999999989."""
+    wires = [Connection(("a", "y"), ("b", "u"))]
+    names = ("a", "b")
+
+    def make():
+        return System({n: fmu(n, scripted[version], fixed_step=size / 1e9) for n in names}, wires)
+
+    native = compare(make, Course("gauss_seidel", start=-3 * size, size=size, steps=2000, per_record=2000))
+    assert (native.index, native.ending, native.native_share) == (2000, "", 1.0)
+
+
 def test_callbacks_run_after_every_step_and_every_record(scripted):
     system = System({"a": fmu("a", scripted[3])}, [])
     system.initialise(0, {})

@@ -1,7 +1,7 @@
 /* A Co-Simulation FMU of every kind of number that fails on command: FMI_VERSION 2 or 3.
  *
  * Value references: u 1, ua 2..4, uf 5, ui 6, ub 7; y 11, ya 12..14, yf 15, yi 16, yb 17, z 18; rate 21, moment 22,
- * kind 23, gain 24. From `moment` [s] on it does what `kind` says (see enum). An FMI 3.0 array has the first number of
+ * kind 23, gain 24, fixed_step 25 [s] (0: any). From `moment` [s] on it does what `kind` says (see enum). An FMI 3.0 array has the first number of
  * its elements.
  */
 #include <math.h>
@@ -17,7 +17,7 @@ typedef fmi3Instance Handle;
 typedef fmi2Component Handle;
 #endif
 
-enum { U = 1, UA, UF = 5, UI, UB, Y = 11, YA, YF = 15, YI, YB, Z, RATE = 21, MOMENT, KIND, GAIN, COUNT };
+enum { U = 1, UA, UF = 5, UI, UB, Y = 11, YA, YF = 15, YI, YB, Z, RATE = 21, MOMENT, KIND, GAIN, FIXED_STEP, COUNT };
 enum { WELL, STEP_ERROR, STEP_DISCARD, NAN_ELEMENT, GET_ERROR, SET_ERROR, EARLY, TERMINATE, WARNING, INFINITE, FATAL };
 enum { OK, WARNED, DISCARDED, FAILED, DEAD };
 
@@ -63,6 +63,9 @@ static int advance(Model *m, double time, double size)
     }
     if (is_due(m, FATAL)) {
         return say(m, DEAD, "fatal on command");
+    }
+    if (m->v[FIXED_STEP] != 0.0 && size != m->v[FIXED_STEP]) {
+        return say(m, FAILED, "the step is not the fixed one");
     }
     const double part = -expm1(-m->v[RATE] * size);
     m->v[Y] += (m->v[U] - m->v[Y]) * part;
