@@ -13,7 +13,7 @@ LEAST = 1e-6
 #: Bends beyond this many deviations belong to switches.
 _SWITCH = 4.0
 #: Share by which an estimate with cubics must be lower, to say that the signal itself bends.
-_CURVED = 0.25
+_CURVED = 0.1
 #: A sensor rounds where at least this share of neighbouring readings are equal.
 _TIES = 0.05
 #: Times that dither is drawn, to average its own scatter out.
