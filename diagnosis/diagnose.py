@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,15 +17,34 @@ from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.search.search import Outcome, Settings, search
+from diagnosis.search.search import Settings, search
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.translate import NoBank, not_for_bank
+
+
+@dataclass(frozen=True)
+class Found:
+    """A diagnosis with what figures of it need.
+
+    Args:
+        diagnosis: The answer.
+        training: Model of the recordings that were fitted.
+        judge: Model of those held out, or None.
+        points: `before`, `recalibrated`, `after` to the values of the training model.
+        held_out_points: The same for the judge.
+    """
+
+    diagnosis: Diagnosis
+    training: BankModel
+    judge: BankModel | None
+    points: Mapping[str, Point]
+    held_out_points: Mapping[str, Point]
 
 
 def diagnose(
     scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording], settings: Settings,
     on_progress: Callable[[str], None] = lambda text: None,
-) -> tuple[Diagnosis, BankModel, Outcome]:  # fmt: skip
+) -> Found:  # fmt: skip
     """Find out what a scenario leaves out.
 
     Args:
@@ -33,9 +53,6 @@ def diagnose(
         held_out: Recordings that judge; nothing is fitted to them.
         settings: Of the search.
         on_progress: Told what is being done.
-
-    Returns:
-        The diagnosis, and model and outcome for figures.
 
     Raises:
         InputError: A recording does not fit the scenario, or the scenario is none that can be diagnosed.
@@ -56,30 +73,28 @@ def diagnose(
     }
     on_progress("judging by the recordings held out")
     fits: list[ChannelFit] = channel_fits(model, training, points, is_held_out=False)
+    carried: dict[str, Point] = {}
     if judge is not None:
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = findings(model, outcome)
-    return (
-        Diagnosis(
-            verdict=word,
-            statement=_statement(word, found),
-            findings=found,
-            fit=tuple(fits),
-            margin=outcome.margin,
-            false_alarm_rate=outcome.false_alarm_rate,
-            structure_before=outcome.base_structure.z,
-            structure_after=outcome.left.z,
-            recalibration=recalibration(model, outcome.best.fit),
-            isolability=(),
-            amended_model=None,
-            seconds=clock.perf_counter() - begin,
-            simulations=model.simulations,
-            seed=settings.seed,
-        ),
-        model,
-        outcome,
+    diagnosis = Diagnosis(
+        verdict=word,
+        statement=_statement(word, found),
+        findings=found,
+        fit=tuple(fits),
+        margin=outcome.margin,
+        false_alarm_rate=outcome.false_alarm_rate,
+        structure_before=outcome.base_structure.z,
+        structure_after=outcome.left.z,
+        recalibration=recalibration(model, outcome.best.fit),
+        isolability=(),
+        amended_model=None,
+        seconds=clock.perf_counter() - begin,
+        simulations=model.simulations,
+        seed=settings.seed,
     )
+    return Found(diagnosis, model, judge, points, carried)
 
 
 def _statement(word: Verdict, found: Sequence[object]) -> str:
