@@ -64,7 +64,7 @@ class PendulumCase:
         for name, (angle, speed) in zip(names, self.starts):
             off = rng.normal(0.0, 0.005), rng.normal(0.0, 0.02)  # let go by hand
             swing = ENGINES[self.engine](self.arm, angle + off[0], speed + off[1], _STOP, _INTERVAL)
-            clean = _behind(swing, self.arm.of("backlash"))
+            clean = behind_play(swing, self.arm.of("backlash"))
             read = _QUANTUM * np.round((clean + self.noise * rng.standard_normal(clean.size)) / _QUANTUM)
             _write_recording(folder / name, f"arm, {name.replace('_', ' ')}", (angle, speed), read, self.noise)
         (folder / "scenario.yaml").write_text(_SCENARIO.read_text())
@@ -128,7 +128,7 @@ def drawn_pendulum(
     )  # fmt: skip
 
 
-def _behind(angle: Array, play: float) -> Array:
+def behind_play(angle: Array, play: float) -> Array:
     """Encoder behind a play of this full width [rad], from its middle."""
     if play == 0.0:
         return angle

@@ -6,12 +6,10 @@ import pytest
 from proving.effects.effect import everywhere
 from proving.effects.mechanical import SlideFriction, SupplyWireStiffness, ThermalContraction, Tilt, ViscousDamping
 from proving.effects.thermal import Draught
+from proving.mujoco_load import SUPPORTED, hang
 from proving.rig import ideal_rig
 from proving.setups import SETUPS
 from proving.truth import Truth
-
-pytest.importorskip("mujoco")
-from proving.mujoco_load import SUPPORTED, hang
 
 SMALL = SETUPS["small"]
 RIG = ideal_rig(SMALL.sheet)

@@ -12,7 +12,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from proving.effects.effect import STRENGTHS
 from proving.pendulum.arm import EFFECTS, GRAVITY, Arm
-from proving.pendulum.case import drawn_pendulum
+from proving.pendulum.case import behind_play, drawn_pendulum
 from proving.pendulum.engines import ENGINES
 
 MOMENT, DISTANCE = 0.1 * GRAVITY * 0.115, 0.115
@@ -20,8 +20,6 @@ INERTIA = 4408e-7 + 0.1 * DISTANCE**2
 
 
 def swing(engine, effects=None, angle=math.pi - 1.2, speed=0.0, stop=8.0):
-    if engine == "mujoco":
-        pytest.importorskip("mujoco")
     return ENGINES[engine](Arm(INERTIA, MOMENT, DISTANCE, effects or {}), angle, speed, stop, 0.01)
 
 
@@ -90,8 +88,6 @@ def test_every_strength_of_every_effect_is_drawn_and_written_for_the_diagnosis(t
         wanted = [(effect, STRENGTHS[number % 3])]
         rng = np.random.default_rng(number)
         case = drawn_pendulum(f"case_{number}", kind, wanted, ["missing physics"], rng)
-        if case.engine == "mujoco":
-            pytest.importorskip("mujoco")
         case.write(tmp_path / "cases", tmp_path / "answers", rng)
         folder = tmp_path / "cases" / f"case_{number}"
         recording = load_recording(folder / "held_out_1")
@@ -109,10 +105,8 @@ def test_backlash_holds_the_encoder_within_half_its_play():
     effect = next(e for e in EFFECTS if e.identifier == "backlash")
     rng = np.random.default_rng(1)
     case = drawn_pendulum("case", "single", [(effect, "strong")], ["missing physics"], rng)
-    from proving.pendulum.case import _behind
-
     angle = swing("own")
     play = case.arm.of("backlash")
-    away = np.abs(_behind(angle, play) - angle)
+    away = np.abs(behind_play(angle, play) - angle)
     assert away.max() == pytest.approx(0.5 * play, rel=1e-9)
     assert 0.045 <= play <= 0.055
