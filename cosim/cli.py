@@ -55,9 +55,12 @@ def validate(scenario: ScenarioArgument) -> None:
     loaded = load_scenario(scenario)
     assembly = assemble(loaded)
     counts = {n: len(u.variables) for n, u in assembly.system.units.items()}
+    loops = dict.fromkeys(str(loop) for loop in [*assembly.system.initial_loops, *assembly.system.loops])
     assembly.system.terminate()
     parts = ", ".join(f"{name} ({count} variables)" for name, count in counts.items())
     print(f"{loaded.path}: valid; {parts}; {len(assembly.scenario.connections)} connections")
+    for loop in loops:
+        print(f"  {loop}")
 
 
 @app.command()

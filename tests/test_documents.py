@@ -8,6 +8,7 @@ import pytest
 
 from benchmarks.models.build import build
 from cosim.assemble import assemble
+from cosim.cli import validate
 from cosim.run import run
 from cosim.scenario import parse_scenario
 
@@ -108,3 +109,23 @@ def test_the_fabric_of_the_page_is_valid():
     links = assembly.system.units["fabric"].variables["link_length"].size
     assembly.system.terminate()
     assert links == 10 * (3 + 2)  # every row: three links of one orientation, two of the other between them
+
+
+@pytest.mark.usefixtures("in_project")
+def test_validate_lists_algebraic_loops(tmp_path, capsys):
+    part = "{kind: fmu, fmu: build/benchmark_models/feedthrough_fmi3.fmu, parameters: {gain: 0.5, offset: 1}}"
+    text = f"""title: A ring
+time: {{stop: 1 s, macro_step: 1 s, output_step: 1 s}}
+components:
+  a: {part}
+  b: {part}
+connections: [a.y -> b.u, b.y -> a.u]
+"""
+    (tmp_path / "ring.yaml").write_text(text)
+    validate(str(tmp_path / "ring.yaml"))
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[0].endswith("a (2 variables), b (2 variables); 2 connections")
+    assert len(printed) == 2
+    assert printed[1].startswith("  algebraic loop ")
+    assert "a.y -> b.u" in printed[1]
+    assert "b.y -> a.u" in printed[1]
