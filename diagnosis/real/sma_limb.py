@@ -17,8 +17,8 @@ _COILS = {
     "c1": ("test_c1_only.csv", "pwm_duty_limb0_rev", "MCPtemp_0"),
     "c2": ("test_c2_only.csv", "pwm_duty_limb0_fwd", "MCPtemp_1"),
 }
-#: Instant between the two pulses [s], one second before the second begins.
-BETWEEN = 189.0
+#: Instant between the two pulses [s], five seconds before the second begins.
+BETWEEN = 185.0
 _CLOCK = "Timestamp (millisec since midnight today)"
 #: Step of the thermocouple's converter (MCP9600): 0.0625 K.
 _QUANTUM = "0.0625 degC"

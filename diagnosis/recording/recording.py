@@ -203,7 +203,7 @@ class _Reader:
             given or estimate_noise(times, values, quantum), bool(given), quantum, limits,
             entry.lag_bound.to("s"), clock.offset_bound.to("s"),
             self._difference(entry.bias_bound, unit, f"{key}.bias_bound"),
-            (values <= limits[0]) | (values >= limits[1]),
+            _at_limit(values, limits, quantum),
         )  # fmt: skip
 
     def _target(self, name: str, key: str) -> Target:
@@ -235,3 +235,9 @@ class _Reader:
         if not value.number * factor > 0:
             raise InputError(self.file, key, f"{value} is not positive", "give a positive number with its unit")
         return factor * value.number
+
+
+def _at_limit(values: Array, limits: tuple[float, float], quantum: float) -> AnyArray:
+    """Which readings lie at a limit: within half a step, to which a clipped reading may be rounded."""
+    slack = [0.5 * quantum + (1e-9 * abs(limit) if math.isfinite(limit) else 0.0) for limit in limits]
+    return np.asarray((values <= limits[0] + slack[0]) | (values >= limits[1] - slack[1]))
