@@ -1,0 +1,1 @@
+"""What a diagnosis hands over: diagnosis.json and its schema, report.html, a summary in the terminal."""

@@ -1,0 +1,178 @@
+"""Figures of the report as data addresses: network, time line, channels."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Callable, Sequence
+from typing import Any, cast
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyBboxPatch, Rectangle
+from numpy.typing import NDArray
+
+from cosim.figures.style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
+from cosim.unit import Array
+from diagnosis.judge.diagnosis import Finding
+from diagnosis.report.display import axis, clean, difference
+from diagnosis.report.network import Network, concerned
+from diagnosis.report.series import Series
+
+#: One colour for each finding, in their order.
+FINDING_COLOURS = (HOT, COLD, RECOOLED, "#b7791f", "#6b46c1")
+_STAGES: dict[str, dict[str, Any]] = {
+    "before": {"color": WITHOUT_MODEL, "ls": ":", "lw": 1.2},
+    "recalibrated": {"color": "#d97706", "ls": "--", "lw": 1.2},
+    "after": {"color": WITH_MODEL, "ls": "-", "lw": 1.2},
+}
+#: Points of a curve that a figure shows; more would only make the file larger.
+_POINTS = 1200
+_WIRE, _COIL = "#718096", "#edf2f7"
+
+
+def colour(number: int) -> str:
+    """Colour of a finding, counted from 0."""
+    return FINDING_COLOURS[number % len(FINDING_COLOURS)]
+
+
+def _drawn(paint: Callable[[Figure], None], width: float, height: float) -> str:
+    """Data address of an SVG; the same drawing gives the same bytes."""
+    look = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "report",
+            "text.parse_math": False}  # fmt: skip
+    with mpl.rc_context(cast(Any, look)):
+        figure = Figure(figsize=(width, height), layout="constrained")
+        FigureCanvasSVG(figure)
+        paint(figure)
+        stream = io.BytesIO()
+        figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    return "data:image/svg+xml;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
+
+
+def network_figure(network: Network, findings: Sequence[Finding]) -> str:
+    """Strings of coils across the supply, what findings concern in their colours."""
+    longest, count = max(network.strings), len(network.strings)
+    height = min(0.7 + 0.38 * count, 9.0)
+    return _drawn(lambda f: _paint_network(f.subplots(), network, findings), min(2.0 + 0.62 * longest, 9.0), height)
+
+
+def _paint_network(axes: Axes, network: Network, findings: Sequence[Finding]) -> None:
+    longest, count = max(network.strings), len(network.strings)
+    marks = [concerned(f, network) for f in findings]
+    for x in (0.2, longest + 0.8):
+        axes.plot([x, x], [1, count], color=_WIRE, lw=1.2, zorder=1)
+    for s, coils in enumerate(network.strings, start=1):
+        axes.plot([0.2, longest + 0.8], [s, s], color=_WIRE, lw=1.2, zorder=1)
+        own = [n for n, m in enumerate(marks) if s in m.strings]
+        for n in own:
+            axes.add_patch(Rectangle((0.3, s - 0.42), longest + 0.4, 0.84, fc=colour(n), alpha=0.18, ec=colour(n)))
+        axes.text(longest + 1.0, s, f"string {s}", va="center", color=colour(own[0]) if own else "#4a5568",
+                  weight="bold" if own else "normal")  # fmt: skip
+        for c in range(1, coils + 1):
+            hit = [n for n, m in enumerate(marks) if (s, c) in m.coils]
+            _paint_coil(axes, c, s, [colour(n) for n in hit])
+    for c in range(1, longest + 1):
+        axes.text(c, 0.35, str(c), ha="center", va="center", color="#4a5568")
+    supply = next((colour(n) for n, m in enumerate(marks) if m.supply), None)
+    middle = (1 + count) / 2
+    axes.plot([-0.6, 0.2], [middle, middle], color=_WIRE, lw=1.2, zorder=1)
+    axes.text(-0.6, middle, "supply", ha="center", va="center", color="white" if supply else "black", zorder=3,
+              bbox={"boxstyle": "circle,pad=0.25", "fc": supply or "white", "ec": supply or _WIRE})  # fmt: skip
+    axes.set(xlim=(-1.3, longest + 2.1), ylim=(count + 0.6, 0.1))
+    axes.axis("off")
+
+
+def _paint_coil(axes: Axes, x: float, y: float, colours: Sequence[str]) -> None:
+    box = FancyBboxPatch((x - 0.3, y - 0.2), 0.6, 0.4, boxstyle="round,pad=0,rounding_size=0.12", zorder=2,
+                         fc=colours[0] if colours else _COIL, ec=colours[-1] if colours else _WIRE,
+                         lw=2.5 if len(colours) > 1 else 1.0)  # fmt: skip
+    axes.add_patch(box)
+    turns = np.linspace(-0.2, 0.2, 41)
+    axes.plot(x + turns, y + 0.09 * np.sin(turns * 10 * np.pi), color="white" if colours else _WIRE, lw=0.8, zorder=3)
+
+
+def timeline_figure(findings: Sequence[Finding], begin: float, end: float) -> str:
+    """Bars where each finding shows, over the recording."""
+    height = 0.75 + 0.3 * len(findings)
+    return _drawn(lambda f: _paint_timeline(f.subplots(), findings, begin, end), 8.4, height)
+
+
+def _paint_timeline(axes: Axes, findings: Sequence[Finding], begin: float, end: float) -> None:
+    shortest = 0.004 * (end - begin)
+    for n, finding in enumerate(findings):
+        axes.axhline(n, color="#e2e8f0", lw=8, zorder=0, solid_capstyle="butt")
+        for a, b in finding.intervals:
+            axes.barh(n, max(b - a, shortest), left=a, height=0.6, color=colour(n))
+    names = [_shortened(f"{n}: {clean(f.effect).replace('_', ' ')}") for n, f in enumerate(findings, start=1)]
+    axes.set_yticks(range(len(findings)), names)
+    axes.set(xlim=(begin, end), ylim=(len(findings) - 0.4, -0.6), xlabel="time [s]")
+    axes.spines["left"].set_visible(False)
+    axes.tick_params(axis="y", length=0)
+
+
+def _shortened(text: str, most: int = 44) -> str:
+    return text if len(text) <= most else text[: most - 1] + "…"
+
+
+def series_figure(series: Series, findings: Sequence[Finding]) -> str:
+    """Measured values and the models' above, what the last two models leave below."""
+    return _drawn(lambda f: _paint_series(f, series, findings), 8.4, 4.4)
+
+
+def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -> None:
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
+    curves = series.curves
+    scaled = axis(series.measured, series.unit)
+    keep = thinned(series.measured)
+    upper.plot(series.times[keep], scaled(series.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
+    for name, values in curves.items():
+        keep = thinned(values)
+        upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **_STAGES[name])
+    factor, of_difference = difference(series.unit)
+    noise = 2.0 * factor * np.broadcast_to(series.deviation, series.times.shape)
+    lower.fill_between(series.times, -noise, noise, color="#cbd5e0", lw=0, label="2 deviations of the sensor")
+    for name in list(curves)[-2:]:
+        residual = factor * (series.measured - curves[name])
+        keep = thinned(residual)
+        lower.plot(series.times[keep], residual[keep], **{**_STAGES[name], "lw": 0.9})
+    for n, finding in enumerate(findings):
+        for a, b in finding.intervals if series.channel in finding.channels else ():
+            upper.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
+    upper.set_ylabel(_labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
+    lower.set_ylabel(_labelled("residual", of_difference))
+    lower.set(xlabel="time [s]", xlim=_limits(series.times))
+    upper.legend(loc="best", frameon=False, ncols=2, fontsize=8)
+    lower.legend(loc="best", frameon=False, fontsize=8)
+
+
+def _labels(curves: dict[str, Array]) -> dict[str, str]:
+    """Names of the curves; one that stands for several stages says so."""
+    order = list(_STAGES)
+    own = [order.index(name) for name in curves]
+    ends = [*own[1:], len(order)]
+    return {name: " = ".join(order[a:b]) for name, a, b in zip(curves, own, ends)}
+
+
+def _labelled(name: str, unit: str) -> str:
+    return f"{name.replace('_', ' ')} [{unit}]" if unit else name.replace("_", " ")
+
+
+def _limits(times: Array) -> tuple[float, float]:
+    begin, end = float(times[0]), float(times[-1])
+    return (begin, end) if end > begin else (begin - 0.5, end + 0.5)
+
+
+def thinned(values: Array, most: int = _POINTS) -> NDArray[np.int64]:
+    """Indices of at most about `most` values: of each stretch the smallest and the largest, so that peaks stay.
+
+    Not finite values are left out where thinning is needed.
+    """
+    if len(values) <= most:
+        return np.arange(len(values), dtype=np.int64)
+    finite = np.flatnonzero(np.isfinite(values))
+    pieces = [p for p in np.array_split(finite, most // 2) if len(p)]
+    ends = {int(i) for p in pieces for i in (p[np.argmin(values[p])], p[np.argmax(values[p])])}
+    return np.array(sorted(ends), dtype=np.int64)

@@ -1,0 +1,69 @@
+"""One finding on the page: where, when, what, with what it is ambiguous and what would decide."""
+
+from __future__ import annotations
+
+from diagnosis.judge.diagnosis import Estimate, Finding
+from diagnosis.report.display import UNKNOWN, clean, interval, listed, number, percent, symbol, words
+from diagnosis.report.figures import colour
+from diagnosis.report.markup import Html, element, folded, joined, listing, table
+from diagnosis.report.sentences import ambiguity, decisive, what, when
+
+
+def finding_section(order: int, finding: Finding) -> Html:
+    """Section of a finding.
+
+    Args:
+        order: Its place among the findings, from 0; gives its colour.
+        finding: What was found.
+    """
+    facts = [
+        ("Where", f"{finding.unit}: {finding.place} ({listed(finding.elements, 12) or UNKNOWN})"),
+        ("When", when(finding, 12)),
+        ("Shows in", listed(finding.channels, 12) or UNKNOWN),
+        ("What", what(finding)),
+        ("Law", element("code", finding.law)),
+        ("Gain", f"-2 log posterior falls by {number(finding.gain)}"),
+    ]
+    return element(
+        "section",
+        element("h2", f"Finding {order + 1}: {finding.statement}"),
+        element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
+        _parameters(finding.parameters),
+        element("p", ambiguity(finding)),
+        _decisive(finding),
+        _alternatives(finding),
+        _confusions(finding),
+        class_="finding",
+        style=f"border-color: {colour(order)}",
+    )
+
+
+def _parameters(estimates: tuple[Estimate, ...]) -> Html:
+    if not estimates:
+        return Html("")
+    rows = [(element("code", p.name), interval(p.value, p.lower, p.upper, ""), symbol(p.unit)) for p in estimates]
+    return table(("parameter", "estimate (95 % interval)", "unit"), rows)
+
+
+def _decisive(finding: Finding) -> Html:
+    told = decisive(finding)
+    if not finding.ambiguous_with:
+        return Html("")
+    if not told:
+        return element("p", "The catalogue does not say what would decide.")
+    return joined([element("p", "What would decide:"), listing(told)])
+
+
+def _alternatives(finding: Finding) -> Html:
+    if not finding.alternatives:
+        return Html("")
+    rows = [(words(a.effect), clean(a.place), number(a.gain), percent(a.probability)) for a in finding.alternatives]
+    return folded("Other explanations that were fitted", table(("effect", "place", "gain", "probability"), rows))
+
+
+def _confusions(finding: Finding) -> Html:
+    rest = {e: text for e, text in finding.confused_with.items() if e not in finding.ambiguous_with}
+    if not rest:
+        return Html("")
+    return folded("Effects that often look alike, and what decides",
+                  listing(f"{words(e)}: {text}" for e, text in rest.items()))  # fmt: skip

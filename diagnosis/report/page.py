@@ -1,0 +1,137 @@
+"""report.html: one file that opens without a network."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.report.display import clean, listed, number, percent
+from diagnosis.report.figures import network_figure, series_figure, timeline_figure
+from diagnosis.report.finding_section import finding_section
+from diagnosis.report.fit_section import fit_section
+from diagnosis.report.markup import Html, element, image, joined, listing
+from diagnosis.report.network import Network, concerned, inferred
+from diagnosis.report.sentences import ADVICE, effort, improvement, structure, sureness, what, when, where
+from diagnosis.report.series import Series
+
+#: Looks of the page; no font and no picture comes from elsewhere.
+STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+#: Forbids the page to load anything, whatever a recording's title says.
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+
+
+def write_html(
+    diagnosis: Diagnosis, series: Sequence[Series], path: Path, network: Network | None = None, title: str = ""
+) -> None:
+    """Write the report.
+
+    Args:
+        diagnosis: What to report.
+        series: Channels to draw, the worst first; a handful.
+        path: The file.
+        network: Strings of the scenario; taken from the names of channels and elements where it is not given.
+        title: Of the scenario.
+    """
+    path.write_text(page(diagnosis, series, network or inferred(diagnosis), title), encoding="utf-8")
+
+
+def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title: str = "") -> str:
+    """The report as text."""
+    name = f"Diagnosis of {clean(title)}" if clean(title) else "Diagnosis"
+    head = element(
+        "head",
+        Html('<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'),
+        Html(f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'),
+        element("title", f"{name}: {diagnosis.verdict.value}"),
+        element("style", Html(STYLE)),
+    )
+    body = element(
+        "body",
+        _answer(diagnosis, name),
+        _place_and_time(diagnosis, series, network),
+        *(finding_section(n, f) for n, f in enumerate(diagnosis.findings)),
+        fit_section(diagnosis.fit),
+        _figures(diagnosis, series),
+        _certainty(diagnosis),
+        _section("What these channels can tell apart", listing(diagnosis.isolability) if diagnosis.isolability
+                 else element("p", "No statement was made.")),
+        element("footer", effort(diagnosis)),
+    )  # fmt: skip
+    return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
+
+
+def _section(title: str, *content: str) -> Html:
+    return element("section", element("h2", title), *content)
+
+
+def _answer(diagnosis: Diagnosis, name: str) -> Html:
+    """Verdict, and where, when, what and how much better in a line each."""
+    verdict = diagnosis.verdict.value
+    facts = [("How much better", improvement(diagnosis))]
+    if diagnosis.findings:
+        first = diagnosis.findings[0]
+        more = f"; and {len(diagnosis.findings) - 1} more below" if len(diagnosis.findings) > 1 else ""
+        facts = [("Where", where(diagnosis)), ("When", when(first) + more), ("What", what(first) + more), *facts]
+        facts.append(("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases"))
+    if diagnosis.amended_model:
+        facts.append(("Amended model", diagnosis.amended_model))
+    return element(
+        "header",
+        element("h1", name),
+        element("p", element("span", verdict, class_=f"verdict {verdict.replace(' ', '-')}"), " ",
+                element("strong", diagnosis.statement), " ", ADVICE[diagnosis.verdict]),
+        element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
+    )  # fmt: skip
+
+
+def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Html:
+    if not diagnosis.findings:
+        return Html("")
+    parts: list[str] = []
+    if network.strings:
+        parts += [image(network_figure(network, diagnosis.findings), "network of coils with what is concerned"),
+                  element("p", _caption(diagnosis, network), class_="note")]  # fmt: skip
+    begin, end = _extent(diagnosis, series)
+    if end > begin:
+        about = f"intervals in which each finding shows, {number(begin)} to {number(end)} s"
+        note = "Bars hold nine tenths of what each effect does to the channels."
+        parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
+    return _section("Where and when", *parts)
+
+
+def _caption(diagnosis: Diagnosis, network: Network) -> str:
+    """What the picture cannot show: findings that concern no single element of the network."""
+    others = [f"{n}: {f.place}" for n, f in enumerate(diagnosis.findings, 1) if not concerned(f, network)]
+    told = "Coloured: the elements concerned, in the colours of the findings below."
+    return f"{told} Not in the picture: {listed(others, 6)}." if others else told
+
+
+def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, float]:
+    """Times from the first sample to the last one, as far as they are known here."""
+    moments = [t for f in diagnosis.findings for pair in f.intervals for t in pair]
+    moments += [float(t) for s in series for t in (s.times[0], s.times[-1])]
+    return (min([0.0, *moments]), max(moments)) if moments else (0.0, 0.0)
+
+
+def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
+    if not series:
+        return Html("")
+    drawn = []
+    for one in series:
+        part = "held out" if one.is_held_out else "training"
+        caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
+        picture = image(series_figure(one, diagnosis.findings), f"{caption}: measured and simulated")
+        drawn.append(element("figure", element("figcaption", caption), picture))
+    note = element("p", "Above: measured and simulated. Below: measured minus simulated, by the last two models.",
+                   class_="note")  # fmt: skip
+    return _section("Channels that were met worst", note, *drawn)
+
+
+def _certainty(diagnosis: Diagnosis) -> Html:
+    moved = [f"{name}: {number(value)}" for name, value in diagnosis.recalibration.items()]
+    parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
+    if moved:
+        parts += [element("p", "Recalibration moved by more than two prior deviations (factors; changes in SI units "
+                               "for parameters that are no factors):"), listing(moved)]  # fmt: skip
+    return _section("How sure", *parts)

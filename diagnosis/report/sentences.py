@@ -1,0 +1,81 @@
+"""Sentences that the page and the terminal share."""
+
+from __future__ import annotations
+
+from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
+from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
+from diagnosis.report.fits import STAGES, mean_chi_square
+
+#: What follows from a verdict.
+ADVICE = {
+    Verdict.CONSISTENT: "Nothing needs to be added to the model.",
+    Verdict.RECALIBRATED: "Only parameters of the model were off; no physics is missing that these recordings show.",
+    Verdict.MEASUREMENT_FAULT: "Mend or model the sensor before the physics is changed.",
+    Verdict.MISSING_PHYSICS: "The amended model has what was missing.",
+    Verdict.UNNAMED_PHYSICS: "The formula tells what it depends on; a name for it is left to a person.",
+    Verdict.CANNOT_TELL: "Trust neither the model nor a correction of it where it departs from these recordings.",
+}
+
+
+def where(diagnosis: Diagnosis) -> str:
+    """Unit and place of each finding."""
+    return "; ".join(f"{f.unit}: {clean(f.place)}" for f in diagnosis.findings) or UNKNOWN
+
+
+def when(finding: Finding, most: int = 4) -> str:
+    """Intervals of a finding."""
+    return listed([span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+
+
+def what(finding: Finding) -> str:
+    """Effect and how probable it is."""
+    name = words(finding.effect) if finding.is_named else "no name in the catalogue"
+    return f"{name}, probability {percent(finding.probability)} among all that were fitted in its place"
+
+
+def ambiguity(finding: Finding) -> str:
+    """What the data cannot tell from a finding."""
+    if not finding.ambiguous_with:
+        return "No other effect that was fitted explains the recordings as well."
+    return f"The recordings cannot tell it from: {listed([words(e) for e in finding.ambiguous_with], 6)}."
+
+
+def decisive(finding: Finding) -> list[str]:
+    """What would decide between a finding and those that the data cannot tell from it."""
+    return [f"{words(e)}: {clean(finding.confused_with[e])}"
+            for e in finding.ambiguous_with if e in finding.confused_with]  # fmt: skip
+
+
+def improvement(diagnosis: Diagnosis) -> str:
+    """Chi-square per sample of the recordings that judge."""
+    for is_held_out, name in ((True, "held out"), (False, "in training; none was held out")):
+        mean = mean_chi_square(diagnosis.fit, is_held_out)
+        if mean:
+            told = ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES)
+            return f"chi-square per sample ({name}): {told}"
+    return "no recording was judged"
+
+
+_STAGE = {"before": "before", "recalibrated": "recalibrated only", "after": "after"}
+
+
+def sureness(diagnosis: Diagnosis) -> str:
+    """Margin and false alarms."""
+    margin = f"An effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
+    if not diagnosis.findings:
+        return f"{margin}; none did that was kept."
+    gains = listed([number(f.gain) for f in diagnosis.findings], 4)
+    return f"{margin}; found: {gains}. Chance alone gives the first in {percent(diagnosis.false_alarm_rate)} of cases."
+
+
+def structure(diagnosis: Diagnosis) -> str:
+    """What is left in the residuals."""
+    return (
+        f"Largest standardised sum of residuals: {number(abs(diagnosis.structure_before))} after recalibration, "
+        f"{number(abs(diagnosis.structure_after))} at the end."
+    )
+
+
+def effort(diagnosis: Diagnosis) -> str:
+    """Time, simulations and seed."""
+    return f"{duration(diagnosis.seconds)}, {diagnosis.simulations} simulations, seed {diagnosis.seed}"

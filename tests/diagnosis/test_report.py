@@ -1,0 +1,373 @@
+"""What a diagnosis hands over: file, schema, page and summary, for every verdict."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+from rich.console import Console
+
+from cosim.errors import InputError
+from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
+from diagnosis.report.display import axis, interval, number, percent
+from diagnosis.report.figures import thinned
+from diagnosis.report.fits import rows, worst_first
+from diagnosis.report.json_file import read_json, write_json
+from diagnosis.report.network import Concerned, Network, concerned, inferred
+from diagnosis.report.page import write_html
+from diagnosis.report.schema import PUBLISHED, as_text, schema
+from diagnosis.report.series import Series
+from diagnosis.report.summary import LINES, print_summary
+
+HOSTILE = "<script>alert('x')</script> & \"run\" \x1b[31m$x^2$"
+
+CONTACT = Finding(
+    unit="electrical",
+    place="string[3]",
+    elements=("string[3]", *(f"coil[3,{c}]" for c in range(1, 7))),
+    intervals=((5.0, 42.5), (60.0, 88.0)),
+    channels=("string[3].current", "supply.current"),
+    effect="contact_resistance",
+    is_named=True,
+    statement="contact resistance in a string, string[3]",
+    law="R_string = R_string_0 + R_contact",
+    parameters=(Estimate("R_contact", "ohm", 0.31234, 0.28111, 0.34999),),
+    gain=412.0,
+    probability=0.93,
+    ambiguous_with=("base:reference_resistance",),
+    alternatives=(Alternative("contact_resistance", "string[3]", 412.0, 0.93),
+                  Alternative("supply_source_resistance", "supply", 390.0, 0.004)),
+    confused_with={"base:reference_resistance": "the voltage of one coil decides",
+                   "supply_source_resistance": "strings at different currents decide"},
+)  # fmt: skip
+MASS = replace(
+    CONTACT, unit="thermal", place="coil[2,5]", elements=("coil[2,5]",), intervals=((10.0, 95.0),),
+    channels=("coil[2,5].temperature",), effect="second_mass", statement="second thermal mass, coil[2,5]",
+    law="C_2 * d(T_2) = G * (T - T_2)", ambiguous_with=(), confused_with={}, alternatives=(), gain=88.0,
+    parameters=(Estimate("C_2", "J/K", 0.05, 0.02, 0.08), Estimate("G", "W/K", 2.1e-5, 1.9e-5, 2.3e-5)),
+)  # fmt: skip
+UNNAMED = replace(
+    MASS, place="all coils", elements=("coil[1,1]",), effect="unnamed_heat_square_excess", is_named=False,
+    statement="unnamed term in heat: temperature above the surroundings, square", law="heat = heat_0 + a * x * x",
+)  # fmt: skip
+LAG = replace(
+    MASS, unit="measurement", place="coil[1,2].temperature", elements=("coil[1,2]",), effect="sensor_lag",
+    channels=("coil[1,2].temperature",), statement="sensor lag, coil[1,2].temperature", law="tau * d(y) = x - y",
+)  # fmt: skip
+FINDINGS = {
+    Verdict.CONSISTENT: (),
+    Verdict.RECALIBRATED: (),
+    Verdict.MEASUREMENT_FAULT: (LAG,),
+    Verdict.MISSING_PHYSICS: (CONTACT, MASS),
+    Verdict.UNNAMED_PHYSICS: (UNNAMED,),
+    Verdict.CANNOT_TELL: (),
+}
+
+
+def fit(channel: str, unit: str, size: float, is_held_out: bool, title: str = "steps") -> ChannelFit:
+    stages = {"before": 9.0 * size, "recalibrated": 4.0 * size, "after": size}
+    return ChannelFit(title, is_held_out, channel, unit, stages, {k: (v / size) ** 2 for k, v in stages.items()},
+                      {"before": 30.0, "recalibrated": 12.0, "after": 2.5})  # fmt: skip
+
+
+def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
+    fits = [fit(f"coil[{s},{c}].temperature", "K", 0.3, h, title) for h in (False, True) for s in range(1, 7)
+            for c in range(1, 7)]  # fmt: skip
+    fits += [fit(f"string[{s}].current", "A", 0.003, True, title) for s in range(1, 7)]
+    return Diagnosis(
+        verdict=verdict,
+        statement=f"The answer is {verdict.value}.",
+        findings=FINDINGS[verdict],
+        fit=tuple(fits),
+        margin=12.0,
+        false_alarm_rate=0.002,
+        structure_before=-21.4,
+        structure_after=3.1,
+        recalibration={"convection": 1.083},
+        isolability=("Heat and stiffness cannot be told apart without a temperature.",),
+        amended_model="out/amended/scenario.yaml",
+        seconds=14.2,
+        simulations=5321,
+        seed=7,
+    )
+
+
+def series(channel: str = "coil[2,5].temperature", unit: str = "K", base: float = 300.0) -> Series:
+    times = np.linspace(0.0, 100.0, 201)
+    truth = base * (1.0 + 0.2 * (1.0 - np.exp(-times / 20.0)))
+    noise = 1e-3 * base * np.random.default_rng(1).standard_normal(201)
+    return Series(channel, unit, times, truth + noise, truth * 0.97, truth * 0.99, truth, 1e-3 * base, "steps", True)
+
+
+def read_page(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+class Page(HTMLParser):
+    """Elements, addresses and text of a page; every element that opens must close."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.addresses: list[str] = []
+        self.names: list[str] = []
+        self.text = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.names.append(tag)
+        self.addresses += [v or "" for k, v in attrs if k in ("src", "href")]
+        if tag not in ("meta", "img"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] != "style":
+            self.text += data
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_a_diagnosis_survives_its_file_and_obeys_the_schema(verdict: Verdict, tmp_path: Path) -> None:
+    written = diagnosis(verdict, HOSTILE)
+    write_json(written, tmp_path / "diagnosis.json")
+    content = json.loads(read_page(tmp_path / "diagnosis.json"))
+    jsonschema.Draft202012Validator(schema()).validate(content)
+    assert content["verdict"] == verdict.value
+    assert read_json(tmp_path / "diagnosis.json") == written
+
+
+def test_numbers_that_are_not_finite_become_null_and_are_not_known_when_read(tmp_path: Path) -> None:
+    unbounded = replace(CONTACT, parameters=(Estimate("R_contact", "ohm", np.float64(0.3), -math.inf, math.inf),))
+    write_json(replace(diagnosis(Verdict.CANNOT_TELL), findings=(unbounded,), margin=math.nan), tmp_path / "d.json")
+    content = json.loads(read_page(tmp_path / "d.json"))
+    jsonschema.Draft202012Validator(schema()).validate(content)
+    assert content["findings"][0]["parameters"][0] == {
+        "name": "R_contact", "unit": "ohm", "value": 0.3, "lower": None, "upper": None,
+    }  # fmt: skip
+    again = read_json(tmp_path / "d.json")
+    assert math.isnan(again.margin)
+    assert math.isnan(again.findings[0].parameters[0].upper)
+
+
+def test_the_published_schema_is_the_one_the_code_makes() -> None:
+    assert PUBLISHED.read_text(encoding="utf-8") == as_text()
+
+
+def test_the_schema_describes_every_key_and_refuses_others() -> None:
+    made = schema()
+    objects = [made, *(d for d in made["$defs"].values() if d["type"] == "object")]
+    assert len(objects) == 5
+    for one in objects:
+        assert all(len(about["description"]) > 3 for about in one["properties"].values())
+    content = json.loads(json.dumps({**_content(), "surprise": 1}))
+    assert [e.validator for e in jsonschema.Draft202012Validator(made).iter_errors(content)] == ["additionalProperties"]
+
+
+def _content() -> dict[str, object]:
+    from diagnosis.report.json_file import as_json
+
+    return as_json(diagnosis(Verdict.MISSING_PHYSICS))
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"surprise": 1}, "surprise"),
+        ({"seed": "seven"}, "seed"),
+        ({"verdict": "perhaps"}, "verdict"),
+        ({"findings": [{"unit": "thermal", "colour": "red"}]}, "findings.0.colour"),
+    ],
+)
+def test_a_file_with_other_keys_or_types_is_refused_by_name(
+    change: dict[str, object], key: str, tmp_path: Path
+) -> None:
+    (tmp_path / "d.json").write_text(json.dumps({**_content(), **change}))
+    with pytest.raises(InputError) as caught:
+        read_json(tmp_path / "d.json")
+    assert caught.value.key == key
+
+
+def test_a_file_that_is_missing_or_no_json_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "d.json").write_text("{")
+    for name, problem in (("d.json", "is no JSON"), ("none.json", "cannot be read")):
+        with pytest.raises(InputError, match=problem):
+            read_json(tmp_path / name)
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_the_page_tells_verdict_and_findings_and_loads_nothing(verdict: Verdict, tmp_path: Path) -> None:
+    told = diagnosis(verdict)
+    write_html(told, [series(), series("string[3].current", "A", 0.4)], tmp_path / "report.html", title="fabric")
+    page = Page(read_page(tmp_path / "report.html"))
+    assert not page.open
+    assert told.statement in page.text
+    assert verdict.value in page.text
+    assert "5321 simulations, seed 7" in page.text
+    for finding in told.findings:
+        assert finding.statement in page.text
+        assert finding.law in page.text
+    assert all(a.startswith("data:image/svg+xml;base64,") for a in page.addresses)
+    # Two channels, and with findings the network and the time line.
+    assert len(page.addresses) == (4 if told.findings else 2)
+    for address in page.addresses:
+        ElementTree.fromstring(base64.b64decode(address.partition(",")[2]))
+
+
+def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -> None:
+    write_html(diagnosis(Verdict.MISSING_PHYSICS), [], tmp_path / "report.html")
+    text = Page(read_page(tmp_path / "report.html")).text
+    assert "0.312 (0.281 to 0.350)" in text
+    assert "5.00 to 42.5 s, 60.0 to 88.0 s" in text
+    assert "The recordings cannot tell it from: the model's own reference resistance." in text
+    assert "the voltage of one coil decides" in text
+    # 0.003 A are 3 mA: 27, 12 and 3 by the three stages.
+    assert re.search(r"string current \(6 channels\)27\.012\.03\.00 \(3\.0 to 3\.0\)mA81\.016\.01\.00", text)
+    assert "chi-square per sample (held out): 81.0 before, 16.0 recalibrated only, 1.00 after" in text
+
+
+def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
+    told = diagnosis(Verdict.MISSING_PHYSICS, HOSTILE)
+    told = replace(told, statement=HOSTILE, isolability=(HOSTILE,), recalibration={HOSTILE: 1.1})
+    one = replace(series(), channel=HOSTILE, recording=HOSTILE)
+    write_html(told, [one], tmp_path / "report.html", title=HOSTILE)
+    text = read_page(tmp_path / "report.html")
+    page = Page(text)
+    assert "script" not in page.names
+    assert "<script>alert('x')</script> & \"run\"" in page.text
+    assert "\x1b" not in text
+
+
+def test_a_page_without_held_out_recordings_and_without_a_network_says_so(tmp_path: Path) -> None:
+    fits = (fit("rod.angle", "rad", 0.01, False),)
+    told = replace(diagnosis(Verdict.MISSING_PHYSICS), fit=fits, findings=(replace(UNNAMED, elements=("rod",)),))
+    write_html(told, [], tmp_path / "report.html", network=Network())
+    page = Page(read_page(tmp_path / "report.html"))
+    assert "No recording was held out" in page.text
+    assert len(page.addresses) == 1  # the time line alone
+    assert "rod angle" in page.text
+
+
+def test_the_same_diagnosis_gives_the_same_page(tmp_path: Path) -> None:
+    for name in ("a.html", "b.html"):
+        write_html(diagnosis(Verdict.MISSING_PHYSICS), [series()], tmp_path / name)
+    assert read_page(tmp_path / "a.html") == read_page(tmp_path / "b.html")
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+@pytest.mark.parametrize("width", [60, 80, 140])
+def test_the_summary_fits_a_screen_and_tells_the_verdict_first(verdict: Verdict, width: int) -> None:
+    stream = io.StringIO()
+    told = replace(diagnosis(verdict), findings=FINDINGS[verdict] * 3, isolability=("a statement",) * 9)
+    print_summary(told, Console(file=stream, width=width))
+    lines = stream.getvalue().splitlines()
+    assert len(lines) <= LINES
+    assert max(map(len, lines)) <= width
+    assert lines[0].startswith(f"{verdict.value.upper()}  The answer is")
+    assert f"{told.simulations} simulations, seed 7" in stream.getvalue()
+
+
+def test_the_summary_has_law_interval_fit_and_false_alarms() -> None:
+    stream = io.StringIO()
+    print_summary(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(CONTACT,)), Console(file=stream, width=120))
+    text = " ".join(stream.getvalue().split())
+    assert "R_string = R_string_0 + R_contact" in text
+    assert "R_contact = 0.312 ohm (0.281 to 0.350)" in text
+    assert "held out, coil temperature: RMSE 2.70 -> 1.20 -> 0.300 K" in text
+    assert "Chance alone gives the first in 0.2 % of cases" in text
+    assert "the model's own reference resistance: the voltage of one coil decides" in text
+
+
+def test_the_summary_does_not_let_foreign_text_steer_the_terminal() -> None:
+    stream = io.StringIO()
+    told = replace(diagnosis(Verdict.CANNOT_TELL, HOSTILE), statement=f"[red]{HOSTILE}[/red]")
+    print_summary(told, Console(file=stream, width=120, force_terminal=False))
+    assert "\x1b" not in stream.getvalue()
+    assert "[red]<script>" in stream.getvalue()
+
+
+def test_a_network_is_inferred_from_names_and_findings_mark_their_place() -> None:
+    told = diagnosis(Verdict.MISSING_PHYSICS)
+    network = inferred(told)
+    assert network.strings == (6,) * 6
+    assert concerned(CONTACT, network) == Concerned(strings=frozenset({3}))
+    assert concerned(MASS, network) == Concerned(coils=frozenset({(2, 5)}))
+    assert concerned(LAG, network) == Concerned(coils=frozenset({(1, 2)}))
+    swapped = replace(LAG, place="coil[1,2].temperature and coil[4,6].temperature")
+    assert concerned(swapped, network).coils == {(1, 2), (4, 6)}
+    assert concerned(replace(CONTACT, place="supply"), network) == Concerned(supply=True)
+    # A place that is no element: its elements are marked; elements outside the network are not.
+    assert concerned(UNNAMED, network).coils == {(1, 1)}
+    assert not concerned(replace(MASS, place="coil[7,1]", elements=()), network)
+
+
+def test_fits_are_grouped_by_recording_and_quantity() -> None:
+    fits = [fit("coil[1,1].temperature", "K", 0.3, False), fit("coil[1,2].temperature", "K", 0.4, False),
+            fit("coil[1,1].temperature", "K", 0.5, True)]  # fmt: skip
+    held_out, training = rows(fits)
+    assert (held_out.is_held_out, held_out.channels, training.channels) == (True, 1, 2)
+    assert training.rmse["after"] == pytest.approx(math.sqrt((0.3**2 + 0.4**2) / 2), rel=1e-12)
+    assert training.spread == (0.3, 0.4)
+    assert training.chi_square["recalibrated"] == pytest.approx(16.0, rel=1e-12)
+    bad = replace(fits[0], chi_square={"recalibrated": 50.0})
+    assert worst_first([*fits[1:], bad]) == [fits[2], bad, fits[1]]
+
+
+def test_temperatures_are_shown_in_degrees_and_small_currents_in_milliamperes() -> None:
+    # Exact but for the rounding of one subtraction or multiplication.
+    assert axis(np.array([300.0]), "K")(np.array([300.0, np.nan]))[0] == pytest.approx(26.85, abs=1e-12)
+    assert axis(np.array([0.4, np.nan]), "A").unit == "mA"
+    assert axis(np.array([4.0]), "A").unit == "A"
+    assert axis(np.array([0.4]), "A")(np.array([0.4]))[0] == pytest.approx(400.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("shown", "expected"),
+    [
+        (number(0.99951), "1.00"),
+        (number(123456.0), "123000"),
+        (number(2.0e-7), "2.00e-07"),
+        (number(-math.inf), "-∞"),
+        (number(math.nan), "–"),
+        (interval(295.15, 295.02, 295.28, "K"), "295.15 K (295.02 to 295.28)"),
+        (interval(2.1e-5, 1.9e-5, 2.3e-5, "W/K"), "2.10e-05 W/K (1.90e-05 to 2.30e-05)"),
+        (interval(0.0, 0.0, 12.5, "1"), "0.0 (0.0 to 12.5)"),
+        (interval(3.0, 3.0, math.inf, "s"), "3.000 s (3.000 to ∞)"),
+        (percent(0.99999), "> 99.9 %"),
+        (percent(0.005), "0.5 %"),
+    ],
+)
+def test_numbers_read_well(shown: str, expected: str) -> None:
+    assert shown == expected
+
+
+def test_thinning_keeps_the_peaks_of_a_long_channel() -> None:
+    values = np.zeros(50_000)
+    values[31_234], values[777] = 5.0, -3.0
+    values[100] = np.nan
+    kept = thinned(values, 1000)
+    assert len(kept) <= 1000
+    assert {31_234, 777} <= set(kept.tolist())
+    assert np.all(np.diff(kept) > 0)
+
+
+def test_a_series_with_other_shapes_is_refused() -> None:
+    with pytest.raises(ValueError, match="after has shape"):
+        replace(series(), after=np.zeros(3))
+
+
+def test_curves_that_say_the_same_are_drawn_once() -> None:
+    one = series()
+    assert list(replace(one, after=one.recalibrated).curves) == ["before", "recalibrated"]
+    assert list(one.curves) == ["before", "recalibrated", "after"]
