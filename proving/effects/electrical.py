@@ -45,7 +45,7 @@ class LooseContact(_OfStrings):
     law = "R_string = R_string_0 + R_contact * step(t - instant)"
     places = ("string",)
     same_parameters = ("R_contact", "instant")
-    strengths = {"R_contact": (0.4, 1.2, 5.0)}
+    strengths = {"R_contact": (0.08, 0.5, 3.0)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -72,7 +72,7 @@ class SupplyCurrentLimit(Effect):
     places = ("supply",)
     same_parameters = ("limit",)
     #: Share of the current of the highest level that is let through.
-    strengths = {"share": (0.92, 0.8, 0.65)}
+    strengths = {"share": (0.95, 0.85, 0.65)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.limit = min(network.limit, self.parameters["limit"])
@@ -108,7 +108,7 @@ class OpenCoil(Effect):
     law = "R = R_0 / (1 - openness * step(t - instant))"
     places = ("coil",)
     same_parameters = ("openness", "instant")
-    strengths = {"openness": (0.6, 0.9, 1.0)}
+    strengths = {"openness": (0.1, 0.6, 1.0)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -122,7 +122,7 @@ class ShortedCoil(Effect):
     law = "R = R_0 * (1 - bridged * step(t - instant))"
     places = ("coil",)
     same_parameters = ("bridged", "instant")
-    strengths = {"bridged": (0.3, 0.7, 1.0)}
+    strengths = {"bridged": (0.06, 0.4, 1.0)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -135,7 +135,7 @@ class SelfHeatingLead(_OfStrings):
     law = "R_string = R_string_0 + rise * I**2"
     places = ("string",)
     same_parameters = ("rise",)
-    strengths = {"rise": (4.0, 10.0, 25.0)}
+    strengths = {"rise": (1.0, 4.0, 15.0)}
 
     def branches(self, now: Now, network: Branches) -> None:
         current = now.current[network.first]  # of the evaluation before: lags by less than a step

@@ -42,7 +42,7 @@ class WetFilm(Effect):
     law = "heat = -2.43e6 * transfer * (p(T) - 0.5 * p(T_ambient)) while film > 0"
     places = ("all", "string")
     #: Film in kg, transfer in kg/s/Pa, of a coil.
-    strengths = {"film": (1.5e-6, 2e-6, 3e-6), "transfer": (1.2e-12, 2.5e-12, 5e-12)}
+    strengths = {"film": (1e-6, 2e-6, 3e-6), "transfer": (6e-13, 2e-12, 5e-12)}
 
     def begin(self, now: Now) -> None:
         self._film = self.parameters["film"] * np.ones_like(now.temperature)
@@ -79,7 +79,7 @@ class BoilingOnset(Effect):
     is_named = False
     law = "heat = -g * max(T - T_onset, 0)"
     places = ("all", "string", "coil")
-    strengths = {"g": (0.0025, 0.006, 0.015), "T_onset": (325.0, 323.0, 321.0)}
+    strengths = {"g": (0.0012, 0.004, 0.012), "T_onset": (325.0, 323.0, 321.0)}
 
     def heat(self, now: Now, wire: Array) -> tuple[Array, Array]:
         g = self.parameters["g"] * self.place.amount[:, None]
@@ -94,7 +94,7 @@ class MotionDraught(Effect):
     unit = "thermal"
     is_named = False
     law = "heat = -hA * fan * abs(d(extension)) * (T - T_ambient)"
-    strengths = {"fan": (400.0, 900.0, 2000.0)}  # [s/m]
+    strengths = {"fan": (100.0, 400.0, 1500.0)}  # [s/m]
     needs_load = True
 
     def convection(self, now: Now, factor: Array) -> None:
@@ -102,17 +102,17 @@ class MotionDraught(Effect):
 
 
 class StringLeak(Effect):
-    """Worn insulation: some current leaves a string in its middle, so that the lower coils carry less."""
+    """Worn insulation: current leaves a string in its middle, the more readily the higher the voltage (a varistor)."""
 
     identifier = "string_leak"
     unit = "electrical"
     is_named = False
-    law = "I_lower = I - V_middle / R_leak"
+    law = "I_lower = I - V_middle / R_leak * V / (3 V)"
     places = ("string",)
     strengths = {"R_leak": (60.0, 25.0, 10.0)}
 
     def branches(self, now: Now, network: Branches) -> None:
-        network.leak += self.place.amount[network.first] / self.parameters["R_leak"]
+        network.leak += self.place.amount[network.first] / self.parameters["R_leak"] * now.voltage / 3.0
 
 
 class ContactVoltage(Effect):
@@ -126,7 +126,7 @@ class ContactVoltage(Effect):
     is_named = False
     law = "I_string = max(V - V_contact, 0) / R_string"
     places = ("string", "all")
-    strengths = {"V_contact": (0.12, 0.3, 0.7)}
+    strengths = {"V_contact": (0.05, 0.2, 0.6)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.drop += self.parameters["V_contact"] * self.place.amount[network.first]
@@ -140,7 +140,7 @@ class SlowSupply(Effect):
     is_named = False
     law = "tau * d(V) = V_set - V"
     places = ("supply",)
-    strengths = {"tau": (0.4, 0.8, 1.6)}
+    strengths = {"tau": (0.15, 0.5, 1.5)}
 
     def begin(self, now: Now) -> None:
         self._behind: float | Array = 0.0
@@ -251,7 +251,7 @@ class SoftStop(Effect):
     is_named = False
     law = "tension = stiffness * extension + cushion * max(extension - reach, 0)"
     places = ("all", "string", "coil")
-    strengths = {"cushion": (40.0, 100.0, 300.0), "reach": (0.0048, 0.0046, 0.0044)}
+    strengths = {"cushion": (100.0, 250.0, 600.0), "reach": (0.0046, 0.0045, 0.0044)}
     needs_load = True
 
     def length(self, now: Now, extension: Array, before: Array) -> None:

@@ -30,7 +30,7 @@ class SecondMass(Effect):
     law = "heat = -g * (T - mass); C2 * d(mass) = g * (T - mass)"
     places = ("all", "all", "string", "coil")
     same_parameters: ClassVar[tuple[str, ...]] = ("g", "C2")
-    strengths = {"g": (0.0008, 0.002, 0.005), "C2": (0.01, 0.03, 0.08)}
+    strengths = {"g": (0.0004, 0.0015, 0.005), "C2": (0.01, 0.03, 0.08)}
     _loss = 0.0
 
     def begin(self, now: Now) -> None:
@@ -137,7 +137,7 @@ class Draught(Effect):
     law = "heat = -hA * amount * (T - T_ambient) * step(t - instant)"
     places = ("all", "string", "coil")
     same_parameters = ("amount", "instant")
-    strengths = {"amount": (0.1, 0.25, 0.6)}
+    strengths = {"amount": (0.04, 0.15, 0.5)}
     is_sudden = True
 
     def convection(self, now: Now, factor: Array) -> None:
@@ -186,7 +186,7 @@ class AmbientDrift(Effect):
     law = "T_ambient = T_ambient_0 + drift * t"
     places = ("all",)
     same_parameters = ("drift",)
-    strengths = {"drift": (0.008, 0.02, 0.05)}
+    strengths = {"drift": (0.004, 0.012, 0.04)}
     signed = "drift"
 
     def surroundings(self, now: Now, ambient: Array) -> None:
@@ -199,7 +199,7 @@ class AmbientStep(Effect):
     law = "T_ambient = T_ambient_0 + step_size * step(t - instant)"
     places = ("all", "string")
     same_parameters = ("step_size", "instant")
-    strengths = {"step_size": (1.0, 2.5, 6.0)}
+    strengths = {"step_size": (0.4, 1.5, 5.0)}
     signed = "step_size"
     is_sudden = True
 

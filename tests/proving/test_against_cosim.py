@@ -95,6 +95,6 @@ def test_an_arm_is_its_scenario_with_the_effect_switched_on(effect):
     data["components"]["arm"]["parameters"] |= {n: f"{v!r} {units[n]}" for n, v in listed.items()}
     found = run(parse_scenario(yaml.safe_dump(data), scenario.path))
     # Steps of 0.5 ms against 0.25 ms, both of second order; dry friction within a step is first order: less than a step
-    # of the encoder. Stiction falls with the speed, and the unit takes it at the speed of the step before: 3 mrad, measured.
+    # of the encoder. Stiction falls with the speed, and the unit takes it at the speed of the step before: 3 mrad.
     tolerance = 4e-3 if effect is not None and effect.identifier == "stiction" else 1e-3
     assert np.abs(found["arm.angle"].values - angle).max() < tolerance
