@@ -14,6 +14,9 @@ from cosim.scenario import Scenario, parse_scenario
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
 
+#: A key to the one that it stands in place of: a programme's output has either.
+_INSTEAD = {"constant": "points", "points": "constant"}
+
 
 def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     """The scenario under the conditions of a recording.
@@ -44,7 +47,9 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
 
 def _merged(base: Any, change: Any) -> Any:
     if isinstance(base, Mapping) and isinstance(change, Mapping):
-        both = dict(base)
+        if change.get("kind", base.get("kind")) != base.get("kind"):
+            return change  # another kind has other keys
+        both = {k: v for k, v in base.items() if not any(_INSTEAD.get(other) == k for other in change)}
         for key, value in change.items():
             both[key] = _merged(base[key], value) if key in base else value
         return both

@@ -131,7 +131,6 @@ class _Reader:
         self.file = file
         self.sidecar: Sidecar = load_sidecar(file)
         self._tables: dict[str, Table] = {}
-        self._zero: dict[tuple[str, str], float] = {}
 
     def recording(self) -> Recording:
         sidecar = self.sidecar
@@ -157,10 +156,13 @@ class _Reader:
             factor = conversion(clock.unit, "s")[0]
         except ValueError as error:
             raise InputError(self.file, f"{key}.time.unit", str(error), "give a unit of time") from error
-        if clock.zero is None and not np.isfinite(readings).any():
+        if clock.zero is not None:
+            return factor * (readings - float(clock.zero)), clock
+        # Tables that share a clock share its zero: the first reading of the recording's own table.
+        reference = readings if own is not None else self._table(None).column(clock.column, "time.column")
+        if not np.isfinite(reference).any():
             raise InputError(self._table(table_name).file, clock.column, "the clock has no values", "give times")
-        zero = float(readings[np.isfinite(readings)][0]) if clock.zero is None else float(clock.zero)
-        return factor * (readings - zero), clock
+        return factor * (readings - float(reference[np.isfinite(reference)][0])), clock
 
     def _input(self, name: str, entry: InputEntry) -> Input:
         key = f"inputs.{name}"

@@ -70,7 +70,7 @@ class CosimModel:
         terms: Laws that may be missing.
 
     Raises:
-        InputError: A recording does not fit the scenario.
+        InputError: A scenario is wrong, or a recording does not fit it.
     """
 
     def __init__(
@@ -79,6 +79,8 @@ class CosimModel:
     ) -> None:  # fmt: skip
         self.recordings = list(recordings)
         self.scenarios = [scenario_of(scenario, r) for r in recordings]
+        for own in self.scenarios:  # later, what cannot be built is a value that makes no sense
+            assemble(own).system.terminate()
         self.free = list(free)
         self.parameters: Sequence[Parameter] = [f.parameter for f in free]
         self._terms = {t.term: t for t in terms}

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.errors import InputError
-from cosim.scenario import load_scenario
+from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import parse_quantity
@@ -169,6 +169,38 @@ def test_overrides_and_recorded_inputs_make_the_scenario_of_the_recording(tmp_pa
     points = scenario.components["drive"].outputs["power_1"].points
     assert [(t.to("s"), v.to("W")) for t, v in points] == [(0.0, 0.0), (5.0, 0.5), (10.0, 1.0), (15.0, 0.0)]
     assert scenario.time.stop.to("s") == pytest.approx(19.5)
+
+
+def test_a_constant_may_stand_in_place_of_points_and_the_other_way_round(tmp_path):
+    drive = {"power_1": {"constant": "0.3 W"}}
+    room = {"temperature": {"points": [["0 s", "20 degC"], ["10 s", "21 degC"]]}}
+    path = folder(tmp_path, overrides={"components": {"drive": {"outputs": drive}, "room": {"outputs": room}}})
+    components = scenario_of(load_scenario("tclab"), load_recording(path)).components
+    assert components["drive"].outputs["power_1"].points is None
+    assert components["drive"].outputs["power_1"].constant.to("W") == pytest.approx(0.3)
+    assert components["room"].outputs["temperature"].constant is None
+    assert len(components["drive"].outputs["power_2"].points) == 4
+
+
+def test_another_kind_of_component_replaces_the_whole_of_it(tmp_path):
+    load = {"kind": "bullet_pendulum", "parameter_set": "pendulum_arm"}
+    base = parse_scenario(
+        "title: t\ntime: {stop: 1 s, macro_step: 5 ms, output_step: 5 ms, checkpoint_step: 1 s}\n"
+        "components:\n  load: {kind: hanging_mass, coils: 1, mass: 5 g}\n",
+        tmp_path / "own.yaml",
+    )
+    (tmp_path / "own.yaml").write_text(base.to_yaml())
+    path = folder(tmp_path, overrides={"components": {"load": load}})
+    assert scenario_of(base, load_recording(path)).components["load"].kind == "bullet_pendulum"
+
+
+def test_tables_that_share_a_clock_share_its_zero(tmp_path):
+    pd.DataFrame({"time": 103.0 + TIMES, "mA": TIMES}).to_csv(tmp_path / "late.csv", index=False)
+    channels = channel() | {"supply.current": {"column": "mA", "unit": "mA", "table": "late.csv"}}
+    table = {"time": 100.0 + TIMES, "T": 20.0 + TIMES}
+    recording = load_recording(folder(tmp_path, table, channels=channels))
+    assert recording.channels["coil[1].temperature"].times[0] == 0.0
+    assert recording.channels["supply.current"].times[0] == pytest.approx(3.0, abs=1e-9)
 
 
 def test_an_input_that_the_scenario_does_not_have_is_named(tmp_path):
