@@ -34,7 +34,9 @@ def seconds(time: int) -> float:
 
 def are_equal(one: AnyArray, other: AnyArray) -> bool:
     """Whether two arrays of one shape hold the same values; one element is compared without numpy's overhead."""
-    return bool(one.item() == other.item() if one.size == 1 else (one == other).all())
+    if one.size != 1 or isinstance(other, float):  # a caller of ours may give a plain number
+        return bool((one == other).all())
+    return bool(one.item() == other.item())
 
 
 def is_finite(values: AnyArray) -> bool:
