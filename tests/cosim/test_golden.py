@@ -51,6 +51,15 @@ ELECTRICAL = {
     "spatial_control": (without_fabric, COILS | SUPPLY, every(1.0, -1.0, 10.0), [0, 29, 30, 39, 40, 59]),
 }  # fmt: skip
 
+LUMPS = {
+    # trace: selection, times
+    "tclab": ({"heaters.temperature": SMOOTH, "heaters.convected_energy": SMOOTH}, every(60.0, 0.0, 600.0)),
+    "sma_limb": ({"wire.temperature": SMOOTH, "wire.convected_energy": SMOOTH}, every(8.0, 0.0, 208.0)),
+    # A swing without friction is regular: Bullet's single precision aside, nothing amplifies a difference.
+    "pendulum": (dict.fromkeys(("arm.angle", "arm.angular_velocity"), Tolerance(1e-6, 0.0, "rounding over 10 s")),
+                 every(1.0, 0.0, 10.0)),
+}  # fmt: skip
+
 FABRIC = {
     # trace: stop, times, tolerance of curvature [1/m], length [m], row centres [m], link lengths [m], energy [J]
     "passive_drape": ("0.2 s", every(0.04, 0.0, 0.2), (4.0, 2e-3, 5e-3, 1.3e-3, 2.5e-3)),
@@ -81,6 +90,13 @@ def test_currents_and_temperatures_are_those_stored(name, request):
     compare(name, found, selection, request.config.getoption("--update-golden"))
 
 
+@pytest.mark.parametrize("name", LUMPS)
+def test_lumps_and_swings_are_those_stored(name, request):
+    selection, times = LUMPS[name]
+    found = golden.series(run(load_scenario(name)), selection, times)
+    compare(name, found, selection, request.config.getoption("--update-golden"))
+
+
 @pytest.mark.parametrize("name", FABRIC)
 def test_the_first_moments_of_a_fabric_are_those_stored(name, request):
     scenario, selection, times = fabric_run(name)
@@ -90,7 +106,7 @@ def test_the_first_moments_of_a_fabric_are_those_stored(name, request):
 
 def test_every_shipped_scenario_has_a_golden_trace():
     # Until power comes the instant variant is the cantilever: its fabric adds nothing.
-    assert {*ELECTRICAL, *FABRIC} == set(shipped_scenarios())
+    assert {*ELECTRICAL, *LUMPS, *FABRIC} == set(shipped_scenarios())
 
 
 @pytest.mark.parametrize(
