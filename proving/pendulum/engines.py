@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
 import os
 from collections.abc import Callable
@@ -100,6 +101,8 @@ def _quiet_pybullet() -> Any:
     try:
         os.dup2(nothing, 1)
         import pybullet
+
+        ctypes.CDLL(None).fflush(None)  # what C still holds must not come out later
     finally:
         os.dup2(kept, 1)
         os.close(kept)
