@@ -45,12 +45,12 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     step = quantum or find_quantum(values)
     floor = max(step / np.sqrt(12.0), LEAST * spread, 1e-9 * size, float(np.finfo(float).tiny))
     if len(values) < 3:
-        return floor
+        return float(floor)
     found = _deviation(times, values, step, 1)
     if len(values) >= 16:
         finer = _deviation(times, values, step, 2)
         found = finer if finer < (1.0 - _CURVED) * found else found
-    return max(found, floor)
+    return float(max(found, floor))
 
 
 def find_quantum(values: Array) -> float:

@@ -1,0 +1,55 @@
+"""`cosim diagnose`: arguments, progress and exit codes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from cosim.errors import InputError
+from cosim.scenario import load_scenario
+
+
+def diagnose(
+    scenario: Annotated[str, typer.Argument(help="A scenario file or name: the model as it is.")],
+    recording: Annotated[list[Path], typer.Option(help="Recording that is fitted; may be given several times.")],
+    held_out: Annotated[list[Path], typer.Option(help="Recording that judges; may be given several times.")],
+    out: Annotated[Path, typer.Option(help="Folder for diagnosis.json and report.html.")],
+    level: Annotated[float, typer.Option(min=0.001, max=0.5, help="Rate of false alarms that is allowed.")] = 0.05,
+    seed: Annotated[int, typer.Option(min=0, help="Of all random numbers.")] = 0,
+) -> None:
+    """Find out what a model leaves out, by recordings of the real thing.
+
+    Nothing is fitted to recordings that are held out; they judge. Coil networks with hanging loads and lumped heaters
+    can be diagnosed so far; a fabric in Bullet is refused in words.
+    """
+    from diagnosis.curves import curves  # late: `--help` must not load Bullet
+    from diagnosis.diagnose import diagnose as find
+    from diagnosis.recording.recording import load_recording
+    from diagnosis.report.json_file import write_json
+    from diagnosis.report.network import Network
+    from diagnosis.report.page import write_html
+    from diagnosis.report.summary import print_summary
+    from diagnosis.search.search import Settings
+
+    if (out / "diagnosis.json").exists():
+        raise InputError(out, "", "this folder already holds a diagnosis", "give another folder with `--out`")
+    same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
+    if same:
+        raise InputError(sorted(same)[0], "", "this recording is fitted and held out at once",
+                         "hold out a recording that was made with another programme")  # fmt: skip
+    console = Console(stderr=True)
+    with console.status("reading") as status:
+        base = load_scenario(scenario)
+        training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
+        settings = Settings(level=level, seed=seed)
+        found = find(base, training, judges, settings, status.update)
+        status.update("writing")
+        out.mkdir(parents=True, exist_ok=True)
+        write_json(found.diagnosis, out / "diagnosis.json")
+        network = Network(found.training.coils.strings)
+        write_html(found.diagnosis, curves(found), out / "report.html", network, base.title)
+    print_summary(found.diagnosis, Console())
+    print(out / "report.html")
