@@ -97,15 +97,17 @@ def _bullet_arm(bullet_api: Any, arm: Arm, client: int) -> int:
 
 def _quiet_pybullet() -> Any:
     """pybullet, which prints its build time when it is first loaded."""
-    kept, nothing = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    kept, nothing = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nothing, 1)
+        os.dup2(nothing, 2)
         import pybullet
 
         ctypes.CDLL(None).fflush(None)  # what C still holds must not come out later
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
+        for number, copy in zip((1, 2), kept):
+            os.dup2(copy, number)
+            os.close(copy)
         os.close(nothing)
     return pybullet
 
