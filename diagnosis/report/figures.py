@@ -55,7 +55,7 @@ def _drawn(paint: Callable[[Figure], None], width: float, height: float) -> str:
 def network_figure(network: Network, findings: Sequence[Finding]) -> str:
     """Strings of coils across the supply, what findings concern in their colours."""
     longest, count = max(network.strings), len(network.strings)
-    height = min(0.7 + 0.38 * count, 9.0)
+    height = min(0.85 + 0.38 * count, 9.0)
     return _drawn(lambda f: _paint_network(f.subplots(), network, findings), min(2.0 + 0.62 * longest, 9.0), height)
 
 
@@ -78,10 +78,11 @@ def _paint_network(axes: Axes, network: Network, findings: Sequence[Finding]) ->
         axes.text(c, 0.35, str(c), ha="center", va="center", color="#4a5568")
     supply = next((colour(n) for n, m in enumerate(marks) if m.supply), None)
     middle = (1 + count) / 2
-    axes.plot([-0.6, 0.2], [middle, middle], color=_WIRE, lw=1.2, zorder=1)
+    axes.plot([0.2, -0.6, -0.6, longest + 0.8, longest + 0.8], [middle, middle, count + 0.8, count + 0.8, count],
+              color=_WIRE, lw=1.2, zorder=1)  # fmt: skip
     axes.text(-0.6, middle, "supply", ha="center", va="center", color="white" if supply else "black", zorder=3,
               bbox={"boxstyle": "circle,pad=0.25", "fc": supply or "white", "ec": supply or _WIRE})  # fmt: skip
-    axes.set(xlim=(-1.3, longest + 2.1), ylim=(count + 0.6, 0.1))
+    axes.set(xlim=(-1.3, longest + 2.1), ylim=(count + 1.0, 0.1))
     axes.axis("off")
 
 
@@ -132,20 +133,24 @@ def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -
         keep = thinned(values)
         upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **_STAGES[name])
     factor, of_difference = difference(series.unit)
-    noise = 2.0 * factor * np.broadcast_to(series.deviation, series.times.shape)
-    lower.fill_between(series.times, -noise, noise, color="#cbd5e0", lw=0, label="2 deviations of the sensor")
+    noise = 2.0 * factor * np.broadcast_to(np.asarray(series.deviation, dtype=np.float64), series.times.shape)
+    keep = np.array([0, -1]) if np.ndim(series.deviation) == 0 else thinned(noise)
+    lower.fill_between(
+        series.times[keep], -noise[keep], noise[keep], color="#cbd5e0", lw=0, label="2 deviations of the sensor"
+    )
     for name in list(curves)[-2:]:
         residual = factor * (series.measured - curves[name])
         keep = thinned(residual)
         lower.plot(series.times[keep], residual[keep], **{**_STAGES[name], "lw": 0.9})
     for n, finding in enumerate(findings):
-        for a, b in finding.intervals if series.channel in finding.channels else ():
+        # Intervals are times of the training: another programme has others.
+        shows = series.channel in finding.channels and not series.is_held_out
+        for a, b in finding.intervals if shows else ():
             upper.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
     upper.set_ylabel(_labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
     lower.set_ylabel(_labelled("residual", of_difference))
     lower.set(xlabel="time [s]", xlim=_limits(series.times))
-    upper.legend(loc="best", frameon=False, ncols=2, fontsize=8)
-    lower.legend(loc="best", frameon=False, fontsize=8)
+    figure.legend(loc="outside upper left", frameon=False, ncols=5, fontsize=8)
 
 
 def _labels(curves: dict[str, Array]) -> dict[str, str]:

@@ -6,7 +6,7 @@ from diagnosis.judge.diagnosis import Estimate, Finding
 from diagnosis.report.display import UNKNOWN, clean, interval, listed, number, percent, symbol, words
 from diagnosis.report.figures import colour
 from diagnosis.report.markup import Html, element, folded, joined, listing, table
-from diagnosis.report.sentences import ambiguity, decisive, what, when
+from diagnosis.report.sentences import ambiguity, decisive, what, when, where
 
 
 def finding_section(order: int, finding: Finding) -> Html:
@@ -17,7 +17,7 @@ def finding_section(order: int, finding: Finding) -> Html:
         finding: What was found.
     """
     facts = [
-        ("Where", f"{finding.unit}: {finding.place} ({listed(finding.elements, 12) or UNKNOWN})"),
+        ("Where", where(finding)),
         ("When", when(finding, 12)),
         ("Shows in", listed(finding.channels, 12) or UNKNOWN),
         ("What", what(finding)),

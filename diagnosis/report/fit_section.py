@@ -12,8 +12,8 @@ from diagnosis.report.markup import Html, element, folded, table
 
 #: Chi-square per sample up to which a channel counts as met, and above which it counts as missed.
 MET, MISSED = 1.2, 2.0
-_HEAD = (*(f"RMSE {s}" for s in STAGES), "unit", *(f"chi-square {s}" for s in STAGES),
-         *(f"whiteness {s}" for s in STAGES))  # fmt: skip
+_FIGURES = (*STAGES, *STAGES, *STAGES)
+_GROUPS = (("RMSE", 3), ("chi-square per sample", 3), ("whiteness", 3))
 
 
 def fit_section(fits: Sequence[ChannelFit]) -> Html:
@@ -22,9 +22,9 @@ def fit_section(fits: Sequence[ChannelFit]) -> Html:
         return element("section", element("h2", "How much better"), element("p", "No recording was judged."))
     note = (
         "Before: the model as the scenario has it. Recalibrated: its own parameters fitted. After: with the findings. "
-        "Chi-square is per sample: about 1 is noise alone. Whiteness is the largest standardised sum of residuals over "
-        "a window of time. A row of several channels gives the root mean square of their RMSE (after: with the "
-        "smallest and the largest), the mean chi-square and the largest whiteness."
+        "A chi-square per sample of about 1 is noise alone. Whiteness is the largest standardised sum of residuals "
+        "over a window of time. A row of several channels gives the root mean square of their RMSE, the mean of their "
+        "chi-square and the largest whiteness."
     )
     judged = any(f.is_held_out for f in fits)
     warning = "" if judged else element("p", "No recording was held out: a fit that judges itself proves little.")
@@ -32,44 +32,49 @@ def fit_section(fits: Sequence[ChannelFit]) -> Html:
         "section",
         element("h2", "How much better"),
         warning,
-        table(("recording", "", "quantity", *_HEAD), [_grouped(r) for r in rows(fits)]),
+        table(("recording", "quantity", *_FIGURES, "after"),
+              [_grouped(r) for r in rows(fits)], (("", 2), *_GROUPS, ("RMSE by channel", 1))),
         element("p", note, class_="note"),
         folded(f"All {len(fits)} channels, the worst after recalibration first",
-               table(("recording", "", "channel", *_HEAD), [_single(f) for f in worst_first(fits)])),
+               table(("recording", "channel", *_FIGURES), [_single(f) for f in worst_first(fits)],
+                     (("", 2), *_GROUPS))),
     )  # fmt: skip
 
 
 def _grouped(row: Row) -> list[str]:
-    name = row.quantity if row.channels == 1 else f"{row.quantity} ({row.channels} channels)"
-    cells = _cells(row.rmse, row.unit, row.chi_square, row.whiteness)
-    if row.channels > 1 and math.isfinite(row.spread[0]):
-        factor, _ = difference(row.unit)
-        cells[2] += f" ({number(factor * row.spread[0], 2)} to {number(factor * row.spread[1], 2)})"
-    return [row.recording, _part(row.is_held_out), name, *cells]
+    factor, unit = difference(row.unit)
+    name = f"{row.quantity} [{unit}]" if unit else row.quantity
+    least, most = (number(factor * v) for v in row.spread)
+    return [
+        _titled(row.recording, row.is_held_out),
+        name if row.channels == 1 else f"{name}, {row.channels} channels",
+        *_cells(row.rmse, row.unit, row.chi_square, row.whiteness),
+        "" if row.channels == 1 else f"{least} to {most}",
+    ]
 
 
 def _single(fit: ChannelFit) -> list[str]:
+    _, unit = difference(fit.unit)
+    name = f"{fit.channel} [{unit}]" if unit else fit.channel
     return [
-        fit.recording,
-        _part(fit.is_held_out),
-        fit.channel,
+        _titled(fit.recording, fit.is_held_out),
+        name,
         *_cells(fit.rmse, fit.unit, fit.chi_square, fit.whiteness),
     ]
 
 
-def _part(is_held_out: bool) -> str:
-    return "held out" if is_held_out else "training"
+def _titled(recording: str, is_held_out: bool) -> str:
+    return f"{recording} ({'held out' if is_held_out else 'training'})"
 
 
 def _cells(
     rmse: Mapping[str, float], unit: str, chi_square: Mapping[str, float], whiteness: Mapping[str, float]
 ) -> list[str]:
-    factor, name = difference(unit)
+    factor, _ = difference(unit)
     return [
         *(number(factor * rmse.get(s, math.nan)) for s in STAGES),
-        name,
         *(_marked(chi_square.get(s, math.nan)) for s in STAGES),
-        *(number(whiteness.get(s, math.nan)) for s in STAGES),
+        *(number(abs(whiteness.get(s, math.nan))) for s in STAGES),
     ]
 
 

@@ -35,11 +35,18 @@ def image(source: str, about: str) -> Html:
     return Html(f'<img src="{escape(source)}" alt="{escape(clean(about))}">')
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Html:
-    """A table; cells may be markup, or whole `td` elements."""
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], groups: Sequence[tuple[str, int]] = ()) -> Html:
+    """A table.
+
+    Args:
+        head: Names of the columns.
+        rows: Cells: text, markup, or whole `td` elements.
+        groups: Name and number of columns of each part of a second row of names, above the first.
+    """
     body = [element("tr", *(_cell(c) for c in row)) for row in rows]
-    top = element("tr", *(element("th", h) for h in head))
-    return element("div", element("table", element("thead", top), element("tbody", *body)), class_="wide")
+    top = [element("tr", *(element("th", name, colspan=str(span)) for name, span in groups))] if groups else []
+    names = element("tr", *(element("th", h) for h in head))
+    return element("div", element("table", element("thead", *top, names), element("tbody", *body)), class_="wide")
 
 
 def _cell(content: str) -> Html:

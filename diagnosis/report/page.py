@@ -70,9 +70,9 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
     verdict = diagnosis.verdict.value
     facts = [("How much better", improvement(diagnosis))]
     if diagnosis.findings:
-        first = diagnosis.findings[0]
-        more = f"; and {len(diagnosis.findings) - 1} more below" if len(diagnosis.findings) > 1 else ""
-        facts = [("Where", where(diagnosis)), ("When", when(first) + more), ("What", what(first) + more), *facts]
+        told = diagnosis.findings
+        facts = [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
+                 ("What", _each([what(f) for f in told])), *facts]  # fmt: skip
         facts.append(("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases"))
     if diagnosis.amended_model:
         facts.append(("Amended model", diagnosis.amended_model))
@@ -83,6 +83,12 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
                 element("strong", diagnosis.statement), " ", ADVICE[diagnosis.verdict]),
         element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
     )  # fmt: skip
+
+
+def _each(texts: Sequence[str]) -> Html:
+    """One line for each finding, numbered where there are several."""
+    lines = texts if len(texts) == 1 else [f"{n}: {text}" for n, text in enumerate(texts, 1)]
+    return joined(element("div", line) for line in lines)
 
 
 def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Html:
@@ -108,9 +114,9 @@ def _caption(diagnosis: Diagnosis, network: Network) -> str:
 
 
 def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, float]:
-    """Times from the first sample to the last one, as far as they are known here."""
+    """Times of the training from the first sample to the last one, as far as they are known here."""
     moments = [t for f in diagnosis.findings for pair in f.intervals for t in pair]
-    moments += [float(t) for s in series for t in (s.times[0], s.times[-1])]
+    moments += [float(t) for s in series if not s.is_held_out for t in (s.times[0], s.times[-1])]
     return (min([0.0, *moments]), max(moments)) if moments else (0.0, 0.0)
 
 
@@ -123,8 +129,8 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
         caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
         picture = image(series_figure(one, diagnosis.findings), f"{caption}: measured and simulated")
         drawn.append(element("figure", element("figcaption", caption), picture))
-    note = element("p", "Above: measured and simulated. Below: measured minus simulated, by the last two models.",
-                   class_="note")  # fmt: skip
+    note = element("p", "Above: measured and simulated. Below: measured minus simulated, by the last two models. "
+                   "Shaded: where a finding shows in training.", class_="note")  # fmt: skip
     return _section("Channels that were met worst", note, *drawn)
 
 

@@ -11,15 +11,16 @@ ADVICE = {
     Verdict.CONSISTENT: "Nothing needs to be added to the model.",
     Verdict.RECALIBRATED: "Only parameters of the model were off; no physics is missing that these recordings show.",
     Verdict.MEASUREMENT_FAULT: "Mend or model the sensor before the physics is changed.",
-    Verdict.MISSING_PHYSICS: "The amended model has what was missing.",
+    Verdict.MISSING_PHYSICS: "It acts at the place and the times below.",
     Verdict.UNNAMED_PHYSICS: "The formula tells what it depends on; a name for it is left to a person.",
     Verdict.CANNOT_TELL: "Trust neither the model nor a correction of it where it departs from these recordings.",
 }
 
 
-def where(diagnosis: Diagnosis) -> str:
-    """Unit and place of each finding."""
-    return "; ".join(f"{f.unit}: {clean(f.place)}" for f in diagnosis.findings) or UNKNOWN
+def where(finding: Finding) -> str:
+    """Unit, place, and elements unless the place names them."""
+    elements = listed([e for e in finding.elements if e != finding.place], 6)
+    return f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
 
 
 def when(finding: Finding, most: int = 4) -> str:
@@ -63,7 +64,7 @@ def sureness(diagnosis: Diagnosis) -> str:
     """Margin and false alarms."""
     margin = f"An effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
     if not diagnosis.findings:
-        return f"{margin}; none did that was kept."
+        return f"{margin}; none was accepted."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
     return f"{margin}; found: {gains}. Chance alone gives the first in {percent(diagnosis.false_alarm_rate)} of cases."
 

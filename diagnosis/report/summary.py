@@ -9,9 +9,9 @@ from rich.console import Console
 from rich.text import Text
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
-from diagnosis.report.display import clean, difference, interval, listed, number
+from diagnosis.report.display import clean, difference, interval, number
 from diagnosis.report.fits import STAGES, Row, rows
-from diagnosis.report.sentences import ambiguity, decisive, effort, improvement, structure, sureness, what, when
+from diagnosis.report.sentences import ambiguity, decisive, effort, improvement, structure, sureness, what, when, where
 
 #: Lines that a summary has at most.
 LINES = 25
@@ -63,8 +63,7 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
 
 
 def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
-    place = f"{finding.unit}, {finding.place} ({listed(finding.elements, 4)})"
-    yield from _wrapped(f"{order} where  ", place, width, 1)
+    yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding), width, 1)
     yield from _wrapped("  what   ", what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)

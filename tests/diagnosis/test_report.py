@@ -233,7 +233,9 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
     assert "The recordings cannot tell it from: the model's own reference resistance." in text
     assert "the voltage of one coil decides" in text
     # 0.003 A are 3 mA: 27, 12 and 3 by the three stages.
-    assert re.search(r"string current \(6 channels\)27\.012\.03\.00 \(3\.0 to 3\.0\)mA81\.016\.01\.00", text)
+    assert re.search(
+        r"string current \[mA\], 6 channels27\.012\.03\.0081\.016\.01\.0030\.012\.02\.503\.00 to 3\.00", text
+    )
     assert "chi-square per sample (held out): 81.0 before, 16.0 recalibrated only, 1.00 after" in text
 
 
@@ -360,6 +362,19 @@ def test_thinning_keeps_the_peaks_of_a_long_channel() -> None:
     assert len(kept) <= 1000
     assert {31_234, 777} <= set(kept.tolist())
     assert np.all(np.diff(kept) > 0)
+
+
+def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path) -> None:
+    times = np.arange(100_000) * 0.01
+    wave = 300.0 + np.sin(times)
+    gaps = np.where(times % 50.0 < 5.0, np.nan, wave)
+    long = Series("heater.temperature", "K", times, gaps, wave, wave + 1.0, wave, np.full(100_000, 0.1))
+    unknown = Series("heater.power", "W", times[:5], *[np.full(5, np.nan)] * 4, 0.1)
+    single = Series("rod.angle", "rad", *[np.array([1.0])] * 5, 0.01)
+    write_html(diagnosis(Verdict.MISSING_PHYSICS), [long, unknown, single], tmp_path / "report.html")
+    # 1200 points a curve and five curves, about 20 bytes a point, as base64, beside 80 rows of fits.
+    assert (tmp_path / "report.html").stat().st_size < 1_200_000
+    assert len(Page(read_page(tmp_path / "report.html")).addresses) == 5
 
 
 def test_a_series_with_other_shapes_is_refused() -> None:
