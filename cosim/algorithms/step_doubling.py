@@ -61,12 +61,11 @@ class StepDoubling(Algorithm):
     ) -> None:
         require_restoring(system, system.movers, "step_doubling", is_divided=True)
         self._inner, self._control, self._size = inner, control, size
-        connected = {c.source for c in system.connections if c.source[0] not in system.sources}
         self._watched = [
             (name, v.name)
             for name in system.movers
             for v in system.units[name].variables.values()
-            if v.causality is Causality.OUTPUT and v.type.is_float and (not connected or (name, v.name) in connected)
+            if v.causality is Causality.OUTPUT and v.type.is_float
         ]
         self.accepted = self.rejected = 0
 
