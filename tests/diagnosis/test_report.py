@@ -22,7 +22,7 @@ from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estima
 from diagnosis.report.display import axis, interval, number, percent
 from diagnosis.report.figures import thinned
 from diagnosis.report.fits import rows, worst_first
-from diagnosis.report.json_file import read_json, write_json
+from diagnosis.report.json_file import as_json, read_json, write_json
 from diagnosis.report.network import Concerned, Network, concerned, inferred
 from diagnosis.report.page import write_html
 from diagnosis.report.schema import PUBLISHED, as_text, schema
@@ -176,8 +176,6 @@ def test_the_schema_describes_every_key_and_refuses_others() -> None:
 
 
 def _content() -> dict[str, object]:
-    from diagnosis.report.json_file import as_json
-
     return as_json(diagnosis(Verdict.MISSING_PHYSICS))
 
 
