@@ -18,95 +18,14 @@ import pytest
 from rich.console import Console
 
 from cosim.errors import InputError
-from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
-from diagnosis.report.display import axis, interval, number, percent
-from diagnosis.report.figures import thinned
-from diagnosis.report.fits import rows, worst_first
+from diagnosis.judge.diagnosis import Estimate, Verdict
 from diagnosis.report.json_file import as_json, read_json, write_json
-from diagnosis.report.network import Concerned, Network, concerned, inferred
+from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
 from diagnosis.report.schema import PUBLISHED, as_text, schema
 from diagnosis.report.series import Series
 from diagnosis.report.summary import LINES, print_summary
-
-HOSTILE = "<script>alert('x')</script> & \"run\" \x1b[31m$x^2$"
-
-CONTACT = Finding(
-    unit="electrical",
-    place="string[3]",
-    elements=("string[3]", *(f"coil[3,{c}]" for c in range(1, 7))),
-    intervals=((5.0, 42.5), (60.0, 88.0)),
-    channels=("string[3].current", "supply.current"),
-    effect="contact_resistance",
-    is_named=True,
-    statement="contact resistance in a string, string[3]",
-    law="R_string = R_string_0 + R_contact",
-    parameters=(Estimate("R_contact", "ohm", 0.31234, 0.28111, 0.34999),),
-    gain=412.0,
-    probability=0.93,
-    ambiguous_with=("base:reference_resistance",),
-    alternatives=(Alternative("contact_resistance", "string[3]", 412.0, 0.93),
-                  Alternative("supply_source_resistance", "supply", 390.0, 0.004)),
-    confused_with={"base:reference_resistance": "the voltage of one coil decides",
-                   "supply_source_resistance": "strings at different currents decide"},
-)  # fmt: skip
-MASS = replace(
-    CONTACT, unit="thermal", place="coil[2,5]", elements=("coil[2,5]",), intervals=((10.0, 95.0),),
-    channels=("coil[2,5].temperature",), effect="second_mass", statement="second thermal mass, coil[2,5]",
-    law="C_2 * d(T_2) = G * (T - T_2)", ambiguous_with=(), confused_with={}, alternatives=(), gain=88.0,
-    parameters=(Estimate("C_2", "J/K", 0.05, 0.02, 0.08), Estimate("G", "W/K", 2.1e-5, 1.9e-5, 2.3e-5)),
-)  # fmt: skip
-UNNAMED = replace(
-    MASS, place="all coils", elements=("coil[1,1]",), effect="unnamed_heat_square_excess", is_named=False,
-    statement="unnamed term in heat: temperature above the surroundings, square", law="heat = heat_0 + a * x * x",
-)  # fmt: skip
-LAG = replace(
-    MASS, unit="measurement", place="coil[1,2].temperature", elements=("coil[1,2]",), effect="sensor_lag",
-    channels=("coil[1,2].temperature",), statement="sensor lag, coil[1,2].temperature", law="tau * d(y) = x - y",
-)  # fmt: skip
-FINDINGS = {
-    Verdict.CONSISTENT: (),
-    Verdict.RECALIBRATED: (),
-    Verdict.MEASUREMENT_FAULT: (LAG,),
-    Verdict.MISSING_PHYSICS: (CONTACT, MASS),
-    Verdict.UNNAMED_PHYSICS: (UNNAMED,),
-    Verdict.CANNOT_TELL: (),
-}
-
-
-def fit(channel: str, unit: str, size: float, is_held_out: bool, title: str = "steps") -> ChannelFit:
-    stages = {"before": 9.0 * size, "recalibrated": 4.0 * size, "after": size}
-    return ChannelFit(title, is_held_out, channel, unit, stages, {k: (v / size) ** 2 for k, v in stages.items()},
-                      {"before": 30.0, "recalibrated": 12.0, "after": 2.5})  # fmt: skip
-
-
-def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
-    fits = [fit(f"coil[{s},{c}].temperature", "K", 0.3, h, title) for h in (False, True) for s in range(1, 7)
-            for c in range(1, 7)]  # fmt: skip
-    fits += [fit(f"string[{s}].current", "A", 0.003, True, title) for s in range(1, 7)]
-    return Diagnosis(
-        verdict=verdict,
-        statement=f"The answer is {verdict.value}.",
-        findings=FINDINGS[verdict],
-        fit=tuple(fits),
-        margin=12.0,
-        false_alarm_rate=0.002,
-        structure_before=-21.4,
-        structure_after=3.1,
-        recalibration={"convection": 1.083},
-        isolability=("Heat and stiffness cannot be told apart without a temperature.",),
-        amended_model="out/amended/scenario.yaml",
-        seconds=14.2,
-        simulations=5321,
-        seed=7,
-    )
-
-
-def series(channel: str = "coil[2,5].temperature", unit: str = "K", base: float = 300.0) -> Series:
-    times = np.linspace(0.0, 100.0, 201)
-    truth = base * (1.0 + 0.2 * (1.0 - np.exp(-times / 20.0)))
-    noise = 1e-3 * base * np.random.default_rng(1).standard_normal(201)
-    return Series(channel, unit, times, truth + noise, truth * 0.97, truth * 0.99, truth, 1e-3 * base, "steps", True)
+from tests.diagnosis.report_examples import CONTACT, FINDINGS, HOSTILE, UNNAMED, diagnosis, fit, series
 
 
 def read_page(path: Path) -> str:
@@ -297,71 +216,6 @@ def test_the_summary_does_not_let_foreign_text_steer_the_terminal() -> None:
     assert "[red]<script>" in stream.getvalue()
 
 
-def test_a_network_is_inferred_from_names_and_findings_mark_their_place() -> None:
-    told = diagnosis(Verdict.MISSING_PHYSICS)
-    network = inferred(told)
-    assert network.strings == (6,) * 6
-    assert concerned(CONTACT, network) == Concerned(strings=frozenset({3}))
-    assert concerned(MASS, network) == Concerned(coils=frozenset({(2, 5)}))
-    assert concerned(LAG, network) == Concerned(coils=frozenset({(1, 2)}))
-    swapped = replace(LAG, place="coil[1,2].temperature and coil[4,6].temperature")
-    assert concerned(swapped, network).coils == {(1, 2), (4, 6)}
-    assert concerned(replace(CONTACT, place="supply"), network) == Concerned(supply=True)
-    # A place that is no element: its elements are marked; elements outside the network are not.
-    assert concerned(UNNAMED, network).coils == {(1, 1)}
-    assert not concerned(replace(MASS, place="coil[7,1]", elements=()), network)
-
-
-def test_fits_are_grouped_by_recording_and_quantity() -> None:
-    fits = [fit("coil[1,1].temperature", "K", 0.3, False), fit("coil[1,2].temperature", "K", 0.4, False),
-            fit("coil[1,1].temperature", "K", 0.5, True)]  # fmt: skip
-    held_out, training = rows(fits)
-    assert (held_out.is_held_out, held_out.channels, training.channels) == (True, 1, 2)
-    assert training.rmse["after"] == pytest.approx(math.sqrt((0.3**2 + 0.4**2) / 2), rel=1e-12)
-    assert training.spread == (0.3, 0.4)
-    assert training.chi_square["recalibrated"] == pytest.approx(16.0, rel=1e-12)
-    bad = replace(fits[0], chi_square={"recalibrated": 50.0})
-    assert worst_first([*fits[1:], bad]) == [fits[2], bad, fits[1]]
-
-
-def test_temperatures_are_shown_in_degrees_and_small_currents_in_milliamperes() -> None:
-    # Exact but for the rounding of one subtraction or multiplication.
-    assert axis(np.array([300.0]), "K")(np.array([300.0, np.nan]))[0] == pytest.approx(26.85, abs=1e-12)
-    assert axis(np.array([0.4, np.nan]), "A").unit == "mA"
-    assert axis(np.array([4.0]), "A").unit == "A"
-    assert axis(np.array([0.4]), "A")(np.array([0.4]))[0] == pytest.approx(400.0, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("shown", "expected"),
-    [
-        (number(0.99951), "1.00"),
-        (number(123456.0), "123000"),
-        (number(2.0e-7), "2.00e-07"),
-        (number(-math.inf), "-∞"),
-        (number(math.nan), "–"),
-        (interval(295.15, 295.02, 295.28, "K"), "295.15 K (295.02 to 295.28)"),
-        (interval(2.1e-5, 1.9e-5, 2.3e-5, "W/K"), "2.10e-05 W/K (1.90e-05 to 2.30e-05)"),
-        (interval(0.0, 0.0, 12.5, "1"), "0.0 (0.0 to 12.5)"),
-        (interval(3.0, 3.0, math.inf, "s"), "3.000 s (3.000 to ∞)"),
-        (percent(0.99999), "> 99.9 %"),
-        (percent(0.005), "0.5 %"),
-    ],
-)
-def test_numbers_read_well(shown: str, expected: str) -> None:
-    assert shown == expected
-
-
-def test_thinning_keeps_the_peaks_of_a_long_channel() -> None:
-    values = np.zeros(50_000)
-    values[31_234], values[777] = 5.0, -3.0
-    values[100] = np.nan
-    kept = thinned(values, 1000)
-    assert len(kept) <= 1000
-    assert {31_234, 777} <= set(kept.tolist())
-    assert np.all(np.diff(kept) > 0)
-
-
 def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path) -> None:
     times = np.arange(100_000) * 0.01
     wave = 300.0 + np.sin(times)
@@ -373,14 +227,3 @@ def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path)
     # 1200 points a curve and five curves, about 20 bytes a point, as base64, beside 80 rows of fits.
     assert (tmp_path / "report.html").stat().st_size < 1_200_000
     assert len(Page(read_page(tmp_path / "report.html")).addresses) == 5
-
-
-def test_a_series_with_other_shapes_is_refused() -> None:
-    with pytest.raises(ValueError, match="after has shape"):
-        replace(series(), after=np.zeros(3))
-
-
-def test_curves_that_say_the_same_are_drawn_once() -> None:
-    one = series()
-    assert list(replace(one, after=one.recalibrated).curves) == ["before", "recalibrated"]
-    assert list(one.curves) == ["before", "recalibrated", "after"]

@@ -1,0 +1,89 @@
+"""Hand-made diagnoses, one for every verdict, and a series to draw."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
+from diagnosis.report.series import Series
+
+HOSTILE = "<script>alert('x')</script> & \"run\" \x1b[31m$x^2$"
+
+CONTACT = Finding(
+    unit="electrical",
+    place="string[3]",
+    elements=("string[3]", *(f"coil[3,{c}]" for c in range(1, 7))),
+    intervals=((5.0, 42.5), (60.0, 88.0)),
+    channels=("string[3].current", "supply.current"),
+    effect="contact_resistance",
+    is_named=True,
+    statement="contact resistance in a string, string[3]",
+    law="R_string = R_string_0 + R_contact",
+    parameters=(Estimate("R_contact", "ohm", 0.31234, 0.28111, 0.34999),),
+    gain=412.0,
+    probability=0.93,
+    ambiguous_with=("base:reference_resistance",),
+    alternatives=(Alternative("contact_resistance", "string[3]", 412.0, 0.93),
+                  Alternative("supply_source_resistance", "supply", 390.0, 0.004)),
+    confused_with={"base:reference_resistance": "the voltage of one coil decides",
+                   "supply_source_resistance": "strings at different currents decide"},
+)  # fmt: skip
+MASS = replace(
+    CONTACT, unit="thermal", place="coil[2,5]", elements=("coil[2,5]",), intervals=((10.0, 95.0),),
+    channels=("coil[2,5].temperature",), effect="second_mass", statement="second thermal mass, coil[2,5]",
+    law="C_2 * d(T_2) = G * (T - T_2)", ambiguous_with=(), confused_with={}, alternatives=(), gain=88.0,
+    parameters=(Estimate("C_2", "J/K", 0.05, 0.02, 0.08), Estimate("G", "W/K", 2.1e-5, 1.9e-5, 2.3e-5)),
+)  # fmt: skip
+UNNAMED = replace(
+    MASS, place="all coils", elements=("coil[1,1]",), effect="unnamed_heat_square_excess", is_named=False,
+    statement="unnamed term in heat: temperature above the surroundings, square", law="heat = heat_0 + a * x * x",
+)  # fmt: skip
+LAG = replace(
+    MASS, unit="measurement", place="coil[1,2].temperature", elements=("coil[1,2]",), effect="sensor_lag",
+    channels=("coil[1,2].temperature",), statement="sensor lag, coil[1,2].temperature", law="tau * d(y) = x - y",
+)  # fmt: skip
+FINDINGS = {
+    Verdict.CONSISTENT: (),
+    Verdict.RECALIBRATED: (),
+    Verdict.MEASUREMENT_FAULT: (LAG,),
+    Verdict.MISSING_PHYSICS: (CONTACT, MASS),
+    Verdict.UNNAMED_PHYSICS: (UNNAMED,),
+    Verdict.CANNOT_TELL: (),
+}
+
+
+def fit(channel: str, unit: str, size: float, is_held_out: bool, title: str = "steps") -> ChannelFit:
+    stages = {"before": 9.0 * size, "recalibrated": 4.0 * size, "after": size}
+    return ChannelFit(title, is_held_out, channel, unit, stages, {k: (v / size) ** 2 for k, v in stages.items()},
+                      {"before": 30.0, "recalibrated": 12.0, "after": 2.5})  # fmt: skip
+
+
+def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
+    fits = [fit(f"coil[{s},{c}].temperature", "K", 0.3, h, title) for h in (False, True) for s in range(1, 7)
+            for c in range(1, 7)]  # fmt: skip
+    fits += [fit(f"string[{s}].current", "A", 0.003, True, title) for s in range(1, 7)]
+    return Diagnosis(
+        verdict=verdict,
+        statement=f"The answer is {verdict.value}.",
+        findings=FINDINGS[verdict],
+        fit=tuple(fits),
+        margin=12.0,
+        false_alarm_rate=0.002,
+        structure_before=-21.4,
+        structure_after=3.1,
+        recalibration={"convection": 1.083},
+        isolability=("Heat and stiffness cannot be told apart without a temperature.",),
+        amended_model="out/amended/scenario.yaml",
+        seconds=14.2,
+        simulations=5321,
+        seed=7,
+    )
+
+
+def series(channel: str = "coil[2,5].temperature", unit: str = "K", base: float = 300.0) -> Series:
+    times = np.linspace(0.0, 100.0, 201)
+    truth = base * (1.0 + 0.2 * (1.0 - np.exp(-times / 20.0)))
+    noise = 1e-3 * base * np.random.default_rng(1).standard_normal(201)
+    return Series(channel, unit, times, truth + noise, truth * 0.97, truth * 0.99, truth, 1e-3 * base, "steps", True)
