@@ -65,7 +65,7 @@ def chosen(results: xr.Dataset, wanted: Sequence[str], source: Path) -> list[str
             try:
                 parse_quantity(pattern)
             except ValueError as error:
-                raise InputError(source, "--channels", str(error), "see docs/diagnosis.md") from error
+                raise InputError(source, "--channels", str(error), "see docs/recordings.md") from error
             fitting = [pattern]
         else:
             expression = re.compile(re.escape(pattern).replace(r"\*", r"[\w,]*"))

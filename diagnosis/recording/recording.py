@@ -120,7 +120,7 @@ def load_recording(path: str | Path) -> Recording:
     file = given if given.is_file() else given / "recording.yaml"
     if not file.is_file():
         raise InputError(given, "", "there is no recording here: no recording.yaml",
-                         "see docs/diagnosis.md, or make one with `cosim record`")  # fmt: skip
+                         "see docs/recordings.md, or make one with `cosim record`")  # fmt: skip
     return _Reader(file).recording()
 
 
@@ -212,7 +212,7 @@ class _Reader:
         try:
             return parse_quantity(name)
         except ValueError as error:
-            raise InputError(self.file, key, str(error), "docs/diagnosis.md lists the quantities") from error
+            raise InputError(self.file, key, str(error), "docs/recordings.md lists the quantities") from error
 
     def _conversion(self, source: str, target: str, key: str) -> tuple[float, float]:
         try:

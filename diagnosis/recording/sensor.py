@@ -76,11 +76,11 @@ def load_sensors(path: Path) -> SensorFile:
     data = parse_yaml(read_text(path), path)
     if not isinstance(data, dict):
         raise InputError(path, "", "sensors are a mapping with the keys default and channels",
-                         "see docs/diagnosis.md")  # fmt: skip
+                         "see docs/recordings.md")  # fmt: skip
     try:
         return SensorFile.model_validate(data)
     except pydantic.ValidationError as error:
-        raise input_error(path, error, "docs/diagnosis.md lists the keys of a sensor") from error
+        raise input_error(path, error, "docs/recordings.md lists the keys of a sensor") from error
 
 
 @dataclass(frozen=True)

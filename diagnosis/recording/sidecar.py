@@ -103,8 +103,8 @@ def load_sidecar(file: Path) -> Sidecar:
     data = parse_yaml(read_text(file), file)
     if not isinstance(data, dict):
         raise InputError(file, "", "a recording is a mapping with the keys title, table, channels",
-                         "see docs/diagnosis.md, or make one with `cosim record`")  # fmt: skip
+                         "see docs/recordings.md, or make one with `cosim record`")  # fmt: skip
     try:
         return Sidecar.model_validate(data)
     except pydantic.ValidationError as error:
-        raise input_error(file, error, "docs/diagnosis.md lists the keys of a recording") from error
+        raise input_error(file, error, "docs/recordings.md lists the keys of a recording") from error
