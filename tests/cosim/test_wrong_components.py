@@ -130,7 +130,7 @@ WRONG = [
     (on_coils(volume=[quantity("7 mm^3")] * 2), "components.actuator.parameters.volume", "do not fit"),
     (on("actuator", parameter_set="brass"), "components.actuator.parameter_set", "no parameter set `brass`"),
     (on("actuator", fmu="brass"), "components.actuator.fmu", "no FMU `brass_fmi3`"),
-    (on("actuator", fmi=2, fmu="thermal_stiffness"), "components.actuator.fmu", "no FMU `thermal_stiffness_fmi2_n6`"),
+    (on("actuator", fmi=2, fmu="brass"), "components.actuator.fmu", "no FMU `brass_fmi2_n6`"),
     (on("actuator", structure={"coil": 6}), "components.actuator.structure", "no structural parameter coil"),
     (on("actuator", structure={"coils": 5}), "components.actuator", r"structure: 5, electrical \(circuit\): 6"),
     (on("circuit", open_coils=[7]), "components.circuit", "open_coils.*coil 7.* 1 to 6"),
