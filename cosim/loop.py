@@ -8,7 +8,7 @@ from typing import Protocol
 
 from cosim.algorithms.algorithm import Algorithm, Plain
 from cosim.native import plan as native
-from cosim.native.library import LibraryAbsent, tell_once
+from cosim.native.compiled import LibraryAbsent, tell_once
 from cosim.native.plan import Grid
 from cosim.native.planning import NoPlan, Watch, native_plan
 from cosim.observers.energy_balance import EnergyMeter

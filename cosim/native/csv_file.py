@@ -14,8 +14,8 @@ from typing import BinaryIO
 
 import numpy as np
 
+from cosim.native.compiled import LibraryAbsent, library
 from cosim.native.layout import ELEMENT_TYPES
-from cosim.native.library import LibraryAbsent, library
 from cosim.native.powers import powers_of_ten
 from cosim.unit import AnyArray, Array
 

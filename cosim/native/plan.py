@@ -11,8 +11,8 @@ import numpy as np
 
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Action
+from cosim.native.compiled import library
 from cosim.native.layout import Code, Cursor, Operation, PlanLayout, Recording, Return
-from cosim.native.library import library
 from cosim.system import System
 from cosim.unit import AnyArray, StepOutcome, StepStatus
 

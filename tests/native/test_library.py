@@ -10,10 +10,10 @@ import pytest
 from cosim.algorithms.algorithm import Plain
 from cosim.algorithms.choose import PLAIN
 from cosim.loop import NativeLoop, PythonLoop, Watched, choose_loop
-from cosim.native import library as module
+from cosim.native import compiled as module
+from cosim.native.compiled import LibraryAbsent, library, tell_once
 from cosim.native.csv_file import CsvWriter
 from cosim.native.layout import LAYOUT_VERSION
-from cosim.native.library import LibraryAbsent, library, tell_once
 from cosim.native.plan import Grid
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
