@@ -5,11 +5,9 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.scenario import Scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
@@ -107,10 +105,3 @@ def _statement(word: Verdict, found: Sequence[object]) -> str:
         Verdict.UNNAMED_PHYSICS: f"The model leaves out something that the catalogue has no name for: {effects}.",
         Verdict.CANNOT_TELL: "Something is left that no effect of the catalogue explains.",
     }[word]
-
-
-def refuse_nothing_to_judge(held_out: Sequence[Path]) -> None:
-    """Raise InputError where no recording is held out: a fit must not judge itself."""
-    if not held_out:
-        raise InputError("--held-out", "", "no recording is held out",
-                         "give at least one recording that was made with another programme")  # fmt: skip

@@ -6,7 +6,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
-from diagnosis.search.fit import Fit
+from diagnosis.search.fit import Fit, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.simulator.bank_model import BankModel
@@ -161,7 +161,5 @@ def recalibration(model: BankModel, fit: Fit) -> dict[str, float]:
 
 def nominal_cost(model: BankModel) -> float:
     """-2 log posterior of the model as the scenario has it."""
-    from diagnosis.search.fit import cost
-
     base = np.zeros(len(model.parameters))
     return cost(model.residuals([Point(base)])[0], base)

@@ -156,8 +156,3 @@ def strength_slopes(model: Model, point: Point, here: Array, tasks: Sequence[tup
     points = [point.plus(term, values) for term, values in tasks]
     strengths = np.array([values[0] for _, values in tasks])
     return np.asarray((model.residuals(points) - here) / strengths[:, None])
-
-
-def one_residual(model: Model, point: Point) -> Array:
-    """Residuals at one point, shape (residuals,)."""
-    return np.asarray(model.residuals([point])[0])
