@@ -12,6 +12,7 @@ from cosim.scenario import Scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
+from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
@@ -86,7 +87,7 @@ def diagnose(
         structure_before=outcome.base_structure.z,
         structure_after=outcome.left.z,
         recalibration=recalibration(model, outcome.best.fit),
-        isolability=(),
+        isolability=Isolability(),
         amended_model=None,
         seconds=clock.perf_counter() - begin,
         simulations=model.simulations,

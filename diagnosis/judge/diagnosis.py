@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
+from diagnosis.judge.isolability import Isolability
+from diagnosis.judge.location import Location, Remainder, Waveform
+from diagnosis.judge.next_experiment import NextExperiment
+
 
 class Verdict(Enum):
     """What the recordings say about the model."""
@@ -104,6 +108,9 @@ class ChannelFit:
         rmse: By `before`, `recalibrated`, `after`.
         chi_square: Per sample, by the same.
         whiteness: Largest standardised sum of residuals over a window, by the same.
+        samples: Samples that were used.
+        scatter: Standard deviation by which the simulation scatters by itself (contacts) [unit of the channel]; it is
+            part of the deviation that residuals are divided by.
     """
 
     recording: str
@@ -113,6 +120,69 @@ class ChannelFit:
     rmse: dict[str, float]
     chi_square: dict[str, float]
     whiteness: dict[str, float]
+    samples: int = 0
+    scatter: float = 0.0
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Mean of a figure and its range over recordings.
+
+    Args:
+        mean: Over recordings.
+        lowest: Of a recording.
+        highest: Of a recording.
+    """
+
+    mean: float
+    lowest: float
+    highest: float
+
+
+@dataclass(frozen=True)
+class ChannelSpread:
+    """How well one channel is met over all recordings of a part.
+
+    Args:
+        channel: Name.
+        unit: SI unit of the RMSE.
+        is_held_out: Whether these recordings were kept from all fits.
+        recordings: How many have the channel.
+        samples: Samples that were used in them.
+        rmse: By `before`, `recalibrated`, `after`.
+        chi_square: Per sample, by the same.
+        whiteness: By the same.
+    """
+
+    channel: str
+    unit: str
+    is_held_out: bool
+    recordings: int
+    samples: int
+    rmse: dict[str, Spread]
+    chi_square: dict[str, Spread]
+    whiteness: dict[str, Spread]
+
+
+@dataclass(frozen=True)
+class Used:
+    """A recording that was used.
+
+    Args:
+        title: Of the recording.
+        path: Its folder.
+        is_held_out: Whether nothing was fitted to it.
+        begin: Time of its first sample [s].
+        end: Time of its last sample [s].
+        channels: Names of its channels.
+    """
+
+    title: str
+    path: str
+    is_held_out: bool
+    begin: float
+    end: float
+    channels: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -129,11 +199,20 @@ class Diagnosis:
         structure_before: Largest standardised sum of residuals left after recalibration.
         structure_after: The same with the findings.
         recalibration: Parameters of the model that moved by more than two prior deviations: name to factor or change.
-        isolability: Statements about what these channels can tell apart.
+        isolability: What these channels can tell apart.
         amended_model: Path of the amended scenario, or None.
         seconds: Wall time.
         simulations: Simulations made.
         seed: Of all random numbers.
+        scenario: Path of the scenario that was compared.
+        recordings: Those that were fitted and those that were held out.
+        nulls: Recordings without any effect, simulated from the recalibrated model, that the search was run on; 0 if
+            chance was taken from the linearised search alone.
+        spread: Fit of every channel over recordings.
+        left: What is left at the end, the largest first; only what noise does not explain.
+        locations: Where residuals of units that were driven alone have structure, the strongest first.
+        waveforms: Unknown inputs at the located equations.
+        next_experiment: What would decide between explanations that are left open, or None.
     """
 
     verdict: Verdict
@@ -145,8 +224,16 @@ class Diagnosis:
     structure_before: float
     structure_after: float
     recalibration: dict[str, float]
-    isolability: tuple[str, ...]
+    isolability: Isolability
     amended_model: str | None
     seconds: float
     simulations: int
     seed: int
+    scenario: str = ""
+    recordings: tuple[Used, ...] = ()
+    nulls: int = 0
+    spread: tuple[ChannelSpread, ...] = ()
+    left: tuple[Remainder, ...] = ()
+    locations: tuple[Location, ...] = ()
+    waveforms: tuple[Waveform, ...] = ()
+    next_experiment: NextExperiment | None = None

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.judge.isolability import Isolability
 from diagnosis.report.display import clean, listed, number, percent
 from diagnosis.report.figures import network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
@@ -54,8 +55,7 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         fit_section(diagnosis.fit),
         _figures(diagnosis, series),
         _certainty(diagnosis),
-        _section("What these channels can tell apart", listing(diagnosis.isolability) if diagnosis.isolability
-                 else element("p", "No statement was made.")),
+        _isolability(diagnosis.isolability),
         element("footer", effort(diagnosis)),
     )  # fmt: skip
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
@@ -132,6 +132,11 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     note = element("p", "Above: measured and simulated. Below: measured minus simulated, by the last two models. "
                    "Shaded: where a finding shows in training.", class_="note")  # fmt: skip
     return _section("Channels that were met worst", note, *drawn)
+
+
+def _isolability(told: Isolability) -> Html:
+    statements = listing(told.statements) if told.statements else element("p", "No statement was made.")
+    return _section("What these channels can tell apart", statements)
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:

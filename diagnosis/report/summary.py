@@ -58,7 +58,7 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
     for name, value in list(diagnosis.recalibration.items())[:_STATEMENTS]:
         yield from _wrapped("moved    ", f"{clean(name)}: {number(value)}", width, 1)
-    for statement in diagnosis.isolability[:_STATEMENTS]:
+    for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 1)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
+from diagnosis.judge.isolability import Isolability
 from diagnosis.report.series import Series
 
 HOSTILE = "<script>alert('x')</script> & \"run\" \x1b[31m$x^2$"
@@ -74,7 +75,7 @@ def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
         structure_before=-21.4,
         structure_after=3.1,
         recalibration={"convection": 1.083},
-        isolability=("Heat and stiffness cannot be told apart without a temperature.",),
+        isolability=Isolability(("Heat and stiffness cannot be told apart without a temperature.",)),
         amended_model="out/amended/scenario.yaml",
         seconds=14.2,
         simulations=5321,

@@ -19,6 +19,7 @@ from rich.console import Console
 
 from cosim.errors import InputError
 from diagnosis.judge.diagnosis import Estimate, Verdict
+from diagnosis.judge.isolability import Isolability
 from diagnosis.report.json_file import as_json, read_json, write_json
 from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
@@ -87,7 +88,7 @@ def test_the_published_schema_is_the_one_the_code_makes() -> None:
 def test_the_schema_describes_every_key_and_refuses_others() -> None:
     made = schema()
     objects = [made, *(d for d in made["$defs"].values() if d["type"] == "object")]
-    assert len(objects) == 5
+    assert len(objects) == 18
     for one in objects:
         assert all(len(about["description"]) > 3 for about in one["properties"].values())
     content = json.loads(json.dumps({**_content(), "surprise": 1}))
@@ -158,7 +159,7 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
 
 def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
     told = diagnosis(Verdict.MISSING_PHYSICS, HOSTILE)
-    told = replace(told, statement=HOSTILE, isolability=(HOSTILE,), recalibration={HOSTILE: 1.1})
+    told = replace(told, statement=HOSTILE, isolability=Isolability((HOSTILE,)), recalibration={HOSTILE: 1.1})
     one = replace(series(), channel=HOSTILE, recording=HOSTILE)
     write_html(told, [one], tmp_path / "report.html", title=HOSTILE)
     text = read_page(tmp_path / "report.html")
@@ -188,7 +189,7 @@ def test_the_same_diagnosis_gives_the_same_page(tmp_path: Path) -> None:
 @pytest.mark.parametrize("width", [60, 80, 140])
 def test_the_summary_fits_a_screen_and_tells_the_verdict_first(verdict: Verdict, width: int) -> None:
     stream = io.StringIO()
-    told = replace(diagnosis(verdict), findings=FINDINGS[verdict] * 3, isolability=("a statement",) * 9)
+    told = replace(diagnosis(verdict), findings=FINDINGS[verdict] * 3, isolability=Isolability(("a statement",) * 9))
     print_summary(told, Console(file=stream, width=width))
     lines = stream.getvalue().splitlines()
     assert len(lines) <= LINES

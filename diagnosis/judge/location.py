@@ -1,0 +1,100 @@
+"""Where and when a recalibrated model departs from the recordings, and the input that is missing there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """What a residual goes with.
+
+    Args:
+        variable: For example `temperature above the surroundings`, `current`, `time`.
+        correlation: Of the residual with it, from -1 to 1.
+    """
+
+    variable: str
+    correlation: float
+
+
+@dataclass(frozen=True)
+class Location:
+    """One line of the table of places: a residual of a unit that was driven alone with recorded inputs.
+
+    Args:
+        unit: electrical, thermal, stiffness, mechanical or measurement.
+        equation: The balance or law that the residual is one of: `heat balance`, `Ohm's law of a string`.
+        element: `coil[2,5]`, `string[3]`, `all coils`.
+        channel: Channel or group of channels in which it shows most.
+        begin: Begin of the window [s].
+        end: End of the window [s].
+        z: Largest standardised sum of residuals there, with the noise of the inputs carried along.
+        limit: Size of z that noise alone passes in one of a hundred recordings.
+        recording: Title of its recording.
+        depends_on: What it goes with, the closest first.
+    """
+
+    unit: str
+    equation: str
+    element: str
+    channel: str
+    begin: float
+    end: float
+    z: float
+    limit: float
+    recording: str = ""
+    depends_on: tuple[Dependence, ...] = ()
+
+    @property
+    def is_noise(self) -> bool:
+        """Whether noise alone explains it."""
+        return abs(self.z) <= self.limit
+
+
+@dataclass(frozen=True)
+class Waveform:
+    """The unknown input at a located equation.
+
+    Args:
+        unit: Of the input: W, V, N, N/m, ohm, K or m.
+        equation: Where it acts.
+        element: Element on which it acts.
+        times: Instants [s], rising.
+        values: Estimate at these instants.
+        lower: Lower ends of its 95 % intervals.
+        upper: Upper ends.
+        recording: Title of the recording that it was estimated from.
+        finding: Number of the finding that it belongs to, from 1; 0 if to none.
+        predicted: What the law of that finding gives at these instants; empty where there is none.
+    """
+
+    unit: str
+    equation: str
+    element: str
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+    recording: str = ""
+    finding: int = 0
+    predicted: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """What is left in one channel or group of channels at the end.
+
+    Args:
+        channel: Its name, or that of the group.
+        begin: Begin of the window [s].
+        end: End of the window [s].
+        z: Standardised sum of the residuals in it.
+        limit: Size of z that noise alone passes in one of a hundred recordings.
+    """
+
+    channel: str
+    begin: float
+    end: float
+    z: float
+    limit: float
