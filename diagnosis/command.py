@@ -19,6 +19,10 @@ def diagnose(
     out: Annotated[Path, typer.Option(help="Folder for diagnosis.json and report.html.")],
     level: Annotated[float, typer.Option(min=0.001, max=0.5, help="Rate of false alarms that is allowed.")] = 0.05,
     seed: Annotated[int, typer.Option(min=0, help="Of all random numbers.")] = 0,
+    jobs: Annotated[int, typer.Option(min=1, help="Simulations at the same time.")] = 2,
+    without: Annotated[
+        list[str] | None, typer.Option(help="Effect of the catalogue to do without; may be given several times.")
+    ] = None,
 ) -> None:
     """Find out what a model leaves out, by recordings of the real thing.
 
@@ -26,6 +30,7 @@ def diagnose(
     can be diagnosed so far; a fabric in Bullet is refused in words.
     """
     from diagnosis.curves import curves  # late: `--help` must not load Bullet
+    from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.recording.recording import load_recording
     from diagnosis.report.json_file import write_json
@@ -45,7 +50,7 @@ def diagnose(
         base = load_scenario(scenario)
         training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
         settings = Settings(level=level, seed=seed)
-        found = find(base, training, judges, settings, status.update)
+        found = find(base, training, judges, settings, status.update, Means(tuple(without or ()), jobs))
         status.update("writing")
         out.mkdir(parents=True, exist_ok=True)
         write_json(found.diagnosis, out / "diagnosis.json")

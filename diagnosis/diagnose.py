@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.errors import InputError
 from cosim.scenario import Scenario
+from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
@@ -19,6 +21,31 @@ from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings, search
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.translate import NoBank, not_for_bank
+
+
+@dataclass(frozen=True)
+class Means:
+    """What a diagnosis works with.
+
+    Args:
+        without: Identifiers of candidates that it must not know, for a proof that hides them.
+        threads: Threads of one simulation.
+    """
+
+    without: tuple[str, ...] = ()
+    threads: int = 2
+
+    def catalogue(self) -> tuple[CandidateTerm, ...]:
+        """Candidates that it knows.
+
+        Raises:
+            InputError: There is no candidate of a name that is to be left out.
+        """
+        unknown = sorted(set(self.without) - {c.identifier for c in catalogue()})
+        if unknown:
+            raise InputError("--without", "", f"the catalogue has no effect `{unknown[0]}`",
+                             "docs/candidates.md lists their identifiers")  # fmt: skip
+        return tuple(c for c in catalogue() if c.identifier not in self.without)
 
 
 @dataclass(frozen=True)
@@ -42,7 +69,7 @@ class Found:
 
 def diagnose(
     scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording], settings: Settings,
-    on_progress: Callable[[str], None] = lambda text: None,
+    on_progress: Callable[[str], None] = lambda text: None, means: Means = Means(),
 ) -> Found:  # fmt: skip
     """Find out what a scenario leaves out.
 
@@ -52,14 +79,16 @@ def diagnose(
         held_out: Recordings that judge; nothing is fitted to them.
         settings: Of the search.
         on_progress: Told what is being done.
+        means: What it works with.
 
     Raises:
         InputError: A recording does not fit the scenario, or the scenario is none that can be diagnosed.
     """
     begin = clock.perf_counter()
     try:
-        model = BankModel(scenario, training, catalogue())
-        judge = BankModel(scenario, held_out, catalogue()) if held_out else None
+        known = means.catalogue()
+        model = BankModel(scenario, training, known, means.threads)
+        judge = BankModel(scenario, held_out, known, means.threads) if held_out else None
     except NoBank as reason:
         raise not_for_bank(scenario.path, reason) from reason
     terms = model.terms()
