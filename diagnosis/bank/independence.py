@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.bank.layout import Array, BankLayout
+from diagnosis.bank.layout import Array, BankLayout, FieldAxis
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.candidates.candidate import Axis, CandidateTerm
+from diagnosis.candidates.candidate import CandidateTerm
 
 #: Hooks through which coils of different strings feel each other.
 _JOINING_HOOKS = frozenset({"pairs", "shared"})
@@ -36,7 +36,7 @@ class Independence:
         self.are_strings_apart = bool(layout.strings) and not joined and (not supply or layout.supply == "per_string")
         self.are_coils_apart = not joined and (not layout.strings or not (slope or "resistance" in hooks))
 
-    def part(self, parameter: str, axis: Axis, mask: Array) -> tuple[str, int]:
+    def part(self, parameter: str, axis: FieldAxis, mask: Array) -> tuple[str, int]:
         """Level and number of the only part (coil, string, channel) that a direction touches; number -1: several."""
         touched = np.flatnonzero(mask)
         if axis == "channel" and touched.size == 1:

@@ -40,9 +40,12 @@ COIL_FIELDS: Mapping[str, tuple[float, str]] = {
 }
 STRING_FIELDS: Mapping[str, tuple[float, str]] = {"string_resistance": (0.0, "ohm")}
 SOURCE_FIELDS: Mapping[str, tuple[float, str]] = {"supply_resistance": (0.0, "ohm")}
-AXIS_OF_FIELD: Mapping[str, Axis] = {
+#: Over the quantities: how late the clock of all channels of one quantity is.
+QUANTITY_FIELDS: Mapping[str, tuple[float, str]] = {"clock_offset": (0.0, "s")}
+FieldAxis = Axis | Literal["quantity"]
+AXIS_OF_FIELD: Mapping[str, FieldAxis] = {
     **dict.fromkeys(COIL_FIELDS, "coil"), **dict.fromkeys(STRING_FIELDS, "string"),
-    **dict.fromkeys(SOURCE_FIELDS, "source"),
+    **dict.fromkeys(SOURCE_FIELDS, "source"), **dict.fromkeys(QUANTITY_FIELDS, "quantity"),
 }  # fmt: skip
 
 
@@ -156,11 +159,12 @@ class BankLayout:
         names = list(QUANTITIES)
         return sum(self.elements(q) for q in names[: names.index(quantity)])
 
-    def size(self, axis: Axis) -> int:
+    def size(self, axis: FieldAxis) -> int:
         """Length of a parameter array over an axis."""
         channels = sum(self.elements(q) for q in QUANTITIES)
-        return {"coil": self.coils, "string": len(self.strings), "source": self.sources, "channel": channels}[axis]
+        sizes = {"coil": self.coils, "string": len(self.strings), "source": self.sources, "channel": channels}
+        return {**sizes, "quantity": len(QUANTITIES)}[axis]
 
-    def stride(self, axis: Axis) -> int:
+    def stride(self, axis: FieldAxis) -> int:
         """Room of that array in the bank: coils are padded to whole vectors."""
         return self.width if axis == "coil" else self.size(axis)

@@ -7,10 +7,20 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from diagnosis.bank.layout import AXIS_OF_FIELD, COIL_FIELDS, SOURCE_FIELDS, STRING_FIELDS, Array, BankLayout
-from diagnosis.candidates.candidate import Axis, CandidateTerm
+from diagnosis.bank.layout import (
+    AXIS_OF_FIELD,
+    COIL_FIELDS,
+    QUANTITY_FIELDS,
+    SOURCE_FIELDS,
+    STRING_FIELDS,
+    Array,
+    BankLayout,
+    FieldAxis,
+)
+from diagnosis.candidates.candidate import CandidateTerm
 
-_DEFAULTS = {n: v for fields in (COIL_FIELDS, STRING_FIELDS, SOURCE_FIELDS) for n, (v, _) in fields.items()}
+_FIELDS = {**COIL_FIELDS, **STRING_FIELDS, **SOURCE_FIELDS, **QUANTITY_FIELDS}
+_DEFAULTS = {n: default for n, (default, _) in _FIELDS.items()}
 
 
 @dataclass(frozen=True)
@@ -49,7 +59,7 @@ class Packing:
 
     def __init__(self, layout: BankLayout, terms: Sequence[CandidateTerm], active: frozenset[str]) -> None:
         self.layout = layout
-        self.axes: dict[str, Axis] = {}
+        self.axes: dict[str, FieldAxis] = {}
         self._begin: dict[str, int] = {}
         self.size = 0
         for name, axis in AXIS_OF_FIELD.items():
@@ -61,7 +71,7 @@ class Packing:
                 for parameter in term.parameters:
                     self._place(f"{term.identifier}.{parameter.name}", term.axis)
 
-    def _place(self, name: str, axis: Axis) -> None:
+    def _place(self, name: str, axis: FieldAxis) -> None:
         self.axes[name] = axis
         self._begin[name] = self.size
         self.size += self.layout.stride(axis)

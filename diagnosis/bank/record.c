@@ -142,6 +142,7 @@ static void sample_channel(const Step *s, int q, const double *trace, Sensor *se
     const int64_t elements = quantity_elements(s, q), element = sensor->channel - quantity_channel(s, q);
     const int is_flow = quantity_is_flow[q];
     sensor->partner = element;
+    sensor->offset = s->late[q];
     HOOK_channel(sensor);
     const int64_t partner = sensor->partner < 0 || sensor->partner >= elements ? element : sensor->partner;
     for (int64_t k = 0; k <= plan->steps; k++) {
@@ -167,7 +168,7 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
     if (!HAS_SENSOR(plan)) {
         int64_t hint = 0, a, b;
         for (int64_t n = 0; n < samples; n++) {
-            const double w = locate(plan, quantity_is_flow[q], time[n], &hint, &a, &b);
+            const double w = locate(plan, quantity_is_flow[q], time[n] - s->late[q], &hint, &a, &b);
             const double *low = trace + a * elements, *high = trace + b * elements;
             for (int64_t i = 0; i < elements; i++) {
                 out[n * elements + i] = low[i] + w * (high[i] - low[i]);
@@ -230,6 +231,7 @@ static int64_t run(const Plan *plan, const double *set, double *out, double *mem
     Step *s = &step;
     s->string = set + COIL_FIELDS * plan->width;
     s->source = s->string + STRING_FIELDS * plan->strings;
+    s->late = s->source + SOURCE_FIELDS * plan->sources;
     memory = place(s, memory);
     double *trace[QUANTITIES];
     for (int q = 0; q < QUANTITIES; q++) {

@@ -102,6 +102,9 @@ def _share_sensor(packing: Packing, base: Array) -> None:
         if axis == "channel":
             values = base[packing.where(name)]
             values[first : first + layout.elements("string_share")] = values[supply]
+    clocks = base[packing.where("clock_offset")]
+    names = list(QUANTITIES)
+    clocks[names.index("string_share")] = clocks[names.index("supply_current")]
 
 
 def _groups(apart: Independence, packing: Packing, directions: Sequence[Direction]) -> list[_Group]:
