@@ -71,6 +71,28 @@ def sensitivities(
         BankError: A value stopped being finite.
         KeyError: A direction along a parameter that the bank does not have.
     """
+    plan, base, slopes = flat_sensitivities(bank, parameters, inputs, times, directions, threads)
+    result = {n: v[0] for n, v in plan.split(base[None]).items()}
+    derivatives = plan.split(slopes)
+    for outputs in (result, derivatives):
+        outputs.pop("string_share", None)
+    return result, derivatives
+
+
+def flat_sensitivities(
+    bank: Bank,
+    parameters: BankParameters,
+    inputs: BankInputs,
+    times: Array | Mapping[str, Array],
+    directions: Sequence[Direction],
+    threads: int = 1,
+) -> tuple[Plan, Array, Array]:  # fmt: skip
+    """As `sensitivities`, but outputs and derivatives as the bank lays them out.
+
+    Returns:
+        Plan that splits them by quantity (`string_share` comes last where it is there at all); outputs, shape
+        (out_size,); derivatives, shape (directions, out_size).
+    """
     wanted = bank.wanted(inputs, times)
     active = active_terms(bank.terms, parameters)
     active |= {d.parameter.split(".")[0] for d in directions if "." in d.parameter}
@@ -85,13 +107,12 @@ def sensitivities(
         _share_sensor(packing, base)
     rows = _perturbed(packing, base, directions, groups)
     out = bank.run(plan, packing, np.concatenate([base[None], rows]), threads)
-    derivatives = plan.split(_slopes(plan, out, directions, groups))
-    result = {n: v[0] for n, v in plan.split(out[:1]).items()}
+    slopes = _slopes(plan, out, directions, groups)
     if "string_share" in wanted:
+        views = plan.split(slopes)
         grouped = [n for g in groups if g.level in ("coil", "string") for part, n in g.members.items() if part >= 0]
-        derivatives["supply_current"][grouped] = derivatives["string_share"][grouped].sum(axis=2, keepdims=True)
-        del derivatives["string_share"], result["string_share"]
-    return result, derivatives
+        views["supply_current"][grouped] = views["string_share"][grouped].sum(axis=2, keepdims=True)
+    return plan, out[0], slopes
 
 
 def _share_sensor(packing: Packing, base: Array) -> None:
@@ -132,7 +153,7 @@ def _perturbed(packing: Packing, base: Array, directions: Sequence[Direction], g
 
 
 def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Sequence[_Group]) -> Array:
-    owners = {level: _owners(plan, level) for level in ("coil", "string", "channel")}
+    owned = {level: _owned(plan, level) for level in {g.level for g in groups} - {"all"}}
     slopes = np.zeros((len(directions), plan.out_size))
     row = 1
     for group in groups:
@@ -141,12 +162,16 @@ def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Seq
         slope = (out[row] - other) / (first.step * (2.0 if first.is_central else 1.0))
         row += 2 if first.is_central else 1
         for part, number in group.members.items():
-            slopes[number] = slope if part < 0 else np.where(owners[group.level] == part, slope, 0.0)
+            if part < 0:
+                slopes[number] = slope
+            elif part < len(owned[group.level]):  # else nothing of that part is recorded
+                own = owned[group.level][part]
+                slopes[number, own] = slope[own]
     return slopes
 
 
-def _owners(plan: Plan, level: str) -> npt.NDArray[np.int64]:
-    """Coil, string or channel that every number of a set's output belongs to; -1 where there is none."""
+def _owned(plan: Plan, level: str) -> list[npt.NDArray[np.int64]]:
+    """Numbers of a set's output that belong to each coil, string or channel."""
     owners = np.full((1, plan.out_size), -1.0)
     for name, view in plan.split(owners).items():
         axis = QUANTITIES[name].axis
@@ -156,5 +181,7 @@ def _owners(plan: Plan, level: str) -> npt.NDArray[np.int64]:
             view[...] = np.arange(view.shape[2])
         elif axis == "coil" and level == "string":
             view[...] = plan.layout.string_of_coil
-    result: npt.NDArray[np.int64] = owners[0].astype(np.int64)
-    return result
+    parts = owners[0].astype(np.int64)
+    order = np.argsort(parts, kind="stable")
+    bounds = np.searchsorted(parts[order], np.arange(parts.max(initial=-1) + 2))
+    return [order[a:b] for a, b in zip(bounds[:-1], bounds[1:])]
