@@ -15,9 +15,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--cases", type=int, default=20, help="how many")
     parser.add_argument("--seed", type=int, default=1, help="of all draws")
     parser.add_argument("--kinds", default="", help=f"only these, separated by commas: {', '.join(KINDS)}")
+    parser.add_argument("--setups", default="", help="only these rigs: network, small, zones, bath, heaters, pendulum")
     given = parser.parse_args(arguments)
     try:
-        write_cases(given.folder, given.cases, given.seed, [k for k in given.kinds.split(",") if k])
+        kinds, setups = ([k for k in names.split(",") if k] for names in (given.kinds, given.setups))
+        write_cases(given.folder, given.cases, given.seed, kinds, setups)
     except ValueError as error:
         print(f"python -m proving: {error}", file=sys.stderr)
         return 2

@@ -85,7 +85,7 @@ class Dealer:
 
 
 def drawn_cases(
-    count: int, seed: int, kinds: Sequence[str] = ()
+    count: int, seed: int, kinds: Sequence[str] = (), setups: Sequence[str] = ()
 ) -> list[tuple[Case | PendulumCase, np.random.Generator]]:
     """Cases, each with the source of its noise; the same seed draws the same.
 
@@ -93,15 +93,12 @@ def drawn_cases(
         count: How many.
         seed: Of all draws.
         kinds: Only these kinds; default: all, by their shares.
+        setups: Only these rigs; default: all, by their shares.
 
     Raises:
-        ValueError: A kind is not known, or no cases are wanted.
+        ValueError: A kind or a rig is not known, or no cases are wanted.
     """
-    unknown = sorted(set(kinds) - set(KINDS))
-    if unknown:
-        raise ValueError(f"there is no kind of case `{unknown[0]}`; there are: {', '.join(KINDS)}")
-    if count < 1:
-        raise ValueError(f"{count} cases: ask for at least one")
+    _check(count, kinds, setups)
     rng = np.random.default_rng(np.random.SeedSequence([seed, 0]))
     dealer = Dealer(rng)
     shares = {k: KINDS[k] for k in kinds or KINDS}
@@ -110,12 +107,24 @@ def drawn_cases(
     drawn: list[tuple[Case | PendulumCase, np.random.Generator]] = []
     for n, (kind, source) in enumerate(zip(plan, sources)):
         identifier = f"case_{n + 1:04d}"
-        if kind != "sensor" and source.random() < PENDULUM_SHARE:
+        is_arm = source.random() < PENDULUM_SHARE if kind != "sensor" else False
+        if is_arm if not setups else "pendulum" in setups and (is_arm or set(setups) == {"pendulum"}):
             wanted = dealer.deal_for_arm(kind)
             drawn.append((drawn_pendulum(identifier, kind, wanted, VERDICTS[kind], source), source))
         else:
-            drawn.append((_drawn_case(identifier, kind, dealer, source), source))
+            drawn.append((_drawn_case(identifier, kind, dealer, source, setups), source))
     return drawn
+
+
+def _check(count: int, kinds: Sequence[str], setups: Sequence[str]) -> None:
+    for what, given, known in (("kind of case", kinds, [*KINDS]), ("rig", setups, [*SETUPS, "pendulum"])):
+        unknown = sorted(set(given) - set(known))
+        if unknown:
+            raise ValueError(f"there is no {what} `{unknown[0]}`; there are: {', '.join(known)}")
+    if count < 1:
+        raise ValueError(f"{count} cases: ask for at least one")
+    if set(setups) == {"pendulum"} and "sensor" in (kinds or KINDS):
+        raise ValueError("the pendulum has no cases of the kind `sensor`: name other kinds")
 
 
 def _plan(shares: dict[str, float], count: int, rng: np.random.Generator) -> list[str]:
@@ -128,14 +137,15 @@ def _plan(shares: dict[str, float], count: int, rng: np.random.Generator) -> lis
     return [kinds[i] for i in rng.permutation(count)]
 
 
-def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Generator) -> Case:
-    wanted = [] if kind in ("null", "parameters") else [dealer.deal(kind)]
-    if kind == "two":
-        second = dealer.deal("two")
-        while second[0] is wanted[0][0] or not _able([wanted[0][0], second[0]]):
-            second = dealer.deal("two")
-        wanted.append(second)
-    setup = _setup([e for e, _ in wanted], rng)
+def _drawn_case(
+    identifier: str, kind: str, dealer: Dealer, rng: np.random.Generator, setups: Sequence[str] = ()
+) -> Case:  # fmt: skip
+    wanted: list[tuple[type[Effect] | type[SensorFault], Strength]] = []
+    while kind not in ("null", "parameters") and len(wanted) < (2 if kind == "two" else 1):
+        dealt = dealer.deal(kind)
+        if all(dealt[0] is not e for e, _ in wanted) and _able([*(e for e, _ in wanted), dealt[0]], setups):
+            wanted.append(dealt)
+    setup = _setup([e for e, _ in wanted], rng, setups)
     rig = drawn_rig(setup.sheet, rng, 2.0 if kind == "parameters" else 1.0)
     chain = drawn_chain(setup, rng)
     effects, faults = [], []
@@ -153,9 +163,11 @@ def _drawn_case(identifier: str, kind: str, dealer: Dealer, rng: np.random.Gener
     )  # fmt: skip
 
 
-def _setup(effects: Sequence[type[Effect] | type[SensorFault]], rng: np.random.Generator) -> Setup:
+def _setup(
+    effects: Sequence[type[Effect] | type[SensorFault]], rng: np.random.Generator, setups: Sequence[str]
+) -> Setup:  # fmt: skip
     """A kind of rig on which all of the effects can act."""
-    able = _able(effects)
+    able = _able(effects, setups)
     shares = np.array([SHARES[s.name] for s in able])
     return able[int(rng.choice(len(able), p=shares / shares.sum()))]
 
@@ -166,8 +178,8 @@ def _loads_of_mujoco(effects: Sequence[Effect]) -> bool:
     return bool(loads) and set(loads) <= _OF_MUJOCO and all(e.identifier != "motion_draught" for e in effects)
 
 
-def _able(effects: Sequence[type[Effect] | type[SensorFault]]) -> list[Setup]:
-    return [s for s in SETUPS.values() if all(_can(e, s) for e in effects)]
+def _able(effects: Sequence[type[Effect] | type[SensorFault]], setups: Sequence[str]) -> list[Setup]:
+    return [s for s in SETUPS.values() if s.name in (setups or SETUPS) and all(_can(e, s) for e in effects)]
 
 
 def _can(effect: type[Effect] | type[SensorFault], setup: Setup) -> bool:
@@ -193,7 +205,9 @@ def _programmes(
     return made[:2], made[2:]
 
 
-def write_cases(folder: str | Path, count: int, seed: int, kinds: Sequence[str] = ()) -> None:
+def write_cases(
+    folder: str | Path, count: int, seed: int, kinds: Sequence[str] = (), setups: Sequence[str] = ()
+) -> None:  # fmt: skip
     """Writes cases: `cases/<case>/` with scenario, task and recordings, `answers/<case>.json` and `.npz`.
 
     Args:
@@ -201,11 +215,12 @@ def write_cases(folder: str | Path, count: int, seed: int, kinds: Sequence[str] 
         count: How many.
         seed: Of all draws; the same seed writes the same bytes.
         kinds: Only these kinds of cases; default: all.
+        setups: Only these rigs; default: all.
 
     Raises:
-        ValueError: A kind is not known, or no cases are wanted.
+        ValueError: A kind or a rig is not known, or no cases are wanted.
         WireError: A truth does not converge.
     """
     folder = Path(folder)
-    for case, rng in drawn_cases(count, seed, kinds):
+    for case, rng in drawn_cases(count, seed, kinds, setups):
         case.write(folder / "cases", folder / "answers", rng)
