@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from cosim.assemble import assemble
-from cosim.components import ProgrammeComponent, ProgrammeOutput
+from cosim.components import ProgrammeComponent
 from cosim.errors import InputError
 from cosim.quantity import PhysicalValue, conversion
-from cosim.run import RunStopped, run
 from cosim.scenario import Scenario
 from cosim.unit import Array
+from diagnosis.compute.batch import Batches
+from diagnosis.compute.result import Task
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
-from diagnosis.recording.series import sample, series_of
+from diagnosis.search import cosim_run
+from diagnosis.search.cosim_run import Changes, changed, setting, simulate
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
@@ -68,6 +69,7 @@ class CosimModel:
         recordings: Training recordings.
         free: Numbers that may be off; `free_parameters` reads them from parameter sets and recordings.
         terms: Laws that may be missing.
+        batches: Makes the runs; None: one after the other in this process, nothing kept.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
@@ -75,69 +77,82 @@ class CosimModel:
 
     def __init__(
         self, scenario: Scenario, recordings: Sequence[Recording], free: Sequence[Free],
-        terms: Sequence[ComponentTerm] = (),
+        terms: Sequence[ComponentTerm] = (), batches: Batches | None = None,
     ) -> None:  # fmt: skip
         self.recordings = list(recordings)
         self.scenarios = [scenario_of(scenario, r) for r in recordings]
-        for own in self.scenarios:  # later, what cannot be built is a value that makes no sense
-            assemble(own).system.terminate()
+        self.settings = [setting(s, r) for s, r in zip(self.scenarios, recordings)]
         self.free = list(free)
         self.parameters: Sequence[Parameter] = [f.parameter for f in free]
         self._terms = {t.term: t for t in terms}
         self.layout = _layout(recordings)
-        #: Number of runs made so far.
+        self._batches = batches or Batches()
+        self._sizes = [sum(len(c.times) for c in r.channels.values()) for r in recordings]
+        #: Number of runs asked for so far, those taken from the disk among them.
         self.runs = 0
 
     def terms(self) -> list[Term]:
         """Every law that may be missing."""
         return list(self._terms)
 
-    def scenario_at(self, point: Point, number: int) -> Scenario:
-        """The scenario of one recording with the values of a point; it can be run as it is."""
-        changes: dict[str, dict[str, PhysicalValue]] = {}
+    def changes_at(self, point: Point, number: int) -> Changes:
+        """What a point changes in the scenario of one recording."""
+        parameters: dict[str, dict[str, PhysicalValue]] = {}
         shifts: dict[str, dict[str, float]] = {}
-        scenario = self.scenarios[number]
         for free, z in zip(self.free, point.base):
             if free.recording not in (None, number):
                 continue
             value = free.parameter.value(float(z))
-            if isinstance(scenario.components[free.component], ProgrammeComponent):
+            if isinstance(self.scenarios[number].components[free.component], ProgrammeComponent):
                 shifts.setdefault(free.component, {})[free.name] = value - free.parameter.nominal
             else:
-                changes.setdefault(free.component, {})[free.name] = PhysicalValue(value, free.parameter.unit)
+                parameters.setdefault(free.component, {})[free.name] = PhysicalValue(value, free.parameter.unit)
         for term, values in point.terms.items():
             own = self._terms[term]
             for name, parameter, value in zip(own.names, term.parameters, values):
-                changes.setdefault(own.component, {})[name] = PhysicalValue(value, parameter.unit)
-        return _changed(scenario, changes, shifts)
+                parameters.setdefault(own.component, {})[name] = PhysicalValue(value, parameter.unit)
+        return Changes(parameters, shifts)
+
+    def scenario_at(self, point: Point, number: int) -> Scenario:
+        """The scenario of one recording with the values of a point; it can be run as it is."""
+        return changed(self.scenarios[number], self.changes_at(point, number))
+
+    def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+        """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
+        tasks = []
+        for point, number in wanted:
+            changes = self.changes_at(point, number)
+            tasks.append(Task(self.settings[number].task_key(changes), (number, changes)))
+        self.runs += len(tasks)
+        results = self._batches.results(simulate, self.settings, tasks)
+        return [list(r.arrays) if r.is_complete else None for r in results]
 
     def predict(self, point: Point, number: int) -> list[Array] | None:
         """Values of every channel of a recording at its samples, SI; None where the run stopped."""
-        self.runs += 1
-        try:
-            results = run(self.scenario_at(point, number))
-        except (RunStopped, InputError):  # a value at which the unit cannot be built or go on
-            return None
-        return [predicted(results, c, self.recordings[number]) for c in self.recordings[number].channels.values()]
+        return self.predictions([(point, number)])[0]
 
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""
-        return np.array([np.concatenate([self._residual(p, n) for n in range(len(self.recordings))]) for p in points])
+        count = len(self.recordings)
+        rows = self._rows([(p, n) for p in points for n in range(count)])
+        return np.array([np.concatenate(rows[i : i + count]) for i in range(0, len(rows), count)])
 
-    def _residual(self, point: Point, number: int) -> Array:
-        channels = list(self.recordings[number].channels.values())
-        values = self.predict(point, number)
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        return [self._residual(n, v) for (_, n), v in zip(wanted, self.predictions(wanted))]
+
+    def _residual(self, number: int, values: Sequence[Array] | None) -> Array:
         if values is None:
-            return np.full(sum(len(c.times) for c in channels), np.inf)
+            return np.full(self._sizes[number], np.inf)
+        channels = self.recordings[number].channels.values()
         return np.concatenate(
             [np.where(c.is_clipped, 0.0, (c.values - v) / c.deviation) for c, v in zip(channels, values)]
         )
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`; central differences, a number of one recording runs that one alone."""
-        sizes = [sum(len(c.times) for c in r.channels.values()) for r in self.recordings]
-        begin = np.concatenate([[0], np.cumsum(sizes)])
-        jacobian = np.zeros((begin[-1], len(self.free)))
+        wanted: list[tuple[Point, int]] = []
+        places: list[tuple[int, int]] = []
         for column, free in enumerate(self.free):
             sides = []
             for sign in (1.0, -1.0):
@@ -145,10 +160,15 @@ class CosimModel:
                 base[column] += sign * STEP
                 sides.append(replace(point, base=base))
             for number in range(len(self.recordings)) if free.recording is None else (free.recording,):
-                high, low = (self._residual(side, number) for side in sides)
-                with np.errstate(invalid="ignore"):
-                    slope = (high - low) / (2 * STEP)
-                jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
+                wanted += [(side, number) for side in sides]
+                places.append((column, number))
+        rows = self._rows(wanted)
+        begin = np.concatenate([[0], np.cumsum(self._sizes)])
+        jacobian = np.zeros((begin[-1], len(self.free)))
+        for (column, number), high, low in zip(places, rows[0::2], rows[1::2]):
+            with np.errstate(invalid="ignore"):
+                slope = (high - low) / (2 * STEP)
+            jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         return jacobian
 
 
@@ -158,8 +178,7 @@ def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Ar
     Raises:
         InputError: The run has no such quantity.
     """
-    series = series_of(results, channel.target, recording.path / "recording.yaml")
-    return sample(series, channel.times)
+    return cosim_run.predicted(results, channel.target, channel.times, recording.path / "recording.yaml")
 
 
 def free_parameters(scenario: Scenario, recordings: Sequence[Recording]) -> list[Free]:
@@ -228,24 +247,3 @@ def _layout(recordings: Sequence[Recording]) -> Layout:
             names.append(c.name if len(recordings) == 1 else f"{c.name} ({recording.path.name})")
             units.append(c.target.domain)
     return Layout(np.concatenate(channel), np.concatenate(time), tuple(names), tuple(units))
-
-
-def _changed(
-    scenario: Scenario, changes: Mapping[str, Mapping[str, PhysicalValue]], shifts: Mapping[str, Mapping[str, float]]
-) -> Scenario:
-    """The scenario with other parameters, and with constants of programmes moved."""
-    components: dict[str, Any] = dict(scenario.components)
-    for name, values in changes.items():
-        own = components[name]
-        components[name] = own.model_copy(update={"parameters": {**own.parameters, **values}})
-    for name, moved in shifts.items():
-        own = components[name]
-        outputs = {o: _shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
-        components[name] = own.model_copy(update={"outputs": outputs})
-    return scenario.model_copy(update={"components": components})
-
-
-def _shifted(given: ProgrammeOutput, amount: float) -> ProgrammeOutput:
-    if not amount or not isinstance(given.constant, PhysicalValue):
-        return given
-    return given.model_copy(update={"constant": PhysicalValue(given.constant.to(given.unit) + amount, given.unit)})

@@ -1,0 +1,1 @@
+"""Batches of simulations: on several processes or a Dask cluster, kept on disk, with progress."""
