@@ -30,6 +30,7 @@ class Solution:
         node_voltage: Of the supply side of every coil, against ground [V], shape (coils,).
         string_current: [A], shape (strings,).
         source_current: Out of the positive terminal [A], shape (sources,).
+        contacts: Resistance of contacts and leads in series with every string [ohm], shape (strings,).
     """
 
     source_voltage: Array
@@ -37,6 +38,7 @@ class Solution:
     node_voltage: Array
     string_current: Array
     source_current: Array
+    contacts: Array
 
 
 class Laws:
@@ -54,7 +56,8 @@ class Laws:
         fixed = {**network.open_resistances(), **dict.fromkeys(network.shorted_coils, 0.0)}
         self._fixed_coils = np.array([c - 1 for c in fixed], dtype=np.intp)
         self._fixed_values = np.array(list(fixed.values()))
-        series = [r for r in (network.supply_resistance, network.string_resistance) if r > 0.0]
+        self._supply_resistance = np.array(network.supply_resistances())
+        series = [r for r in (*network.supply_resistances(), network.string_resistance) if r > 0.0]
         self._least_series = min(series, default=np.inf)
 
     def coil_voltage(self, node_voltage: Array) -> Array:
@@ -101,14 +104,14 @@ class Laws:
 
     def _drops(self, solution: Solution) -> tuple[Array, Array]:
         """Voltage over the series resistance of every source and of every string [V]."""
-        network = self._network
-        return network.supply_resistance * solution.source_current, network.string_resistance * solution.string_current
+        string_resistance = self._network.string_resistance + solution.contacts
+        return self._supply_resistance * solution.source_current, string_resistance * solution.string_current
 
     def _loops(self, solution: Solution, volts: float, amperes: Array) -> str:
-        network = self._network
         supply_drop, string_drop = self._drops(solution)
         rest = solution.source_voltage - supply_drop - string_drop - solution.node_voltage[self._first]
-        scale = volts + network.supply_resistance * amperes.sum() + network.string_resistance * amperes
+        string_resistance = self._network.string_resistance + solution.contacts
+        scale = volts + self._supply_resistance * amperes.sum() + string_resistance * amperes
         excess = ~(np.abs(rest) <= TOLERANCE * scale)
         if not excess.any():
             return ""

@@ -2,7 +2,7 @@
 
 Pure text and numbers; nothing here calls ngspice. One string, from its supply to ground:
 
-    supply source - [supply resistance] - ammeter - [string resistance] - coil 1 - coil 2 - ... - ground
+    supply source - [supply resistance] - ammeter - [string resistance] - [contacts] - coil 1 - coil 2 - ... - ground
 
 Every node has a path to ground through finite resistances, also where coils are open, so no node floats and no
 `.options rshunt` (which would draw current of its own) is needed.
@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
+
+from circuit.elements import Contact, Element, Lead, Series, check
 
 #: Resistance of the only open coil of a string [ohm]. Against a true break it lets V / 1e12 ohm pass: 6 pA at 6 V.
 OPEN_RESISTANCE = 1e12
@@ -42,6 +44,7 @@ class Network:
         open_coils: Broken coils, `OPEN_RESISTANCE`, or `SHARED_OPEN_RESISTANCE` each where a string has several: they
             then share its voltage equally, which is a convention, for the true potential between breaks is undefined.
         shorted_coils: Bridged coils: both ends are one node, so exactly 0 V; ngspice cannot take 0 ohm.
+        elements: Contacts, leads, inner resistances and current limits (`circuit.elements`).
 
     Raises:
         ValueError: A string without coils, a resistance out of range, a coil that does not exist or is both open and
@@ -54,6 +57,7 @@ class Network:
     string_resistance: float = 0.0
     open_coils: tuple[int, ...] = ()
     shorted_coils: tuple[int, ...] = ()
+    elements: tuple[Element, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.strings:
@@ -70,6 +74,7 @@ class Network:
                 )
         self._check_faults()
         self._check_short_circuits()
+        check(self.elements, len(self.strings), self.sources)
 
     def _check_faults(self) -> None:
         for name, coils in (("open_coils", self.open_coils), ("shorted_coils", self.shorted_coils)):
@@ -105,6 +110,19 @@ class Network:
         """Number of voltage sources."""
         return 1 if self.supply == "common" else len(self.strings)
 
+    @property
+    def series(self) -> Series:
+        """Elements by place."""
+        return Series(self.elements, len(self.strings), self.sources)
+
+    def supply_resistances(self) -> list[float]:
+        """In series with every source [ohm]: its inner resistance and those among the elements."""
+        return [self.supply_resistance + float(r) for r in self.series.source_resistances()]
+
+    def strings_with_contacts(self) -> list[int]:
+        """Strings (from 1) that have a contact or a lead among the elements."""
+        return sorted({e.string for e in self.elements if isinstance(e, Contact | Lead)})
+
     def coils_of_strings(self) -> list[range]:
         """Coil numbers (from 1) of every string."""
         ends = [sum(self.strings[: s + 1]) for s in range(len(self.strings))]
@@ -131,6 +149,11 @@ def ammeter_name(string: int) -> str:
     return f"vstring{string}"
 
 
+def contact_name(string: int) -> str:
+    """Element of the contacts and leads of a string (from 1): a voltage of so many ohm times its current, 0 too."""
+    return f"hcontact{string}"
+
+
 def coil_name(coil: int) -> str:
     """Element of a coil (from 1) that is neither open nor shorted."""
     return f"rcoil{coil}"
@@ -153,10 +176,10 @@ def render(network: Network) -> str:
 
 
 def _sources(network: Network) -> Iterator[str]:
-    for source in range(1, network.sources + 1):
-        if network.supply_resistance > 0.0:
+    for source, resistance in enumerate(network.supply_resistances(), 1):
+        if resistance > 0.0:
             yield f"{source_name(source)} e{source} 0 dc 0"
-            yield f"rsupply{source} e{source} s{source} {network.supply_resistance!r}"
+            yield f"rsupply{source} e{source} s{source} {resistance!r}"
         else:
             yield f"{source_name(source)} s{source} 0 dc 0"
 
@@ -166,6 +189,9 @@ def _strings(network: Network) -> Iterator[str]:
     for string, coils in enumerate(network.coils_of_strings(), 1):
         source = 1 if network.supply == "common" else string
         top = nodes[coils[0] - 1]
+        if string in network.strings_with_contacts():
+            yield f"{contact_name(string)} c{string} {top} {ammeter_name(string)} 0"
+            top = f"c{string}"
         if network.string_resistance > 0.0:
             yield f"{ammeter_name(string)} s{source} w{string} dc 0"
             yield f"rstring{string} w{string} {top} {network.string_resistance!r}"

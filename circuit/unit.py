@@ -15,6 +15,7 @@ from circuit.netlist import (
     ammeter_name,
     coil_name,
     coil_nodes,
+    contact_name,
     render,
     source_name,
 )
@@ -22,6 +23,12 @@ from circuit.ngspice import Circuit, NgspiceError
 from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 INPUTS = ("supply_voltage", "resistance")
+
+#: Solutions in which a lead's resistance is found from its current; each makes the error smaller by the share that the
+#: lead has in its string.
+MOST_TURNS = 100
+#: Change of that resistance, relative to its size, at which it is found: what `circuit.kirchhoff` cannot see.
+SETTLED = 1e-13
 
 
 class CircuitUnit(Unit):
@@ -32,7 +39,8 @@ class CircuitUnit(Unit):
 
     An open coil carries what 1e12 ohm let pass (6 pA at 6 V, reported as solved) and takes the voltage of its string;
     a shorted coil carries the current of its string at exactly 0 V and 0 W. The `resistance` given for either is not
-    used. Voltages may be negative; the current then is, too.
+    used. Voltages may be negative; the current then is, too. The elements of the network (`circuit.elements`) lie in
+    series: leads are solved again until current and resistance agree, a limited source is solved at its lower voltage.
 
     Args:
         name: Name of the unit in error texts.
@@ -60,6 +68,10 @@ class CircuitUnit(Unit):
         self._elements += [coil_name(c) for c in range(1, network.coils + 1)]
         self._whole = np.array([c not in faulty for c in range(1, network.coils + 1)])
         self._in_use = np.concatenate([np.ones(network.sources, dtype=bool), self._whole])
+        self._series, self._rises = network.series, network.series.rises()
+        self._with_contacts = [n - 1 for n in network.strings_with_contacts()]
+        self._elements += [f"{contact_name(n + 1)} gain" for n in self._with_contacts]
+        self._in_use = np.append(self._in_use, np.ones(len(self._with_contacts), dtype=bool))
         self._store = ArrayStore(name, self.variables)
         self._solved = np.full(len(self._elements), np.nan)  # inputs that the outputs belong to
         self._altered = np.full(len(self._elements), np.nan)  # values that ngspice holds
@@ -95,11 +107,11 @@ class CircuitUnit(Unit):
     def initialise(self, time: int) -> None:
         """Solve with the inputs that are set; UnitError if one is not or is out of range."""
         self._start = time
-        self._follow_inputs(time)
+        self._follow_inputs(time, time)
 
     def refresh(self) -> None:
         """Solve again with the inputs set since (start values that close a loop)."""
-        self._follow_inputs(self._start)
+        self._follow_inputs(self._start, self._start)
 
     def do_step(self, time: int, size: int) -> StepOutcome:
         """Outputs at `time + size` of the inputs held over the step.
@@ -107,7 +119,7 @@ class CircuitUnit(Unit):
         Raises:
             UnitError: A resistance is out of range, ngspice fails, or its solution breaks Kirchhoff's laws.
         """
-        self._follow_inputs(time + size)
+        self._follow_inputs(time, time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
@@ -129,13 +141,15 @@ class CircuitUnit(Unit):
             self._circuit.remove()
             self._circuit = None
 
-    def _follow_inputs(self, time: int) -> None:
+    def _follow_inputs(self, begin: int, time: int) -> None:
         arrays = self._store.arrays
-        wanted = np.concatenate([arrays["supply_voltage"].reshape(-1), arrays["resistance"]])
+        contacts = self._series.contacts(begin, time)
+        voltage = arrays["supply_voltage"].reshape(-1)
+        wanted = np.concatenate([voltage, arrays["resistance"], contacts[self._with_contacts]])
         if np.array_equal(wanted[self._in_use], self._solved[self._in_use]):
             return
         self._check_inputs(time)
-        solution = self._solution(wanted, time)
+        solution = self._settled(wanted, contacts, time)
         violation = self._laws.violation(solution)
         if violation:
             raise UnitError(self.name, violation, time, "keep the resistances of a string within 12 orders of size")
@@ -160,9 +174,34 @@ class CircuitUnit(Unit):
                 "shorted_coils",
             )
 
-    def _solution(self, wanted: Array, time: int) -> Solution:
+    def _settled(self, wanted: Array, contacts: Array, time: int) -> Solution:
+        """The solution in which the resistance of every lead agrees with its current."""
+        now = contacts
+        for _ in range(MOST_TURNS):
+            solution = self._limited(wanted, now, time)
+            last, now = now, contacts + self._rises * solution.string_current**2
+            if np.all(np.abs(now - last) <= SETTLED * (1.0 + now)):
+                return solution
+            now = np.where(self._rises > 0.0, 0.5 * (now + last), now)  # a lead that rules its string would swing
+        raise UnitError(
+            self.name, "the resistance of a lead does not settle", time, "give it a smaller rise, or a lower voltage"
+        )
+
+    def _limited(self, wanted: Array, contacts: Array, time: int) -> Solution:
+        """The solution with the currents of all sources within their limits: the network is linear in the voltage."""
+        free = self._solution(wanted, contacts, time)
+        sources = self.network.sources
+        lowered = self._series.lowered(wanted[:sources], free.source_current)
+        if np.array_equal(lowered, wanted[:sources]):
+            return free
+        return self._solution(np.concatenate([lowered, wanted[sources:]]), contacts, time)
+
+    def _solution(self, wanted: Array, contacts: Array, time: int) -> Solution:
+        """One operating point; `contacts` are those of all strings [ohm] and replace the ones in `wanted`."""
         if self._circuit is None:
             raise UnitError(self.name, "the unit was terminated", time, "construct a new one")
+        whole = self.network.sources + self.network.coils
+        wanted = np.concatenate([wanted[:whole], contacts[self._with_contacts]])
         changed = np.flatnonzero(self._in_use & (wanted != self._altered))
         try:
             values = self._circuit.solve({self._elements[i]: float(wanted[i]) for i in changed})
@@ -174,10 +213,11 @@ class CircuitUnit(Unit):
         n, strings, sources = len(self._nodes), len(self.network.strings), self.network.sources
         return Solution(
             source_voltage=wanted[:sources],
-            resistance=wanted[sources:],
+            resistance=wanted[sources:whole],
             node_voltage=np.append(values[:n], 0.0)[self._node_of_coil],
             string_current=values[n : n + strings],
             source_current=-values[n + strings :],  # SPICE counts current into a source's positive terminal
+            contacts=contacts,
         )
 
     def _publish(self, solution: Solution) -> None:

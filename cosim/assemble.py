@@ -10,6 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from circuit.elements import Contact, CurrentLimit, Lead, SourceResistance
+from circuit.elements import Element as CircuitPart
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
@@ -20,13 +22,17 @@ from cosim.algorithms.restoring import CannotRestore
 from cosim.components import (
     ActuatorComponent,
     CircuitComponent,
+    CircuitElement,
     Component,
+    ContactElement,
     FabricComponent,
     FmuComponent,
     HangingMassComponent,
+    LeadElement,
     PendulumComponent,
     ProgrammeComponent,
     ProgrammeOutput,
+    SourceResistanceElement,
     nanoseconds,
 )
 from cosim.connection import Connection, ConnectionFault, Element
@@ -191,7 +197,19 @@ def _network(component: CircuitComponent) -> Network:
         string_resistance=component.string_resistance.to("ohm"),
         open_coils=tuple(component.open_coils),
         shorted_coils=tuple(component.shorted_coils),
+        elements=tuple(_element_of(e) for e in component.elements),
     )
+
+
+def _element_of(given: CircuitElement) -> CircuitPart:
+    if isinstance(given, ContactElement):
+        instant = None if given.instant is None else given.instant.to("s")
+        return Contact(given.string, given.resistance.to("ohm"), instant)
+    if isinstance(given, LeadElement):
+        return Lead(given.string, given.rise.to("ohm/A^2"))
+    if isinstance(given, SourceResistanceElement):
+        return SourceResistance(given.supply, given.resistance.to("ohm"))
+    return CurrentLimit(given.supply, given.limit.to("A"), given.share)
 
 
 def _quantity(value: object) -> PhysicalValue:

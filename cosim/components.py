@@ -77,6 +77,45 @@ class ProgrammeComponent(Strict):
     outputs: dict[str, ProgrammeOutput]
 
 
+class ContactElement(Strict):
+    """A contact resistance in a string."""
+
+    kind: Literal["contact"]
+    string: Count
+    resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)]
+    instant: Time | None = Field(default=None, description="Time from which on it is there; default: always.")
+
+
+class LeadElement(Strict):
+    """A lead that warms up with its current: rise times current squared, in series with a string."""
+
+    kind: Literal["lead"]
+    string: Count
+    rise: Annotated[PhysicalValue, In("ohm/A^2", minimum=0.0)]
+
+
+class SourceResistanceElement(Strict):
+    """Inner resistance of one source."""
+
+    kind: Literal["source_resistance"]
+    supply: Count = 1
+    resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)]
+
+
+class CurrentLimitElement(Strict):
+    """A source that lowers its voltage where its current would exceed a limit."""
+
+    kind: Literal["current_limit"]
+    supply: Count = 1
+    limit: Annotated[PhysicalValue, In("A", minimum=0.0, is_exclusive=True)]
+    share: float = Field(default=1.0, ge=0.0, le=1.0, description="1: the limit holds; less: it gives way.")
+
+
+CircuitElement = Annotated[
+    ContactElement | LeadElement | SourceResistanceElement | CurrentLimitElement, Field(discriminator="kind")
+]
+
+
 class CircuitComponent(Strict):
     """The coil network, solved by ngspice."""
 
@@ -87,6 +126,9 @@ class CircuitComponent(Strict):
     string_resistance: Annotated[PhysicalValue, In("ohm", minimum=0.0)] = PhysicalValue(0.0, "ohm")
     open_coils: list[StrictInt] = Field(default=[], description="Coils that are open, counted from 1.")
     shorted_coils: list[StrictInt] = Field(default=[], description="Coils that are shorted, counted from 1.")
+    elements: list[CircuitElement] = Field(
+        default=[], description="Contacts, leads, inner resistances and current limits, in series."
+    )
     start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
 
 

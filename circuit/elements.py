@@ -1,0 +1,155 @@
+"""What a real coil network has beside its coils: contacts, leads that warm up, sources that are not ideal.
+
+Each element lies in series with a string or a source. A contact may come at an instant; the step in which it comes
+takes the part of it that lies after the instant, so that the heat does not depend on where steps end.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import Array, seconds
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A contact resistance in a string (R. Holm, Electric Contacts, 4th ed., Springer 1967, chapter 1).
+
+    Args:
+        string: String, from 1.
+        resistance: [ohm].
+        instant: Time from which on it is there [s]; None: always.
+    """
+
+    string: int
+    resistance: float
+    instant: float | None = None
+
+    def at(self, begin: int, end: int) -> float:
+        """Its resistance over a step from `begin` to `end` [ns]: the share that lies after the instant."""
+        if self.instant is None:
+            return self.resistance
+        size = max(seconds(end - begin), 1e-12)
+        return self.resistance * min(max((seconds(end) - self.instant) / size, 0.0), 1.0)
+
+
+@dataclass(frozen=True)
+class Lead:
+    """A lead that warms up with its current: R = rise I^2 in series with a string.
+
+    Args:
+        string: String, from 1.
+        rise: [ohm/A^2].
+    """
+
+    string: int
+    rise: float
+
+
+@dataclass(frozen=True)
+class SourceResistance:
+    """Inner resistance of a source (Thevenin), beside `supply_resistance`.
+
+    Args:
+        supply: Source, from 1.
+        resistance: [ohm].
+    """
+
+    supply: int
+    resistance: float
+
+
+@dataclass(frozen=True)
+class CurrentLimit:
+    """A source that lowers its voltage where its current would exceed a limit.
+
+    With the current I that would flow without it: I + share (min(I, limit) - I). Source: P. Horowitz and W. Hill, The
+    Art of Electronics, 3rd ed., Cambridge 2015, section 9.13.
+
+    Args:
+        supply: Source, from 1.
+        limit: [A].
+        share: 1: the limit holds; less: it gives way.
+    """
+
+    supply: int
+    limit: float
+    share: float = 1.0
+
+
+Element = Contact | Lead | SourceResistance | CurrentLimit
+
+
+def check(elements: Sequence[Element], strings: int, sources: int) -> None:
+    """Raise ValueError for an element at a place that does not exist, or that would give energy."""
+    for element in elements:
+        is_in_string = isinstance(element, Contact | Lead)
+        place = element.string if isinstance(element, Contact | Lead) else element.supply
+        count, what = (strings, "string") if is_in_string else (sources, "supply")
+        if not 1 <= place <= count:
+            raise ValueError(f"elements: there is no {what} {place}; they are numbered 1 to {count}")
+        numbers = {k: v for k, v in vars(element).items() if k not in ("string", "supply", "instant") and v is not None}
+        for name, number in numbers.items():
+            if not (math.isfinite(number) and number >= 0.0):
+                raise ValueError(f"elements: {name} of {what} {place} is {number:g}; it must be 0 or positive")
+        if isinstance(element, CurrentLimit) and (element.limit == 0.0 or element.share > 1.0):
+            raise ValueError(f"elements: the limit of supply {place} must be above 0 A and its share at most 1")
+
+
+@dataclass(frozen=True)
+class Series:
+    """Elements of a network, summed up by place.
+
+    Args:
+        elements: All elements.
+        strings: Number of strings.
+        sources: Number of sources.
+    """
+
+    elements: Sequence[Element]
+    strings: int
+    sources: int
+
+    def contacts(self, begin: int, end: int) -> Array:
+        """Resistance of the contacts of each string over a step [ohm], shape (strings,)."""
+        found = np.zeros(self.strings)
+        for element in self.elements:
+            if isinstance(element, Contact):
+                found[element.string - 1] += element.at(begin, end)
+        return found
+
+    def rises(self) -> Array:
+        """Sum of the rises of each string's leads [ohm/A^2], shape (strings,)."""
+        found = np.zeros(self.strings)
+        for element in self.elements:
+            if isinstance(element, Lead):
+                found[element.string - 1] += element.rise
+        return found
+
+    def source_resistances(self) -> Array:
+        """[ohm], shape (sources,)."""
+        found = np.zeros(self.sources)
+        for element in self.elements:
+            if isinstance(element, SourceResistance):
+                found[element.supply - 1] += element.resistance
+        return found
+
+    def lowered(self, voltage: Array, current: Array) -> Array:
+        """Voltages with which the limits are kept, by the currents that flow without; coils are linear in the voltage.
+
+        Args:
+            voltage: [V], shape (sources,).
+            current: Out of each source at that voltage [A], shape (sources,).
+        """
+        found = voltage.copy()
+        for element in self.elements:
+            if isinstance(element, CurrentLimit):
+                n = element.supply - 1
+                free = abs(float(current[n]))
+                if free > element.limit:
+                    found[n] = voltage[n] * (1.0 + element.share * (element.limit / free - 1.0))
+        return found
