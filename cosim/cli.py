@@ -18,6 +18,7 @@ from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
 from diagnosis.command import diagnose
+from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
@@ -36,6 +37,7 @@ app.add_typer(ssp.app, name="ssp")
 app.command()(compare)
 app.command()(record)
 app.command()(diagnose)
+app.command()(prove)
 
 ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
 

@@ -1,0 +1,1 @@
+"""Proof of the diagnosis on concealed effects: cases of the proving ground, diagnosed apart, scored, tabulated."""

@@ -1,0 +1,36 @@
+"""What the data of a case allow, for scoring: nothing of it reaches the diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Held-out chi-square per sample of models that know more or less than the diagnosis, on the same data.
+
+    Args:
+        case: Name of the case.
+        samples: Held-out samples that judge, by channel.
+        recalibrated: Of the recalibrated model without any term.
+        oracle: Of the model that knows the effects: recalibrated with the true terms at the true places; None where
+            the catalogue has no such terms.
+        floor: Of the readings without their noise: nothing can do better but by chance.
+        training_gain: Fall of -2 log posterior by the true terms in the training recordings, or None.
+        baselines: Of other methods, by name; not finite where they diverge.
+        terms: Number of terms that sparse regression reports.
+        seconds: Wall time by part.
+        failure: Why there is none of it.
+    """
+
+    case: str
+    samples: Mapping[str, int] = field(default_factory=dict)
+    recalibrated: float | None = None
+    oracle: float | None = None
+    floor: float | None = None
+    training_gain: float | None = None
+    baselines: Mapping[str, float] = field(default_factory=dict)
+    terms: int | None = None
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    failure: str = ""

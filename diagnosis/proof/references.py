@@ -1,0 +1,70 @@
+"""Computes the reference of a case, in whatever process it is asked for."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+import time as clock
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.proof.answer import read_answer
+from diagnosis.proof.isolated import Files, write_files
+from diagnosis.proof.oracle import floor, held_out_fits, judging_samples, oracle_fit, read_data
+from diagnosis.proof.reference import Reference
+from diagnosis.search.search import recalibrate
+from diagnosis.simulator.translate import NoBank
+
+
+def make_reference(case: str, files: Files, answer: Files, has_baselines: bool) -> Reference:
+    """What the data of a case allow.
+
+    Args:
+        case: Its name.
+        files: Its scenario, task and recordings.
+        answer: `<case>.json` and `<case>.npz`.
+        has_baselines: Whether other methods are tried too.
+    """
+    with tempfile.TemporaryDirectory(prefix="cosim_prove_") as name:
+        write_files(files, Path(name) / case)
+        write_files(answer, Path(name) / "answers")
+        try:
+            return _reference(Path(name) / case, Path(name) / "answers", has_baselines)
+        except NoBank as reason:
+            return Reference(case, failure=f"no reference: {reason}")
+
+
+def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
+    begin = clock.perf_counter()
+    answer = read_answer(answers / f"{folder.name}.json")
+    data = read_data(folder)
+    base = recalibrate(data.model)
+    known = oracle_fit(data, answer, base)
+    points = {"recalibrated": base.point} | ({"oracle": known.point} if known else {})
+    fits = held_out_fits(data, points)
+    samples = judging_samples(data)
+    clean = np.load(io.BytesIO((answers / f"{folder.name}.npz").read_bytes()))
+    found = Reference(
+        folder.name,
+        samples=samples,
+        recalibrated=_mean(fits, samples, "recalibrated"),
+        oracle=_mean(fits, samples, "oracle") if known else None,
+        floor=floor(data, clean),
+        training_gain=base.cost - known.cost if known else None,
+        seconds={"oracle": clock.perf_counter() - begin},
+    )
+    if has_baselines:
+        from diagnosis.proof.baselines import baselines  # needs scikit-learn and pysindy
+
+        values, terms, seconds = baselines(data, base)
+        found = replace(found, baselines=values, terms=terms, seconds={**found.seconds, **seconds})
+    return found
+
+
+def _mean(fits: list[ChannelFit], samples: Mapping[str, int], stage: str) -> float:
+    counts = np.array([samples[f.channel] for f in fits], dtype=np.float64)
+    return float(counts @ np.array([f.chi_square[stage] for f in fits]) / counts.sum())

@@ -1,0 +1,225 @@
+"""Scores one diagnosis against what was concealed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from diagnosis.judge.diagnosis import Diagnosis, Estimate, Finding
+from diagnosis.proof.answer import Answer, Concealed
+from diagnosis.proof.place import Rig, found_place, true_place
+from diagnosis.proof.reference import Reference
+
+#: An instant is right within this share of the recording: effects show only while something is driven.
+TIME_SHARE = 0.05
+#: An interval of an instant that is longer than this share of the recording says nothing.
+VAGUE_SHARE = 0.2
+#: Alternatives at least as probable as this belong to the ambiguity class that a diagnosis states.
+LEAST_PROBABLE = 0.01
+#: Held-out chi-square may be this much above that of the model that knows the effect.
+AS_GOOD_AS = 1.1
+#: Share of the possible held-out gain that counts as reached.
+ENOUGH_GAIN = 0.8
+#: -2 log likelihood that there must be to gain: less than the search's own floor is nothing.
+LEAST_GAIN = 12.0
+
+
+@dataclass(frozen=True)
+class EffectScore:
+    """How one concealed effect was found. None: the question does not arise.
+
+    Args:
+        effect: Identifier of the truth.
+        unit: Its unit.
+        strength: Of the truth.
+        is_known: Whether the diagnosis could have named it.
+        found: Identifier of the finding that was matched with it; empty: none.
+        found_unit: Unit of that.
+        found_place: Place of that.
+        gain: Of that.
+        is_unit_right: Whether the finding has its unit.
+        is_place_right: Whether the finding has its elements.
+        is_time_right: Whether the finding sets in when it does.
+        is_named: Whether the finding has its name.
+        is_in_class: Whether its name is in the finding's ambiguity class.
+        is_misnamed: Whether the finding has the name of another effect.
+        covered: For each true parameter that can be compared, whether the 95 % interval holds it.
+    """
+
+    effect: str
+    unit: str
+    strength: str
+    is_known: bool
+    found: str = ""
+    found_unit: str = ""
+    found_place: str = ""
+    gain: float = 0.0
+    is_unit_right: bool = False
+    is_place_right: bool = False
+    is_time_right: bool | None = None
+    is_named: bool | None = None
+    is_in_class: bool | None = None
+    is_misnamed: bool | None = None
+    covered: tuple[bool, ...] = ()
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Held-out chi-square per sample. None: not known, or the question does not arise.
+
+    Args:
+        after: Of the diagnosis's model.
+        ratio: To that of the model that knows the effect.
+        is_as_good: Whether the ratio is at most 1.1.
+        share: Of the possible gain over recalibration that was reached.
+        is_share_enough: Whether that is at least 80 %.
+    """
+
+    after: float | None = None
+    ratio: float | None = None
+    is_as_good: bool | None = None
+    share: float | None = None
+    is_share_enough: bool | None = None
+
+
+@dataclass(frozen=True)
+class Score:
+    """Score of one case.
+
+    Args:
+        verdict: Of the diagnosis; empty: none was made.
+        is_verdict_right: Whether it is one of the right ones.
+        is_false_alarm: Whether something was found where nothing is; None where something is.
+        effects: One per concealed effect.
+        spare: Findings that no concealed effect was matched with.
+        held_out: See there.
+    """
+
+    verdict: str
+    is_verdict_right: bool
+    is_false_alarm: bool | None
+    effects: tuple[EffectScore, ...]
+    spare: int
+    held_out: HeldOut
+
+
+def score(diagnosis: Diagnosis | None, answer: Answer, rig: Rig, reference: Reference, duration: float) -> Score:
+    """Score a case; without a diagnosis every question that arises is answered wrongly.
+
+    Args:
+        diagnosis: What was said, or None.
+        answer: The truth.
+        rig: What the case is made of.
+        reference: What the data allow.
+        duration: Of a recording [s].
+    """
+    findings = diagnosis.findings if diagnosis else ()
+    matched = _matched(answer.effects, findings, rig)
+    verdict = diagnosis.verdict.value if diagnosis else ""
+    return Score(
+        verdict=verdict,
+        is_verdict_right=verdict in answer.verdicts,
+        is_false_alarm=None if answer.effects else bool(findings) or diagnosis is None,
+        effects=tuple(_effect(t, f, rig, duration) for t, f in zip(answer.effects, matched)),
+        spare=len(findings) - sum(f is not None for f in matched),
+        held_out=_held_out(diagnosis, answer, reference),
+    )
+
+
+def _matched(truths: Sequence[Concealed], findings: Sequence[Finding], rig: Rig) -> list[Finding | None]:
+    """The finding that stands for each truth: of one truth the first, of several the assignment that agrees best."""
+    if len(truths) == 1:
+        return [findings[0] if findings else None]
+    likeness = np.array([[_likeness(t, f, rig) for f in findings] for t in truths]).reshape(len(truths), -1)
+    rows, columns = linear_sum_assignment(-likeness)
+    chosen = dict(zip(rows.tolist(), columns.tolist()))
+    return [findings[chosen[i]] if i in chosen else None for i in range(len(truths))]
+
+
+def _likeness(truth: Concealed, finding: Finding, rig: Rig) -> float:
+    is_place = found_place(finding.place, rig) == true_place(truth, rig)
+    return 4.0 * (truth.effect == finding.effect) + 2.0 * (truth.unit == finding.unit) + 1.0 * is_place
+
+
+def _effect(truth: Concealed, finding: Finding | None, rig: Rig, duration: float) -> EffectScore:
+    known = truth.is_known
+    if finding is None:
+        return EffectScore(
+            truth.effect, truth.unit, truth.strength, known, is_time_right=None if truth.instant is None else False,
+            is_named=False if known else None, is_in_class=False if known else None,
+            is_misnamed=None if known else False,
+        )  # fmt: skip
+    is_named = finding.effect == truth.effect
+    is_place = found_place(finding.place, rig) == true_place(truth, rig)
+    return EffectScore(
+        truth.effect, truth.unit, truth.strength, known,
+        found=finding.effect, found_unit=finding.unit, found_place=finding.place, gain=finding.gain,
+        is_unit_right=finding.unit == truth.unit,
+        is_place_right=is_place,
+        is_time_right=None if truth.instant is None else _is_time_right(truth.instant, finding, duration),
+        is_named=is_named if known else None,
+        is_in_class=truth.effect in ambiguity_class(finding) if known else None,
+        is_misnamed=None if known else finding.is_named,
+        covered=_covered(truth, finding) if is_named and is_place else (),
+    )  # fmt: skip
+
+
+def ambiguity_class(finding: Finding) -> set[str]:
+    """Effects that a finding says it may be."""
+    likely = {a.effect for a in finding.alternatives if a.probability >= LEAST_PROBABLE}
+    return {finding.effect, *finding.ambiguous_with} | likely
+
+
+def _is_time_right(instant: float, finding: Finding, duration: float) -> bool:
+    """Whether the stated instant, or else the begin of the time in which it shows, is the true one."""
+    stated = next((p for p in finding.parameters if p.name == "instant"), None)
+    if stated is not None:
+        is_near = abs(stated.value - instant) <= TIME_SHARE * duration
+        is_vague = stated.upper - stated.lower > VAGUE_SHARE * duration
+        return is_near or (_holds(stated, instant) and not is_vague)
+    begins = [begin for begin, _ in finding.intervals]
+    return bool(begins) and abs(min(begins) - instant) <= TIME_SHARE * duration
+
+
+def _covered(truth: Concealed, finding: Finding) -> tuple[bool, ...]:
+    stated = {p.name: p for p in finding.parameters}
+    return tuple(_holds(stated[n], truth.parameters[n]) for n in truth.comparable if n in stated)
+
+
+def _holds(estimate: Estimate, value: float) -> bool:
+    return estimate.lower <= value <= estimate.upper
+
+
+def held_out_chi_square(diagnosis: Diagnosis, samples: dict[str, int], stage: str = "after") -> float | None:
+    """Mean over all held-out samples; None where a channel has no finite figure."""
+    fits = [f for f in diagnosis.fit if f.is_held_out]
+    counts = np.array([f.samples or samples.get(f.channel, 0) for f in fits], dtype=np.float64)
+    values = np.array([f.chi_square.get(stage, np.nan) for f in fits], dtype=np.float64)
+    if not counts.sum() or not np.isfinite(values).all():
+        return None
+    return float(counts @ values / counts.sum())
+
+
+def _held_out(diagnosis: Diagnosis | None, answer: Answer, reference: Reference) -> HeldOut:
+    after = held_out_chi_square(diagnosis, dict(reference.samples)) if diagnosis else None
+    is_asked = reference.oracle is not None
+    ratio = after / reference.oracle if after is not None and reference.oracle else None
+    is_as_good = (ratio is not None and ratio <= AS_GOOD_AS) if is_asked else None
+    share, is_enough = _share(after, answer, reference)
+    return HeldOut(after, ratio, is_as_good, share, is_enough)
+
+
+def _share(after: float | None, answer: Answer, reference: Reference) -> tuple[float | None, bool | None]:
+    """Share of the possible gain; only for effects without a name, and where there is something to gain."""
+    if answer.kind not in ("outside", "leave_one_out") or reference.recalibrated is None:
+        return None, None
+    best = reference.oracle if reference.oracle is not None else reference.floor
+    if best is None or (reference.recalibrated - best) * sum(reference.samples.values()) < LEAST_GAIN:
+        return None, None
+    if after is None:
+        return 0.0, False
+    share = (reference.recalibrated - after) / (reference.recalibrated - best)
+    return share, share >= ENOUGH_GAIN

@@ -1,0 +1,124 @@
+"""Work on cases side by side, over Dask: in processes of this machine or on any cluster."""
+
+from __future__ import annotations
+
+import importlib
+import logging
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from cosim.errors import InputError
+
+#: Time in which a cluster must answer [s].
+CONNECT_TIME = 30.0
+#: Cases that wait at each worker: files of cases travel with them, so only a few are under way.
+WAITING = 2
+
+#: Makes the arguments of a case's work, when its turn comes.
+Given = Callable[[], tuple[Any, ...]]
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A case whose work ended in an exception, or with the death of its process."""
+
+    message: str
+
+
+@dataclass
+class Workers:
+    """Processes that work on cases.
+
+    Args:
+        client: Dask's client; None: work is done in this process.
+        count: How many.
+    """
+
+    client: Any
+    count: int
+
+    def results(self, work: Callable[..., Any], tasks: Mapping[str, Given]) -> Iterator[tuple[str, Any]]:
+        """Results by case as they become ready; `Lost` where there is none.
+
+        Args:
+            work: Function of a module.
+            tasks: Case to what makes its arguments.
+        """
+        if self.client is None:
+            for case, given in tasks.items():
+                yield case, _tried(work, given)
+            return
+        yield from self._spread(work, tasks)
+
+    def _spread(self, work: Callable[..., Any], tasks: Mapping[str, Given]) -> Iterator[tuple[str, Any]]:
+        left = iter(tasks.items())
+        names: dict[str, str] = {}
+
+        def submit(case: str, given: Given) -> Any:
+            future = self.client.submit(work, *given(), pure=False)
+            names[future.key] = case
+            return future
+
+        first = [submit(*task) for _, task in zip(range(WAITING * self.count), left)]
+        ready = _distributed().as_completed(first)
+        try:
+            for future in ready:
+                case = names.pop(future.key)
+                yield case, _tried(future.result, tuple)
+                future.release()
+                following = next(left, None)
+                if following is not None:
+                    ready.add(submit(*following))
+        finally:
+            self.client.cancel([f for f in first if not f.done()], force=True)
+
+
+def _tried(work: Callable[..., Any], given: Given) -> Any:
+    try:
+        return work(*given())
+    except Exception as error:  # a case that fails must be counted, whatever it was
+        return Lost(f"{type(error).__name__}: {error}")
+
+
+@contextmanager
+def workers(jobs: int, address: str | None = None) -> Iterator[Workers]:
+    """Workers of this machine, or of a cluster.
+
+    Args:
+        jobs: Processes on this machine, one thread each; one alone needs no cluster.
+        address: Of a running Dask scheduler; `jobs` does not matter then.
+
+    Raises:
+        InputError: The cluster does not answer or has no workers.
+    """
+    if address is None and jobs == 1:
+        yield Workers(None, 1)
+        return
+    dask = _distributed()
+    if address is not None:
+        try:
+            client = dask.Client(address, timeout=CONNECT_TIME)
+        except (OSError, TimeoutError, ValueError) as error:
+            raise _unreachable(address, error) from error
+        with client:
+            if not client.nthreads():
+                raise _unreachable(address, "it has no workers")
+            yield Workers(client, sum(client.nthreads().values()))
+        return
+    with dask.LocalCluster(
+        n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0,
+        silence_logs=logging.CRITICAL,
+    ) as cluster, dask.Client(cluster) as client:  # fmt: skip
+        yield Workers(client, jobs)
+
+
+def _distributed() -> Any:
+    """Dask's package, late: it takes half a second, which one worker need not spend."""
+    return importlib.import_module("distributed")
+
+
+def _unreachable(address: str, why: object) -> InputError:
+    return InputError("--cluster", "", f"the cluster at {address} does not answer: {why}",
+                      "give the address that `dask scheduler` prints, with workers of this version")  # fmt: skip
