@@ -133,7 +133,9 @@ def _matched(truths: Sequence[Concealed], findings: Sequence[Finding], rig: Rig)
     """The finding that stands for each truth: of one truth the first, of several the assignment that agrees best."""
     if len(truths) == 1:
         return [findings[0] if findings else None]
-    likeness = np.array([[_likeness(t, f, rig) for f in findings] for t in truths]).reshape(len(truths), -1)
+    if not truths or not findings:
+        return [None] * len(truths)
+    likeness = np.array([[_likeness(t, f, rig) for f in findings] for t in truths])
     rows, columns = linear_sum_assignment(-likeness)
     chosen = dict(zip(rows.tolist(), columns.tolist()))
     return [findings[chosen[i]] if i in chosen else None for i in range(len(truths))]
