@@ -27,7 +27,8 @@ def diagnose(
     """Find out what a model leaves out, by recordings of the real thing.
 
     Nothing is fitted to recordings that are held out; they judge. Coil networks with hanging loads and lumped heaters
-    can be diagnosed so far; a fabric in Bullet is refused in words.
+    are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
+    longer.
     """
     from diagnosis.curves import curves  # late: `--help` must not load Bullet
     from diagnosis.diagnose import Means
@@ -38,6 +39,7 @@ def diagnose(
     from diagnosis.report.page import write_html
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
+    from diagnosis.simulator.models import strings_of
 
     if (out / "diagnosis.json").exists():
         raise InputError(out, "", "this folder already holds a diagnosis", "give another folder with `--out`")
@@ -54,7 +56,7 @@ def diagnose(
         status.update("writing")
         out.mkdir(parents=True, exist_ok=True)
         write_json(found.diagnosis, out / "diagnosis.json")
-        network = Network(found.training.coils.strings)
+        network = Network(strings_of(base))
         write_html(found.diagnosis, curves(found), out / "report.html", network, base.title)
     print_summary(found.diagnosis, Console())
     print(out / "report.html")

@@ -9,7 +9,7 @@ import numpy as np
 from diagnosis.diagnose import Found
 from diagnosis.report.series import Series
 from diagnosis.search.problem import Point
-from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel
 
 #: Channels drawn, of those fitted and of those held out.
 DRAWN = 3
@@ -21,7 +21,7 @@ def curves(found: Found) -> list[Series]:
     return drawn + _worst(found, found.training, found.points, False)
 
 
-def _worst(found: Found, model: BankModel, points: Mapping[str, Point], is_held_out: bool) -> list[Series]:
+def _worst(found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool) -> list[Series]:
     fits = [f for f in found.diagnosis.fit if f.is_held_out is is_held_out]
     order = sorted(range(len(fits)), key=lambda i: -fits[i].chi_square["recalibrated"])[:DRAWN]
     place = [(run, number) for run in range(len(model.runs)) for number in range(len(model.runs[run].series))]

@@ -19,8 +19,8 @@ from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings, search
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.translate import NoBank, not_for_bank
+from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.unit_laws import identifiers
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Means:
         Raises:
             InputError: There is no candidate of a name that is to be left out.
         """
-        unknown = sorted(set(self.without) - {c.identifier for c in catalogue()})
+        unknown = sorted(set(self.without) - {c.identifier for c in catalogue()} - identifiers())
         if unknown:
             raise InputError("--without", "", f"the catalogue has no effect `{unknown[0]}`",
                              "docs/candidates.md lists their identifiers")  # fmt: skip
@@ -61,8 +61,8 @@ class Found:
     """
 
     diagnosis: Diagnosis
-    training: BankModel
-    judge: BankModel | None
+    training: DiagnosisModel
+    judge: DiagnosisModel | None
     points: Mapping[str, Point]
     held_out_points: Mapping[str, Point]
 
@@ -85,12 +85,9 @@ def diagnose(
         InputError: A recording does not fit the scenario, or the scenario is none that can be diagnosed.
     """
     begin = clock.perf_counter()
-    try:
-        known = means.catalogue()
-        model = BankModel(scenario, training, known, means.threads)
-        judge = BankModel(scenario, held_out, known, means.threads) if held_out else None
-    except NoBank as reason:
-        raise not_for_bank(scenario.path, reason) from reason
+    known = means.catalogue()
+    model = model_of(scenario, training, known, means.threads, means.without)
+    judge = model_of(scenario, held_out, known, means.threads, means.without) if held_out else None
     terms = model.terms()
     outcome = search(model, terms, settings, model.groups(), on_progress)
     word = verdict(outcome, nominal_cost(model))

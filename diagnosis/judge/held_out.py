@@ -11,13 +11,13 @@ from diagnosis.judge.diagnosis import ChannelFit
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.structure import WINDOWS
-from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel
 
 #: The three models that are compared.
 STAGES = ("before", "recalibrated", "after")
 
 
-def carried_over(point: Point, trained: BankModel, other: BankModel) -> Point:
+def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -> Point:
     """A fitted point for other recordings: what belongs to a day (its ambient) is taken as the scenario has it.
 
     Nothing is fitted to held-out recordings, not even their ambient temperature.
@@ -29,7 +29,7 @@ def carried_over(point: Point, trained: BankModel, other: BankModel) -> Point:
 
 
 def channel_fits(
-    model: BankModel, recordings: Sequence[Recording], points: Mapping[str, Point], is_held_out: bool
+    model: DiagnosisModel, recordings: Sequence[Recording], points: Mapping[str, Point], is_held_out: bool
 ) -> list[ChannelFit]:
     """Fit of every channel at several points.
 

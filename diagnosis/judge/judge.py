@@ -9,7 +9,7 @@ from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
 from diagnosis.search.fit import Fit, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -55,14 +55,14 @@ def _log_volume(fit: Fit) -> float:
     return extra * float(np.log(len(fit.residuals)))
 
 
-def findings(model: BankModel, outcome: Outcome) -> tuple[Finding, ...]:
+def findings(model: DiagnosisModel, outcome: Outcome) -> tuple[Finding, ...]:
     """Effects of the accepted explanation, the largest gain first."""
     best = outcome.best
     ordered = sorted(best.terms, key=lambda t: -best.gains.get(t, 0.0))
     return tuple(_finding(model, outcome, term) for term in ordered)
 
 
-def _finding(model: BankModel, outcome: Outcome, term: Term) -> Finding:
+def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
     candidate, place = model.where(term)
     fit = outcome.best.fit
     alternatives, probability = _alternatives(outcome, term)
@@ -120,14 +120,14 @@ def estimates(fit: Fit, term: Term) -> tuple[Estimate, ...]:
     return tuple(found)
 
 
-def _elements(model: BankModel, term: Term) -> tuple[str, ...]:
+def _elements(model: DiagnosisModel, term: Term) -> tuple[str, ...]:
     local = model.shows_in(term)
     if local is None:
         return (term.place,)
     return tuple(dict.fromkeys(model.layout.names[c].split(".")[0] for c in local[0])) or (term.place,)
 
 
-def _intervals(model: BankModel, effect: Array) -> tuple[tuple[float, float], ...]:
+def _intervals(model: DiagnosisModel, effect: Array) -> tuple[tuple[float, float], ...]:
     """Times in which nine tenths of the effect lie, as few pieces as there are gaps of a tenth of the recording."""
     layout = model.layout
     times = np.unique(layout.time)
@@ -142,14 +142,14 @@ def _intervals(model: BankModel, effect: Array) -> tuple[tuple[float, float], ..
     return tuple((float(kept[a]), float(kept[b])) for a, b in zip(begins, ends))
 
 
-def _channels(model: BankModel, effect: Array) -> tuple[str, ...]:
+def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     """Channels in which the effect is largest, down to a tenth of the largest, at most twelve."""
     strength = np.bincount(np.asarray(model.layout.channel, dtype=int), effect**2, minlength=len(model.layout.names))
     order = np.argsort(-strength)
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
-def recalibration(model: BankModel, fit: Fit) -> dict[str, float]:
+def recalibration(model: DiagnosisModel, fit: Fit) -> dict[str, float]:
     """Parameters that moved by more than `MOVED` prior deviations: factor where relative, change where not."""
     moved = {}
     for parameter, z in zip(model.parameters, fit.point.base):
@@ -159,7 +159,7 @@ def recalibration(model: BankModel, fit: Fit) -> dict[str, float]:
     return moved
 
 
-def nominal_cost(model: BankModel) -> float:
+def nominal_cost(model: DiagnosisModel) -> float:
     """-2 log posterior of the model as the scenario has it."""
     base = np.zeros(len(model.parameters))
     return cost(model.residuals([Point(base)])[0], base)

@@ -1,0 +1,30 @@
+"""A law that a unit can switch on itself, with what it says about itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from diagnosis.search.cosim_model import ComponentTerm
+
+
+@dataclass(frozen=True)
+class UnitLaw:
+    """See `diagnosis.simulator.models.Effect`.
+
+    Args:
+        place: The law in its component.
+        name: In plain words.
+        source: Where the law comes from.
+        confused_with: Identifiers that data often cannot tell from it, with what decides.
+    """
+
+    place: ComponentTerm
+    name: str
+    source: str = ""
+    confused_with: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def law(self) -> str:
+        """Formula."""
+        return self.place.term.law

@@ -1,0 +1,114 @@
+"""Any scenario with its recordings, simulated by the closed co-simulation, with the laws that its units may lack."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cosim.scenario import Scenario
+from cosim.unit import AnyArray, Array
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.cosim_model import CosimModel, free_parameters
+from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.search.unit_law import UnitLaw
+from diagnosis.simulator.unit_laws import laws_of
+
+
+@dataclass(frozen=True)
+class Component:
+    """A place: a component of the scenario."""
+
+    label: str
+
+
+@dataclass(frozen=True)
+class ComparedSeries:
+    """See `diagnosis.simulator.models.Series`."""
+
+    channel: Channel
+    samples: AnyArray
+    used: AnyArray
+
+
+@dataclass(frozen=True)
+class ComparedRun:
+    """See `diagnosis.simulator.models.RecordedRun`."""
+
+    series: tuple[ComparedSeries, ...]
+
+
+class ClosedLoopModel:
+    """See `diagnosis.simulator.models.DiagnosisModel`.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        without: Laws that it must not know.
+
+    Raises:
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+
+    def __init__(self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str] = ()) -> None:
+        self._laws = {law.place.term: law for law in laws_of(scenario) if law.place.term.identifier not in without}
+        recordings = [_with_rounding(r) for r in recordings]
+        free = free_parameters(scenario, recordings)
+        self.model = CosimModel(scenario, recordings, free, [law.place for law in self._laws.values()])
+        self.runs = [_compared(r) for r in recordings]
+        self.parameters: Sequence[Parameter] = self.model.parameters
+        self.layout: Layout = self.model.layout
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far."""
+        return self.model.runs
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.model.residuals(points)
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.model.base_jacobian(point)
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing."""
+        return list(self._laws)
+
+    def where(self, term: Term) -> tuple[UnitLaw, Component]:
+        """Law and component of a term."""
+        law = self._laws[term]
+        return law, Component(law.place.component)
+
+    def shows_in(self, term: Term) -> None:
+        """A law of a unit is not local to a channel."""
+        return
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """No channels are looked at together."""
+        return {}
+
+    def predict(self, point: Point, run: int) -> list[Array]:
+        """Simulated values of every channel of a recording at its samples, SI."""
+        found = self.model.predict(point, run)
+        if found is None:
+            return [np.full(len(s.samples), np.inf) for s in self.runs[run].series]
+        return list(found)
+
+
+def _compared(recording: Recording) -> ComparedRun:
+    channels = recording.channels.values()
+    return ComparedRun(tuple(ComparedSeries(c, np.arange(len(c.times)), ~c.is_clipped) for c in channels))
+
+
+def _with_rounding(recording: Recording) -> Recording:
+    """Rounding is noise too, where the noise that is given is that of the sensor alone."""
+    channels = {
+        name: replace(c, deviation=float(np.hypot(c.deviation, c.quantum / np.sqrt(12.0))))
+        if c.is_deviation_given
+        else c
+        for name, c in recording.channels.items()
+    }
+    return replace(recording, channels=channels)

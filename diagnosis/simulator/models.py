@@ -1,0 +1,147 @@
+"""The model that the search varies, for any scenario: by the coil bank where there is one, else by co-simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol, runtime_checkable
+
+from cosim.components import CircuitComponent
+from cosim.scenario import Scenario
+from cosim.unit import AnyArray, Array
+from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.translate import NoBank, translate
+
+
+class Effect(Protocol):
+    """What a law says about itself."""
+
+    @property
+    def name(self) -> str:
+        """In plain words."""
+        ...
+
+    @property
+    def law(self) -> str:
+        """Formula."""
+        ...
+
+    @property
+    def confused_with(self) -> Mapping[str, str]:
+        """Identifiers that data often cannot tell from it, with what decides."""
+        ...
+
+
+class Spot(Protocol):
+    """Where a law acts."""
+
+    @property
+    def label(self) -> str:
+        """For people."""
+        ...
+
+
+class Series(Protocol):
+    """One channel of one recording, as the model samples it."""
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
+        ...
+
+    @property
+    def samples(self) -> AnyArray:
+        """One number for each sample that is compared; they are the last ones of the channel."""
+        ...
+
+    @property
+    def used(self) -> AnyArray:
+        """Which of them count, shape (samples,)."""
+        ...
+
+
+class RecordedRun(Protocol):
+    """One recording."""
+
+    @property
+    def series(self) -> Sequence[Series]:
+        """Its channels."""
+        ...
+
+
+@runtime_checkable
+class DiagnosisModel(Protocol):
+    """What `diagnosis.search.problem.Model` has, and what judging and reporting need besides."""
+
+    parameters: Sequence[Parameter]
+    layout: Layout
+
+    @property
+    def runs(self) -> Sequence[RecordedRun]:
+        """One for each recording, in order."""
+        ...
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far."""
+        ...
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        ...
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        ...
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing, at every place."""
+        ...
+
+    def where(self, term: Term) -> tuple[Effect, Spot]:
+        """What a term says about itself, and where it acts."""
+        ...
+
+    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
+        """See `diagnosis.search.focus.Local`."""
+        ...
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """Channels that are looked at together, by name."""
+        ...
+
+    def predict(self, point: Point, run: int) -> Sequence[Array]:
+        """Simulated values of every channel of a recording at its samples, SI; infinite where that is impossible."""
+        ...
+
+
+def model_of(
+    scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2,
+    without: Sequence[str] = (),
+) -> DiagnosisModel:  # fmt: skip
+    """The fastest model that simulates a scenario.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        catalogue: Candidates of the coil bank.
+        threads: Simulations at the same time.
+        without: Laws of units that the model must not know.
+
+    Raises:
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+    try:
+        translate(scenario)
+    except NoBank:
+        return ClosedLoopModel(scenario, recordings, without)
+    return BankModel(scenario, recordings, catalogue, threads)
+
+
+def strings_of(scenario: Scenario) -> tuple[int, ...]:
+    """Coils of every string of the scenario's circuit; empty where it has none."""
+    circuits = [c for c in scenario.components.values() if isinstance(c, CircuitComponent)]
+    return tuple(circuits[0].strings) if circuits else ()
