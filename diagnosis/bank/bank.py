@@ -109,11 +109,22 @@ class Bank:
         Returns:
             As `simulate`, with the set as first dimension.
         """
+        plan, out = self.simulate_flat(parameters, inputs, times, threads)
+        return plan.split(out)
+
+    def simulate_flat(
+        self,
+        parameters: Sequence[BankParameters],
+        inputs: BankInputs,
+        times: Array | Mapping[str, Array],
+        threads: int = 1,
+    ) -> tuple[Plan, Array]:
+        """As `simulate_batch`, but the outputs as they are laid out, shape (sets, plan.out_size)."""
         plan = self.plan(inputs, times)
         active: frozenset[str] = frozenset().union(*(active_terms(self.terms, p) for p in parameters))
         packing = self.packing(active)
         vectors = np.stack([pack(packing, self.terms, p) for p in parameters])
-        return plan.split(self.run(plan, packing, vectors, threads))
+        return plan, self.run(plan, packing, vectors, threads)
 
     def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
         """Inputs and samples ready for `run`."""

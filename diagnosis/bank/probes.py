@@ -12,7 +12,8 @@ from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import Array, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import Place
-from diagnosis.bank.sensitivities import Direction, sensitivities
+from diagnosis.bank.plan import Plan
+from diagnosis.bank.sensitivities import Direction, flat_sensitivities
 from diagnosis.candidates.candidate import CandidateTerm
 
 
@@ -60,24 +61,46 @@ def probe_sensitivities(
     Raises:
         BankError: A value stopped being finite.
     """
+    plan, base, slopes = _probed(bank, parameters, inputs, times, probe, threads)
+    outputs, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(slopes)
+    for found in (outputs, derivatives):
+        found.pop("string_share", None)
+    return outputs, derivatives
+
+
+def flat_probe_sensitivities(
+    bank: Bank,
+    parameters: BankParameters,
+    inputs: BankInputs,
+    times: Array | Mapping[str, Array],
+    probe: Probe,
+    threads: int = 1,
+) -> Array:  # fmt: skip
+    """Derivatives as in `probe_sensitivities`, as the bank lays them out: shape (places, out_size)."""
+    return _probed(bank, parameters, inputs, times, probe, threads)[2]
+
+
+def _probed(
+    bank: Bank, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array], probe: Probe,
+    threads: int,
+) -> tuple[Plan, Array, Array]:  # fmt: skip
     term = probe.term
-    is_swap = [place.kind == "swap" for place in probe.places]
-    direct = [p for p, swap in zip(probe.places, is_swap) if not swap]
-    at = (
-        parameters.with_term(term.identifier, **_values(bank.layout, parameters, probe, direct))
-        if direct
-        else parameters
-    )
+    direct = [n for n, p in enumerate(probe.places) if p.kind != "swap"]
+    at = parameters
+    if direct:
+        found = [probe.places[n] for n in direct]
+        at = parameters.with_term(term.identifier, **_values(bank.layout, parameters, probe, found))
     name = f"{term.identifier}.{term.amplitude.name}"
-    directions = [Direction(name, place.mask, probe.step, is_central=False) for place in direct]
-    base, slopes = sensitivities(bank, at, inputs, times, directions, threads)
-    for quantity, values in slopes.items():
-        whole = np.zeros((len(probe.places), *values.shape[1:]))
-        whole[np.flatnonzero(~np.array(is_swap, dtype=bool))] = values
-        slopes[quantity] = whole
-    for n in (i for i, swap in enumerate(is_swap) if swap):
-        _exchange(bank.layout, base, slopes, probe.places[n].mask, n)
-    return base, slopes
+    directions = [Direction(name, probe.places[n].mask, probe.step, is_central=False) for n in direct]
+    plan, base, slopes = flat_sensitivities(bank, at, inputs, times, directions, threads)
+    if len(direct) == len(probe.places):
+        return plan, base, slopes
+    whole = np.zeros((len(probe.places), plan.out_size))
+    whole[direct] = slopes
+    outputs, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(whole)
+    for n in set(range(len(probe.places))) - set(direct):
+        _exchange(bank.layout, outputs, derivatives, probe.places[n].mask, n)
+    return plan, base, whole
 
 
 def _values(

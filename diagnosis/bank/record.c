@@ -32,6 +32,25 @@ static double find_crossing(const double *up, const double *down)
     return high;
 }
 
+/* The same where it is known to lie near `guess`; not a number if it does not. */
+static double crossing_near(double guess, const double *up, const double *down)
+{
+#define GAP(x) (gompertz(down[0], down[1], down[2], down[3], x) - gompertz(up[0], up[1], up[2], up[3], x))
+    double low = guess - 2.0, high = guess + 2.0;
+    if (!isfinite(guess) || guess < 2.0 - CELSIUS || !(GAP(high) < 0.0) || GAP(low) < 0.0) {
+        return NAN;
+    }
+    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
+        if (GAP(middle) < 0.0) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+#undef GAP
+    return high;
+}
+
 static void find_crossings(Step *s)
 {
     double last[8] = {NAN};
@@ -40,7 +59,12 @@ static void find_crossings(Step *s)
         for (int64_t j = 0; j < 8; j++) {
             shape[j] = COIL(heating_a)[j * s->width + i]; /* heating_a to cooling_d follow each other */
         }
-        s->crossing[i] = i > 0 && !memcmp(shape, last, sizeof shape) ? s->crossing[i - 1] : find_crossing(shape, shape + 4);
+        if (i > 0 && !memcmp(shape, last, sizeof shape)) {
+            s->crossing[i] = s->crossing[i - 1];
+        } else {
+            const double near = i > 0 ? crossing_near(s->crossing[i - 1], shape, shape + 4) : NAN;
+            s->crossing[i] = isfinite(near) ? near : find_crossing(shape, shape + 4);
+        }
         memcpy(last, shape, sizeof shape);
     }
 }

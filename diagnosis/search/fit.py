@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -15,8 +16,41 @@ from diagnosis.search.problem import Model, Point, Term
 HUBER = 4.0
 #: Relative step of the differences by which a term's parameters are varied.
 STEP = 1e-3
-#: A fit ends when -2 log posterior falls by less than this share of itself plus 1 in an iteration.
+#: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
 TOLERANCE = 1e-6
+#: Derivatives by the model's own parameters are taken anew where a step gains less than this share of what they promise.
+TRUSTED = 0.6
+#: ... or where a parameter moved by more than this since [prior deviations]; less where they disappoint.
+MOVED, NEAR = 1.5, 0.2
+
+
+def huber_weights(residuals: Array) -> Array:
+    """Square roots of the weights with which residuals enter a linearised fit."""
+    size = np.abs(residuals)
+    return np.sqrt(np.where(size > HUBER, HUBER / np.maximum(size, HUBER), 1.0))
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Derivatives of the residuals by z.
+
+    Args:
+        values: Shape (residuals, parameters).
+        at: z at which they were taken, shape (parameters,).
+        normal: values' W^2 values with the Huber weights W there, shape (parameters, parameters).
+        weights: W, shape (residuals,).
+    """
+
+    values: Array
+    at: Array
+    normal: Array
+    weights: Array
+
+    @staticmethod
+    def of(values: Array, at: Array, residuals: Array) -> Columns:
+        weights = huber_weights(residuals)
+        weighted = values * weights.astype(values.dtype)[:, None]
+        return Columns(values, at.copy(), np.asarray(weighted.T @ weighted, dtype=np.float64), weights)
 
 
 @dataclass(frozen=True)
@@ -27,30 +61,39 @@ class Fit:
         point: Values found.
         cost: -2 log posterior, up to a constant.
         residuals: Shape (residuals,), before the Huber weight.
-        jacobian: Of residuals and prior by z and term parameters, with Huber weights, shape
-            (residuals + parameters, parameters + term parameters).
+        columns: Derivatives of the residuals by z; they may have been taken near the point and not at it.
+        term_columns: Derivatives of the residuals by the parameters of the terms, shape (residuals, term parameters).
         is_converged: Whether the search for the minimum ended there.
     """
 
     point: Point
     cost: float
     residuals: Array
-    jacobian: Array
+    columns: Columns
+    term_columns: Array
     is_converged: bool
 
-    @property
+    @cached_property
+    def jacobian(self) -> Array:
+        """Of the residuals by z and term parameters, shape (residuals, parameters + term parameters)."""
+        return np.hstack([self.columns.values, self.term_columns.astype(self.columns.values.dtype)])
+
+    @cached_property
+    def information(self) -> Array:
+        """Normal matrix of residuals and prior with Huber weights, shape (free, free)."""
+        weighted = self.jacobian * huber_weights(self.residuals).astype(self.jacobian.dtype)[:, None]
+        normal = np.asarray(weighted.T @ weighted, dtype=np.float64)
+        base = np.arange(len(self.point.base))
+        normal[base, base] += 1.0
+        return normal
+
+    @cached_property
     def covariance(self) -> Array:
         """Of z and the term parameters, shape (free, free); infinite where the data say nothing."""
-        normal = self.jacobian.T @ self.jacobian
+        normal = self.information
         scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
         inverse = np.linalg.pinv(normal / np.outer(scale, scale), hermitian=True)
         return np.asarray(inverse / np.outer(scale, scale))
-
-
-def huber_weights(residuals: Array) -> Array:
-    """Square roots of the weights with which residuals enter a linearised fit."""
-    size = np.abs(residuals)
-    return np.sqrt(np.where(size > HUBER, HUBER / np.maximum(size, HUBER), 1.0))
 
 
 def cost(residuals: Array, base: Array) -> float:
@@ -60,7 +103,7 @@ def cost(residuals: Array, base: Array) -> float:
 
 
 class _Objective:
-    """Residuals and Jacobian over z and the parameters of the terms, in scaled coordinates."""
+    """Residuals and their derivatives over z and the parameters of the terms, in scaled coordinates."""
 
     def __init__(self, model: Model, terms: Sequence[Term]) -> None:
         self.model, self.terms = model, list(terms)
@@ -94,10 +137,13 @@ class _Objective:
     def cost(self, x: Array, residuals: Array) -> float:
         return cost(residuals, x[: self.count])
 
-    def jacobian(self, x: Array, here: Array) -> Array:
-        """Of the residuals by x, with Huber weights, and of the prior below, shape (residuals + parameters, free)."""
-        point = self.point(x)
-        columns = [self.model.base_jacobian(point)]
+    def base_columns(self, x: Array) -> Array:
+        """Derivatives by z, shape (residuals, parameters)."""
+        found = self.model.base_jacobian(self.point(x))
+        return found if np.isfinite(found).all() else np.where(np.isfinite(found), found, 0.0)
+
+    def term_columns(self, x: Array, here: Array) -> Array:
+        """Derivatives by the terms' scaled parameters, shape (residuals, term parameters)."""
         steps, moved = [], []
         for i in range(self.count, len(x)):
             step = STEP * max(abs(x[i]), 1.0)
@@ -106,12 +152,10 @@ class _Objective:
             other[i] += step
             moved.append(self.point(other))
             steps.append(step)
-        if moved:
-            columns.append(((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T)
-        found = np.hstack(columns)
-        prior = np.zeros((self.count, len(x)))
-        prior[:, : self.count] = np.eye(self.count)
-        return np.vstack([np.where(np.isfinite(found), found, 0.0) * huber_weights(here)[:, None], prior])
+        if not moved:
+            return np.zeros((len(here), 0))
+        found = ((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T
+        return np.where(np.isfinite(found), found, 0.0)
 
 
 def _scale(starts: Sequence[float], width: float) -> float:
@@ -121,62 +165,101 @@ def _scale(starts: Sequence[float], width: float) -> float:
     return width if np.isfinite(width) else 1.0
 
 
-def fit(model: Model, start: Point, iterations: int = 60) -> Fit:
+def fit(model: Model, start: Point, iterations: int = 60, near: Fit | None = None) -> Fit:
     """Fit all parameters of the model and of the terms in `start`, from there.
 
     Levenberg-Marquardt on the normal equations, which the prior keeps well conditioned; bounds are kept by leaving out
-    what would pass them.
+    what would pass them. Derivatives by the terms' parameters are fresh in every iteration; those by the model's own
+    parameters, of which there are hundreds, are kept as long as steps gain what they promise (a chord method).
 
     Args:
         model: Model and recordings.
         start: Where the search begins; its terms are those that are fitted.
-        iterations: Most Jacobians.
+        iterations: Most steps.
+        near: A fit whose derivatives by the model's own parameters are good enough to begin with.
 
     Returns:
         The fit, converged or not: it says so.
 
-    Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7.
+    Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7; chord: Kelley,
+    Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 5.4.
     """
     objective = _Objective(model, list(start.terms))
     x = objective.vector(start)
     here = objective.residuals(x)
+    count = objective.count
+    if near is None:
+        columns = Columns.of(objective.base_columns(x), x[:count], here)
+    else:
+        columns = near.columns
+    is_fresh, poor = near is None, 0
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
+    terms = objective.term_columns(x, here)
     for _ in range(iterations):
-        jacobian = objective.jacobian(x, here)
-        weighted = np.concatenate([huber_weights(here) * here, x[: objective.count]])
-        normal, slope = jacobian.T @ jacobian, jacobian.T @ weighted
-        before = value
-        x, here, value, damping = _descend(objective, (x, here, value), (normal, slope), damping)
-        if before - value <= TOLERANCE * (1.0 + before):
+        other, there, gained, promised, damping = _descend(objective, (x, here, value), (columns, terms), damping)
+        x, here, value = other, there, value - gained
+        moved = float(np.max(np.abs(x[:count] - columns.at), initial=0.0))
+        if promised <= TOLERANCE * (1.0 + value) and moved <= MOVED:
             is_converged = True
             break
-    jacobian = objective.jacobian(x, here)
-    jacobian[:, objective.count :] /= objective.scale
-    return Fit(objective.point(x), value, model.residuals([objective.point(x)])[0], jacobian, is_converged)
+        if gained == 0.0 and is_fresh:
+            break
+        poor = poor + 1 if gained < TRUSTED * promised else 0
+        is_fresh = moved > MOVED or gained == 0.0 or (poor > 0 and moved > NEAR) or poor > 1
+        if is_fresh:
+            columns, poor = Columns.of(objective.base_columns(x), x[:count], here), 0
+        terms = objective.term_columns(x, here)
+    return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged)
 
 
 def _descend(
-    objective: _Objective, now: tuple[Array, Array, float], quadratic: tuple[Array, Array], damping: float
-) -> tuple[Array, Array, float, float]:
-    """One accepted step, or none where no damping brings the cost down."""
+    objective: _Objective, now: tuple[Array, Array, float], slopes: tuple[Columns, Array], damping: float
+) -> tuple[Array, Array, float, float, float]:
+    """One accepted step, or none where no damping brings the cost down.
+
+    Returns:
+        Where it ended, residuals there, gain, the gain that was promised at the least damping, damping for the next.
+    """
     x, here, value = now
-    normal, slope = quadratic
+    normal, slope = _quadratic(objective.count, x, here, slopes)
     size = np.maximum(np.diag(normal), 1e-12)
-    for _ in range(12):
+    expected = 0.0
+    for attempt in range(12):
         is_held = ((x <= objective.lower) & (slope > 0)) | ((x >= objective.upper) & (slope < 0))
         free = np.flatnonzero(~is_held)
         damped = normal[np.ix_(free, free)] + np.diag(damping * size[free])
         step = np.zeros_like(x)
         step[free] = -cho_solve(cho_factor(damped), slope[free])
         other = np.clip(x + step, objective.lower, objective.upper)
+        moved = other - x
+        promised = float(-2.0 * slope @ moved - moved @ normal @ moved)
+        expected = promised if attempt == 0 else expected
         there = objective.residuals(other)
         cost_there = objective.cost(other, there)
         if cost_there < value:
-            return other, there, cost_there, max(damping / 8.0, 1e-9)
+            return other, there, value - cost_there, promised, max(damping / 8.0, 1e-9)
+        if promised <= TOLERANCE * (1.0 + value):
+            break
         damping *= 6.0
-    return x, here, value, damping
+    return x, here, 0.0, expected, damping
 
 
-def fit_best(model: Model, starts: Sequence[Point], iterations: int = 60) -> Fit:
+def _quadratic(count: int, x: Array, here: Array, slopes: tuple[Columns, Array]) -> tuple[Array, Array]:
+    """Normal matrix and half the slope of -2 log posterior."""
+    columns, terms = slopes
+    pull = huber_weights(here) ** 2 * here
+    weighted = terms * (columns.weights**2)[:, None]
+    sides = np.column_stack([pull, weighted]).astype(columns.values.dtype)
+    across = np.asarray(columns.values.T @ sides, dtype=np.float64)
+    normal = np.zeros((len(x), len(x)))
+    normal[:count, :count] = columns.normal + np.eye(count)
+    normal[:count, count:] = across[:, 1:]
+    normal[count:, :count] = across[:, 1:].T
+    normal[count:, count:] = terms.T @ weighted
+    slope = np.concatenate([across[:, 0] + x[:count], terms.T @ pull])
+    return normal, slope
+
+
+def fit_best(model: Model, starts: Sequence[Point], iterations: int = 60, near: Fit | None = None) -> Fit:
     """The best of fits from several starts (second masses are found from one of them alone in a quarter of cases)."""
-    return min((fit(model, start, iterations) for start in starts), key=lambda f: f.cost)
+    return min((fit(model, start, iterations, near) for start in starts), key=lambda f: f.cost)

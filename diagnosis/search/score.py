@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 
 from cosim.unit import Array
 from diagnosis.search.fit import Fit, huber_weights
@@ -17,7 +18,7 @@ SHARE = 0.02
 #: Simulations per call, so that memory stays small.
 BATCH = 256
 #: A direction of which the recalibration absorbs all but this share of the length cannot be seen.
-LEAST_VISIBLE = 1e-3
+LEAST_VISIBLE = 5e-3  # below it single precision would see its own rounding
 
 
 @dataclass(frozen=True)
@@ -28,20 +29,20 @@ class Score:
         term: The term.
         values: Its parameters, strength by the straight line.
         gain: Predicted fall of -2 log posterior.
-        direction: What it changes in residuals and prior beyond all recalibration, of length 1, shape
-            (residuals + parameters,).
         visibility: Share of its effect that the recalibration does not absorb, in [0, 1].
     """
 
     term: Term
     values: tuple[float, ...]
     gain: float
-    direction: Array
     visibility: float
 
 
 class Projection:
     """Removes from a direction what a change of the fitted parameters would do as well.
+
+    What is left of a direction s is s - J N^-1 J' s with the fitted parameters' derivatives J (residuals and prior) and
+    N = J' J; lengths and products of what is left need J' s alone.
 
     Args:
         base: The fit.
@@ -50,34 +51,75 @@ class Projection:
     def __init__(self, base: Fit) -> None:
         self.weights = huber_weights(base.residuals)
         self.residuals = self.weights * base.residuals
-        self._rows = len(base.residuals)
-        jacobian = base.jacobian.copy()
-        scale = np.linalg.norm(jacobian, axis=0)
-        self._basis = np.linalg.qr(jacobian / np.where(scale > 0, scale, 1.0))[0]
-        self._augmented = np.concatenate([self.residuals, base.point.base])
-        self._free = self._augmented - self._basis @ (self._basis.T @ self._augmented)
+        self._count = len(base.point.base)
+        self._prior = np.zeros(base.jacobian.shape[1])
+        self._prior[: self._count] = base.point.base
+        kind = base.jacobian.dtype
+        self._jacobian = base.jacobian * self.weights.astype(kind)[:, None]
+        self._factor = cho_factor(_steady(base.information))
+        slope = np.asarray(self._jacobian.T @ self.residuals.astype(kind), dtype=np.float64) + self._prior
+        self._pull = cho_solve(self._factor, slope)
 
-    def remove(self, directions: Array) -> Array:
-        """Directions (k, residuals) to what remains of them in residuals and prior, (k, residuals + parameters)."""
-        padded = np.zeros((len(directions), len(self._augmented)))
-        padded[:, : self._rows] = directions * self.weights
-        return np.asarray(padded - (padded @ self._basis) @ self._basis.T)
+    def noise(self, draws: int, seed: int) -> None:
+        """Draw nulls: noise of residuals and prior, against which `chance` is reckoned."""
+        rng = np.random.default_rng(seed)
+        kind = self._jacobian.dtype
+        noise = rng.standard_normal((len(self.residuals), draws), dtype=np.float32).astype(kind)
+        prior = np.zeros((self._jacobian.shape[1], draws))
+        prior[: self._count] = rng.standard_normal((self._count, draws))
+        slope = np.asarray(self._jacobian.T @ noise, dtype=np.float64) + prior
+        self._noise_pull = cho_solve(self._factor, slope)
+        self._sides = np.hstack([self._jacobian, self.residuals.astype(kind)[:, None], noise])
 
-    def gain(self, remaining: Array) -> tuple[Array, Array]:
-        """Strength and gain along remaining directions, (k,) each."""
-        length = np.einsum("ij,ij->i", remaining, remaining)
-        along = remaining @ self._free
-        safe = np.where(length > 0, length, 1.0)
-        return np.asarray(-along / safe), np.asarray(along**2 / safe)
+    def look(self, slopes: Array) -> Seen:
+        """What is left of directions.
+
+        Args:
+            slopes: Derivatives of the residuals, shape (k, residuals).
+        """
+        weighted = slopes * self.weights
+        kind = self._jacobian.dtype
+        products = np.asarray(weighted.astype(kind) @ self._sides, dtype=np.float64)
+        size = self._jacobian.shape[1]
+        across, along, noise = products[:, :size], products[:, size], products[:, size + 1 :]
+        whole = np.einsum("ij,ij->i", weighted, weighted)
+        left = np.maximum(whole - np.einsum("ij,ij->i", across, cho_solve(self._factor, across.T).T), 0.0)
+        return Seen(whole, left, along - across @ self._pull, noise - across @ self._noise_pull, across)
+
+
+@dataclass(frozen=True)
+class Seen:
+    """Directions with the recalibration projected out.
+
+    Args:
+        whole: Squares of their lengths before, shape (k,).
+        left: Squares of the lengths of what is left, shape (k,).
+        along: Products of what is left with the residuals, shape (k,).
+        noise: The same with each drawn null, shape (k, draws).
+        across: Products with the derivatives of the fitted parameters, shape (k, free).
+    """
+
+    whole: Array
+    left: Array
+    along: Array
+    noise: Array
+    across: Array
+
+
+def _steady(normal: Array) -> Array:
+    """The same with a hair more on its diagonal: single precision must not make it indefinite."""
+    return np.asarray(normal + np.diag(1e-7 * np.diag(normal)))
 
 
 def shapes(term: Term) -> Iterator[tuple[float, ...]]:
-    """Values of a term's parameters to try: a small strength, with every combination of the other starts."""
+    """Values of a term's parameters to try: a small strength, with every combination of the other starts.
+
+    One sign of the strength is enough: along the straight line the other gives the same.
+    """
     strength, *others = term.parameters
-    for sign in sorted({1.0 if s >= 0 else -1.0 for s in strength.starts}, reverse=True):
-        size = max(abs(s) for s in strength.starts)
-        for rest in itertools.product(*(p.starts for p in others)):
-            yield (sign * SHARE * size, *rest)
+    size = SHARE * max(abs(s) for s in strength.starts)
+    for rest in itertools.product(*(p.starts for p in others)):
+        yield (size if strength.upper > 0.0 else -size, *rest)
 
 
 @dataclass(frozen=True)
@@ -115,7 +157,7 @@ class Scoring:
         return float(-np.expm1(-np.exp(-(gain - place) / scale)))
 
 
-def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 200, seed: int = 0) -> Scoring:
+def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed: int = 0) -> Scoring:
     """Predicted gains of terms, and what chance alone would give them.
 
     Args:
@@ -127,46 +169,50 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 200, seed
         seed: Of the random numbers.
     """
     projection = Projection(base)
+    projection.noise(draws, seed)
     tasks = [(term, values) for term in terms if term not in base.point.terms for values in shapes(term)]
-    noise = np.random.default_rng(seed).standard_normal((len(base.residuals) + len(base.point.base), draws))
-    noise = noise.astype(np.float32)
     chance, tried = np.zeros(draws), 0
     best: dict[Term, Score] = {}
     for begin in range(0, len(tasks), BATCH):
-        batch = tasks[begin : begin + BATCH]
-        seen = list(_batch(model, base, batch, projection))
-        tried += len(seen)
-        if seen:
-            along = np.array([s.direction for s in seen], dtype=np.float32) @ noise
-            one_sided = np.array([_is_one_sided(s.term) for s in seen])
-            along = np.where(one_sided[:, None], np.maximum(along, 0.0), along)
-            chance = np.maximum(chance, (along.astype(np.float64) ** 2).max(axis=0))
-        for found in seen:
+        scores, largest = _batch(model, base, tasks[begin : begin + BATCH], projection)
+        tried += len(scores)
+        chance = np.maximum(chance, largest)
+        for found in scores:
             if found.gain > 0 and (found.term not in best or found.gain > best[found.term].gain):
                 best[found.term] = found
     return Scoring(sorted(best.values(), key=lambda s: -s.gain), tried, chance)
 
 
-def _is_one_sided(term: Term) -> bool:
-    return term.parameters[0].lower >= 0.0 or term.parameters[0].upper <= 0.0
-
-
 def _batch(
     model: Model, base: Fit, tasks: Sequence[tuple[Term, tuple[float, ...]]], projection: Projection
-) -> Iterator[Score]:
+) -> tuple[list[Score], Array]:
+    """Scores of what can be seen, and the largest gain of any in each null."""
     slopes = strength_slopes(model, base.point, base.residuals, tasks)
     usable = np.asarray(np.isfinite(slopes).all(axis=1))
     slopes[~usable] = 0.0
-    remaining = projection.remove(slopes)
-    amounts, gains = projection.gain(remaining)
-    whole = np.linalg.norm(slopes * projection.weights, axis=1)
-    rest = np.linalg.norm(remaining, axis=1)
-    for i, (term, values) in enumerate(tasks):
-        visibility = rest[i] / whole[i] if whole[i] > 0 else 0.0
-        if not usable[i] or visibility < LEAST_VISIBLE:
-            continue
+    seen = projection.look(slopes)
+    is_visible = usable & (seen.left > LEAST_VISIBLE**2 * seen.whole) & (seen.left > 0.0)
+    chosen = np.flatnonzero(is_visible).tolist()
+    if not chosen:
+        return [], np.zeros(seen.noise.shape[1])
+    left, along = seen.left[chosen], seen.along[chosen]
+    # The residuals' slope along a direction; the strength that would undo it has the other sign.
+    toward = -seen.noise[chosen] / np.sqrt(left)[:, None]
+    one_sided = np.array([_side(tasks[i][0]) for i in chosen])
+    toward = np.where(one_sided[:, None] == 0, toward, np.maximum(one_sided[:, None] * toward, 0.0))
+    scores = []
+    for i, amount, length in zip(chosen, -along / left, left):
+        term, values = tasks[i]
         strength = term.parameters[0]
-        inside = min(max(float(amounts[i]), strength.lower), strength.upper)
+        inside = min(max(float(amount), strength.lower), strength.upper)
         # A strength held at its bound (0 where it would act against its sign) gains less: the parabola there.
-        gain = float(gains[i]) - (float(amounts[i]) - inside) ** 2 * float(rest[i]) ** 2
-        yield Score(term, (inside, *values[1:]), gain, remaining[i] / rest[i], float(visibility))
+        gain = float(amount**2 * length - (amount - inside) ** 2 * length)
+        visibility = float(np.sqrt(length / seen.whole[i]))
+        scores.append(Score(term, (inside, *values[1:]), gain, visibility))
+    return scores, np.asarray((toward**2).max(axis=0))
+
+
+def _side(term: Term) -> int:
+    """Sign that the strength must have; 0: either."""
+    strength = term.parameters[0]
+    return 1 if strength.lower >= 0.0 else -1 if strength.upper <= 0.0 else 0

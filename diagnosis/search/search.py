@@ -18,6 +18,10 @@ from diagnosis.search.structure import Structure, structure
 HOPEFUL = 0.4
 #: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
 STRAINED = 2.5
+#: Explanations within this of the best are fitted to the end, and at most so many.
+CLOSE, MOST_POLISHED = 12.0, 5
+#: Most steps of a fit in the competition.
+TRIAL = 15
 #: Places at which unnamed terms are tried too.
 PLACES = 4
 
@@ -149,7 +153,14 @@ def _grow(
             key = frozenset((*explanation.terms, candidate.term))
             if key not in grown:
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
-    return sorted(grown.values(), key=lambda e: e.fit.cost), scorings[0]
+    return _polished(model, sorted(grown.values(), key=lambda e: e.fit.cost)), scorings[0]
+
+
+def _polished(model: Model, grown: list[Explanation]) -> list[Explanation]:
+    """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
+    near = [e for e in grown if e.fit.cost < grown[0].fit.cost + CLOSE][:MOST_POLISHED]
+    done = [Explanation(fit(model, e.fit.point)) for e in near]
+    return sorted([*done, *grown[len(near) :]], key=lambda e: e.fit.cost)
 
 
 def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) -> Scoring:
@@ -177,21 +188,21 @@ def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
     term = candidate.term
     here = before.point.plus(term, candidate.values)
     if np.max(np.abs(before.point.base), initial=0.0) < STRAINED:
-        return fit(model, here)
+        return fit(model, here, TRIAL, before)
     nominal = Point(np.zeros_like(before.point.base), before.point.terms)
     starts = [candidate.values[0], *term.parameters[0].starts[:3]]
     points = [here, *(nominal.plus(term, (start, *candidate.values[1:])) for start in starts)]
     values = model.residuals(points)
     costs = [cost(v, p.base) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
     best = [points[i] for i in np.argsort(costs)[:2]]
-    return fit_best(model, [min((fit(model, p, iterations=5) for p in best), key=lambda f: f.cost).point])
+    return fit_best(model, best, TRIAL, before)
 
 
 def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
     """Take away terms whose absence costs less than the margin, the least needed first."""
     while True:
-        without = {t: fit(model, explanation.fit.point.without(t)) for t in explanation.terms}
+        without = {t: fit(model, explanation.fit.point.without(t), near=explanation.fit) for t in explanation.terms}
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
         if not gains or min(gains.values()) > margin:
             return replace(explanation, gains=gains)
-        explanation = Explanation(without[min(gains, key=lambda t: gains[t])])
+        explanation = Explanation(fit(model, without[min(gains, key=lambda t: gains[t])].point))

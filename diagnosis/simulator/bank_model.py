@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank, BankError
-from diagnosis.bank.inputs import BankInputs
-from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
+from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.bank.places import Place, coil_label, merge, places
-from diagnosis.bank.probes import Probe, probe_sensitivities
-from diagnosis.bank.sensitivities import Direction, sensitivities
-from diagnosis.bank.steps import choose_step
+from diagnosis.bank.places import Place, merge, places
+from diagnosis.bank.probes import Probe, flat_probe_sensitivities
+from diagnosis.bank.sensitivities import flat_sensitivities
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.quantity import Target
-from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.simulator.priors import DAILY, PRIORS, Prior, matters
-from diagnosis.simulator.translate import Translation, translate
+from diagnosis.simulator.free import FreeSet, directions, free_parameters
+from diagnosis.simulator.runs import Run
+from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
 UNIT_OF_QUANTITY = {
@@ -33,37 +29,6 @@ UNIT_OF_QUANTITY = {
 }  # fmt: skip
 #: Instants at which an effect that begins some time is tried first.
 INSTANTS = 9
-
-
-@dataclass(frozen=True)
-class _Free:
-    """A parameter of the search in terms of the bank: values change by a factor or a summand over a mask."""
-
-    field: str
-    mask: Array
-    recording: int | None
-    parameter: Parameter
-
-
-@dataclass(frozen=True)
-class _Series:
-    """One channel of one recording, as the bank samples it."""
-
-    channel: Channel
-    quantity: str
-    element: int
-    samples: AnyArray
-    used: AnyArray
-
-
-@dataclass(frozen=True)
-class _Run:
-    """One recording, ready to be simulated."""
-
-    translation: Translation
-    inputs: BankInputs
-    times: Mapping[str, Array]
-    series: tuple[_Series, ...]
 
 
 class BankModel:
@@ -81,44 +46,34 @@ class BankModel:
     """
 
     def __init__(
-        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2
+        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 1
     ) -> None:
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
         self.bank = Bank(translations[0].layout, catalogue)
         self._candidates = {t.identifier: t for t in catalogue}
-        self.runs = [self._run(t, r) for t, r in zip(translations, recordings)]
+        self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
-        self._free = list(self._free_parameters())
+        clocks: dict[str, float] = {}
+        for run in self.runs:
+            clocks |= {q: max(amount, clocks.get(q, 0.0)) for q, amount in run.clocks().items()}
+        nominal = translations[0].parameters.base
+        self._free = list(free_parameters(self.coils, nominal, self.measured, clocks, len(self.runs)))
+        self._sets = [FreeSet(self._free, number) for number in range(len(self.runs))]
+        self._shown: dict[Term, tuple[list[int], bool] | None] = {}
         self.parameters: Sequence[Parameter] = [f.parameter for f in self._free]
         self._places: dict[Term, tuple[CandidateTerm, Place]] = {}
         self.layout = self._layout(recordings)
+        every = [s for run in self.runs for s in run.series]
+        self._channel_axis = np.array([QUANTITIES[s.quantity].axis for s in every])
+        self._channel_element = np.array([s.element for s in every])
+        self._channel_number = np.array([self.coils.channel(s.quantity) + s.element for s in every])
 
     @property
     def coils(self) -> BankLayout:
         """Coils and strings."""
         return self.bank.layout
-
-    def _run(self, translation: Translation, recording: Recording) -> _Run:
-        entries = [(c, *_bank_quantity(c.target, translation.layout, recording)) for c in recording.channels.values()]
-        times: dict[str, Array] = {}
-        for channel, quantity, _ in entries:
-            inside = channel.times[channel.times >= translation.start]
-            times[quantity] = np.union1d(times.get(quantity, np.zeros(0)), inside)
-        deviations = {q: min(c.deviation for c, quantity, _ in entries if quantity == q) for q in times}
-        choice = choose_step(self.bank, translation.parameters, translation.drive, translation.start, times, deviations)
-        switches = np.array(translation.drive.switches())
-        series = []
-        for channel, quantity, element in entries:
-            known = channel.times >= translation.start
-            used = known & ~channel.is_clipped
-            if switches.size and len(switches) < 0.2 * len(channel.times):  # a course recorded as an input always jumps
-                nearest = np.min(np.abs(channel.times[:, None] - switches[None, :]), axis=1)
-                used &= nearest > recording.switch_margin
-            samples = np.searchsorted(times[quantity], channel.times[known])
-            series.append(_Series(channel, quantity, element, samples, used[known]))
-        return _Run(translation, choice.inputs, times, tuple(series))
 
     def _layout(self, recordings: Sequence[Recording]) -> Layout:
         channel, time = [], []
@@ -126,37 +81,13 @@ class BankModel:
         units: list[str] = []
         for run, recording in zip(self.runs, recordings):
             for series in run.series:
-                inside = series.channel.times[series.channel.times >= run.translation.start]
-                channel.append(np.full(len(inside), len(names)))
-                time.append(inside)
+                channel.append(np.full(len(series.samples), len(names)))
+                time.append(series.times)
                 names.append(
                     series.channel.name if len(recordings) == 1 else f"{series.channel.name} ({recording.title})"
                 )
                 units.append(UNIT_OF_QUANTITY[series.quantity])
         return Layout(np.concatenate(channel), np.concatenate(time), tuple(names), tuple(units))
-
-    def _free_parameters(self) -> list[_Free]:
-        layout, nominal = self.coils, self.runs[0].translation.parameters.base
-        measured = set(self.measured)
-        found = []
-        for name, prior in PRIORS.items():
-            value = float(np.mean(nominal[name])) if name in nominal else 0.0
-            if not matters(prior, measured) or (prior.is_relative and value == 0.0):
-                continue
-            if name == "reference_resistance" and not layout.strings:
-                continue  # power is given: the resistance does nothing
-            size = layout.size(AXIS_OF_FIELD.get(name, "coil"))
-            if prior.shared:
-                found.append(_free(name, name, np.ones(size), None, value, prior.shared, prior))
-            if prior.scatter:
-                for i in range(size):
-                    label = f"{coil_label(layout, i)}.{name}"
-                    found.append(_free(label, name, np.eye(size)[i], None, value, prior.scatter, prior))
-        for number in range(len(self.runs)):
-            for name, prior in DAILY.items():
-                label = f"{name} of recording {number + 1}"
-                found.append(_free(label, name, np.ones(layout.coils), number, 0.0, prior.shared, prior))
-        return found
 
     def terms(self) -> list[Term]:
         """Every candidate at every place, as the search sees them."""
@@ -171,23 +102,17 @@ class BankModel:
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
-        candidate, place = self._places[term]
+        if term not in self._shown:
+            self._shown[term] = self._shows_in(*self._places[term])
+        return self._shown[term]
+
+    def _shows_in(self, candidate: CandidateTerm, place: Place) -> tuple[list[int], bool] | None:
         if place.kind not in ("coil", "channel", "swap", "string"):
             return None
-        elements = set(np.flatnonzero(place.mask).tolist())
-        found, number = [], 0
-        for run in self.runs:
-            for s in run.series:
-                axis = QUANTITIES[s.quantity].axis
-                if candidate.axis == "channel":
-                    is_touched = self.coils.channel(s.quantity) + s.element in elements
-                elif candidate.axis == "coil":
-                    is_touched = axis == "coil" and s.element in elements
-                else:
-                    is_touched = candidate.axis == "string" and axis == "string" and s.element in elements
-                if is_touched:
-                    found.append(number)
-                number += 1
+        axis, elements = candidate.axis, np.flatnonzero(place.mask)
+        own = np.where(self._channel_axis == axis, self._channel_element, -1)
+        touched = np.isin(self._channel_number if axis == "channel" else own, elements)
+        found = np.flatnonzero(touched).tolist()
         return (found, place.kind == "swap") if found else None
 
     def _term(self, candidate: CandidateTerm, place: Place) -> Term:
@@ -207,9 +132,7 @@ class BankModel:
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""
         base = dict(self.runs[run].translation.parameters.base)
-        for free, z in zip(self._free, point.base):
-            if free.recording in (None, run) and z != 0.0:
-                _vary(base, free, float(z))
+        self._sets[run].vary(base, point.base)
         terms: dict[str, Mapping[str, float | Array]] = {}
         for term, values in point.terms.items():
             candidate, place = self._places[term]
@@ -238,14 +161,12 @@ class BankModel:
         found = np.full((len(points), len(self.layout.time)), np.inf)
         begin = 0
         for number, run in enumerate(self.runs):
-            count = sum(len(s.samples) for s in run.series)
             for group in _by_terms(points):
                 parameters = [self.bank_parameters(points[i], number) for i in group]
-                rows = self._simulate(run, parameters)
-                for i, row in zip(group, rows):
+                for i, row in zip(group, self._simulate(run, parameters)):
                     if row is not None:
-                        found[i, begin : begin + count] = self._compare(run, row)
-            begin += count
+                        found[i, begin : begin + run.count] = run.residuals(row[None])[0]
+            begin += run.count
         return found
 
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
@@ -262,7 +183,6 @@ class BankModel:
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
-            end = begin + sum(len(s.samples) for s in run.series)
             for (identifier, values), members in probes.items():
                 term = tasks[members[0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
@@ -270,73 +190,52 @@ class BankModel:
                 probe = Probe(self._candidates[identifier], shape, at, values[0])
                 self.simulations += len(members)
                 try:
-                    _, slopes = probe_sensitivities(self.bank, parameters, run.inputs, run.times, probe, self._threads)
+                    slopes = flat_probe_sensitivities(
+                        self.bank, parameters, run.inputs, run.times, probe, self._threads
+                    )
                 except BankError:
                     continue
-                found[members, begin:end] = self._scaled(run, slopes)
-            begin = end
+                found[members, begin : begin + run.count] = run.slopes(slopes)
+            begin += run.count
         return found
 
-    @staticmethod
-    def _scaled(run: _Run, slopes: Mapping[str, Array]) -> Array:
-        """Derivatives of outputs to those of the residuals, shape (rows, residuals of the run)."""
-        parts = []
-        for s in run.series:
-            part = -slopes[s.quantity][:, s.samples, s.element] / _deviation(s.channel)
-            parts.append(np.where(s.used, part, 0.0))
-        return np.concatenate(parts, axis=1)
-
-    def _simulate(self, run: _Run, parameters: Sequence[BankParameters]) -> list[dict[str, Array] | None]:
+    def _simulate(self, run: Run, parameters: Sequence[BankParameters]) -> list[Array | None]:
+        """Outputs as the bank lays them out; None where a simulation failed."""
         self.simulations += len(parameters)
         try:
-            batch = self.bank.simulate_batch(parameters, run.inputs, run.times, self._threads)
+            _, out = self.bank.simulate_flat(parameters, run.inputs, run.times, self._threads)
         except BankError:
             if len(parameters) == 1:
                 return [None]
             return [self._simulate(run, [p])[0] for p in parameters]
-        return [{q: values[i] for q, values in batch.items()} for i in range(len(parameters))]
-
-    def _compare(self, run: _Run, outputs: Mapping[str, Array]) -> Array:
-        parts = []
-        for s in run.series:
-            measured = s.channel.values[-len(s.samples) :]
-            difference = (measured - outputs[s.quantity][s.samples, s.element]) / _deviation(s.channel)
-            parts.append(np.where(s.used, difference, 0.0))
-        return np.concatenate(parts)
+        return list(out)
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""
-        rows = self._simulate(self.runs[run], [self.bank_parameters(point, run)])[0]
-        if rows is None:
-            return [np.full(len(s.samples), np.inf) for s in self.runs[run].series]
-        return [rows[s.quantity][s.samples, s.element] for s in self.runs[run].series]
+        one = self.runs[run]
+        row = self._simulate(one, [self.bank_parameters(point, run)])[0]
+        values = np.full(one.count, np.inf) if row is None else row[one.pick]
+        return np.split(values, np.cumsum([len(s.samples) for s in one.series])[:-1])
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`."""
-        jacobian = np.zeros((len(self.layout.time), len(self._free)))
+        # Single precision: a fit corrects the direction, not the sum of squares, by it.
+        jacobian: AnyArray = np.zeros((len(self._free), len(self.layout.time)), dtype=np.float32)
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
-            chosen = [i for i, f in enumerate(self._free) if f.recording in (None, number)]
-            directions, columns = [], []
-            for i in chosen:
-                for direction, weight in _directions(self._free[i], parameters):
-                    directions.append(direction)
-                    columns.append((i, weight))
-            _, slopes = sensitivities(self.bank, parameters, run.inputs, run.times, directions, self._threads)
-            for s in run.series:
-                rows = slice(begin, begin + len(s.samples))
-                scaled = -slopes[s.quantity][:, s.samples, s.element] / _deviation(s.channel)
-                scaled = np.where(s.used, scaled, 0.0)
-                for (i, weight), column in zip(columns, scaled):
-                    jacobian[rows, i] += weight * column
-                begin += len(s.samples)
-        return jacobian
-
-
-def _deviation(channel: Channel) -> float:
-    """Noise and rounding together."""
-    return float(np.hypot(channel.deviation, channel.quantum / np.sqrt(12.0) if channel.is_deviation_given else 0.0))
+            along, columns = [], []
+            for i, free in enumerate(self._free):
+                if free.recording in (None, number):
+                    for direction, weight in directions(free, parameters):
+                        along.append(direction)
+                        columns.append((i, weight))
+            _, _, slopes = flat_sensitivities(self.bank, parameters, run.inputs, run.times, along, self._threads)
+            self.simulations += len(along)
+            for (i, weight), row in zip(columns, slopes):
+                jacobian[i, begin : begin + run.count] += row[run.pick] * (-weight * run.weight)
+            begin += run.count
+        return jacobian.T
 
 
 def _by_terms(points: Sequence[Point]) -> list[list[int]]:
@@ -345,61 +244,3 @@ def _by_terms(points: Sequence[Point]) -> list[list[int]]:
     for i, point in enumerate(points):
         groups.setdefault(frozenset(t.identifier for t in point.terms), []).append(i)
     return list(groups.values())
-
-
-def _free(
-    name: str, field: str, mask: Array, recording: int | None, nominal: float, deviation: float, prior: Prior
-) -> _Free:  # fmt: skip
-    unit = "K" if not prior.is_relative else "1"
-    return _Free(field, mask, recording, Parameter(name, unit, nominal, deviation, prior.is_relative))
-
-
-def _vary(base: dict[str, float | Array], free: _Free, z: float) -> None:
-    """Change base parameters as a free parameter at z says."""
-    amount = free.parameter.deviation * z
-    if free.field in ("heating_shift", "cooling_shift"):
-        branch = free.field.removesuffix("_shift")
-        # b exp(-c (T - shift)) = b exp(c shift) exp(-c T)
-        base[f"{branch}_b"] = np.asarray(base[f"{branch}_b"]) * np.exp(np.asarray(base[f"{branch}_c"]) * amount)
-    elif free.parameter.is_relative:
-        base[free.field] = np.asarray(base[free.field]) * np.exp(amount * free.mask)
-    else:
-        base[free.field] = np.asarray(base.get(free.field, 0.0)) + amount * free.mask
-
-
-def _directions(free: _Free, parameters: BankParameters) -> list[tuple[Direction, float]]:
-    """Directions of the bank whose weighted sum is the derivative by z."""
-    deviation = free.parameter.deviation
-    base = parameters.base
-    if free.field in ("heating_shift", "cooling_shift"):
-        branch = free.field.removesuffix("_shift")
-        slope = np.asarray(base[f"{branch}_b"]) * np.asarray(base[f"{branch}_c"]) * free.mask
-        return [(Direction(f"{branch}_b", slope, 1e-3), deviation)]
-    if free.parameter.is_relative:
-        return [(Direction(free.field, np.asarray(base[free.field]) * free.mask, 1e-4), deviation)]
-    return [(Direction(free.field, free.mask, 1e-3), deviation)]
-
-
-def _bank_quantity(target: Target, layout: BankLayout, recording: Recording) -> tuple[str, int]:
-    """Quantity of the bank and number of its element (from 0) for a channel."""
-    source = recording.path / "recording.yaml"
-    if target.kind == "supply" and target.quantity == "current" and layout.strings:
-        return "supply_current", 0
-    if target.kind == "string" and target.quantity == "current" and target.element[0] <= len(layout.strings):
-        return "current", target.element[0] - 1
-    if target.kind == "coil" and target.quantity in QUANTITIES and QUANTITIES[target.quantity].axis == "coil":
-        coil = _coil(target.element, layout)
-        if coil is not None:
-            return target.quantity, coil
-    name = f"{target.kind}{list(target.element) or ''}.{target.quantity}"
-    raise InputError(source, f"channels.{name}", "the scenario has no such quantity",
-                     f"it has {layout.coils} coils in {len(layout.strings)} strings")  # fmt: skip
-
-
-def _coil(element: tuple[int, ...], layout: BankLayout) -> int | None:
-    if len(element) == 1:
-        return element[0] - 1 if element[0] <= layout.coils else None
-    string, place = element
-    if string > len(layout.strings) or place > layout.strings[string - 1]:
-        return None
-    return layout.first[string - 1] + place - 1

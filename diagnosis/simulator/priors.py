@@ -30,7 +30,7 @@ _MECHANICAL = ("extension", "length", "stiffness")
 _ELECTRICAL = ("current", "supply_current", "resistance", "power")
 
 #: Base parameter of the bank to its prior. `heating_shift` and `cooling_shift` move a branch of the stiffness along
-#: the temperature [K].
+#: the temperature, `transformation_shift` both [K].
 PRIORS: Mapping[str, Prior] = {
     "reference_resistance": Prior(0.03, 0.035),
     "conductance": Prior(0.05, 0.035),
@@ -41,7 +41,9 @@ PRIORS: Mapping[str, Prior] = {
     "cooling_a": Prior(0.03, needs=_MECHANICAL),
     "heating_shift": Prior(1.0, is_relative=False, needs=_MECHANICAL),
     "cooling_shift": Prior(1.0, is_relative=False, needs=_MECHANICAL),
-    "load": Prior(0.02, needs=_MECHANICAL),
+    # Coil by coil: one factor for weight and stiffness together, and where the loop lies (several coils only).
+    "transformation_shift": Prior(0.0, 0.25, is_relative=False, needs=_MECHANICAL),
+    "load": Prior(0.02, 0.012, needs=_MECHANICAL),
     "power_gain": Prior(0.0, needs=("temperature",)),
 }
 #: The same for every recording by itself (another day): [K].

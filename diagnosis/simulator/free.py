@@ -1,0 +1,139 @@
+"""What the search may change in a coil bank: free parameters, and how each of them acts on the bank's own."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
+from diagnosis.bank.parameters import BankParameters
+from diagnosis.bank.places import coil_label
+from diagnosis.bank.sensitivities import Direction
+from diagnosis.search.problem import Parameter
+from diagnosis.simulator.priors import DAILY, PRIORS, Prior, matters
+
+#: Both branches of the stiffness moved along the temperature; no field of the bank.
+SHIFTS: Mapping[str, tuple[str, ...]] = {
+    "heating_shift": ("heating",), "cooling_shift": ("cooling",), "transformation_shift": ("heating", "cooling"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Free:
+    """A free parameter in terms of the bank: values change by a factor or a summand over a mask.
+
+    Args:
+        field: Base parameter of the bank, or one of `SHIFTS`.
+        mask: Weight at every element of the field's axis.
+        recording: Number of the recording that it belongs to, or None: all.
+        parameter: As the search sees it.
+    """
+
+    field: str
+    mask: Array
+    recording: int | None
+    parameter: Parameter
+
+
+def free_parameters(
+    layout: BankLayout, nominal: Mapping[str, float | Array], measured: Collection[str], clocks: Mapping[str, float],
+    recordings: int,
+) -> Iterator[Free]:  # fmt: skip
+    """All that may be off.
+
+    Args:
+        layout: Coils and strings.
+        nominal: Values of the scenario.
+        measured: Quantities of which there are channels.
+        clocks: Quantity to how late its readings may be [s], one standard deviation.
+        recordings: How many there are.
+    """
+    for name, prior in PRIORS.items():
+        value = float(np.mean(nominal[name])) if name in nominal else 0.0
+        if not matters(prior, set(measured)) or (prior.is_relative and value == 0.0):
+            continue
+        if name == "reference_resistance" and not layout.strings:
+            continue  # power is given: the resistance does nothing
+        size = layout.coils if name in SHIFTS else layout.size(AXIS_OF_FIELD[name])
+        if prior.shared:
+            yield _free(name, name, np.ones(size), None, (value, prior.shared), prior)
+        for i in range(size if prior.scatter and size > 1 else 0):
+            yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], None, (value, prior.scatter), prior)
+    for quantity, deviation in clocks.items():
+        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
+        label = f"delay of every {quantity}"
+        yield Free("clock_offset", mask, None, Parameter(label, "s", 0.0, deviation, is_relative=False))
+    for number in range(recordings):
+        for name, prior in DAILY.items():
+            label = f"{name} of recording {number + 1}"
+            yield _free(label, name, np.ones(layout.coils), number, (0.0, prior.shared), prior)
+
+
+def _free(
+    name: str, field: str, mask: Array, recording: int | None, size: tuple[float, float], prior: Prior
+) -> Free:  # fmt: skip
+    nominal, deviation = size
+    unit = "K" if not prior.is_relative else "1"
+    return Free(field, mask, recording, Parameter(name, unit, nominal, deviation, prior.is_relative))
+
+
+class FreeSet:
+    """Free parameters of one recording, all applied at once.
+
+    Args:
+        free: All free parameters of the model.
+        recording: Those of other recordings are left out.
+    """
+
+    def __init__(self, free: Sequence[Free], recording: int) -> None:
+        fields: dict[tuple[str, bool], list[int]] = {}
+        for i, one in enumerate(free):
+            if one.recording in (None, recording):
+                fields.setdefault((one.field, one.parameter.is_relative), []).append(i)
+        self._fields = [
+            (field, is_relative, np.array(members),
+             np.array([free[i].parameter.deviation * free[i].mask for i in members]))
+            for (field, is_relative), members in fields.items()
+        ]  # fmt: skip
+
+    def vary(self, base: dict[str, float | Array], z: Array) -> None:
+        """Change base parameters of the bank as free parameters at z say; z has shape (parameters,)."""
+        exponents: dict[str, Array] = {}
+        for field, is_relative, members, masks in self._fields:
+            if not z[members].any():
+                continue
+            amount = z[members] @ masks
+            if is_relative:
+                exponents[field] = exponents.get(field, 0.0) + amount
+            elif field in SHIFTS:
+                for branch in SHIFTS[field]:
+                    # b exp(-c (T - shift)) = b exp(c shift) exp(-c T)
+                    slope = np.asarray(base[f"{branch}_c"]) * amount
+                    exponents[f"{branch}_b"] = exponents.get(f"{branch}_b", 0.0) + slope
+            else:
+                base[field] = np.asarray(base.get(field, 0.0)) + amount
+        for name, exponent in exponents.items():
+            base[name] = np.asarray(base[name]) * np.exp(exponent)
+
+
+def directions(free: Free, parameters: BankParameters) -> list[tuple[Direction, float]]:
+    """Directions of the bank whose weighted sum is the derivative by z."""
+    deviation = free.parameter.deviation
+    base = parameters.base
+    if free.field in SHIFTS:
+        return [
+            (
+                Direction(
+                    f"{branch}_b", np.asarray(base[f"{branch}_b"]) * np.asarray(base[f"{branch}_c"]) * free.mask, 1e-3,
+                    is_central=False,
+                ),
+                deviation,
+            )
+            for branch in SHIFTS[free.field]
+        ]  # fmt: skip
+    if free.parameter.is_relative:
+        return [(Direction(free.field, np.asarray(base[free.field]) * free.mask, 1e-4, is_central=False), deviation)]
+    return [(Direction(free.field, free.mask, 1e-3, is_central=False), deviation)]

@@ -1,0 +1,156 @@
+"""One recording, ready to be simulated by a coil bank and compared with what was measured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.errors import InputError
+from cosim.unit import AnyArray, Array
+from diagnosis.bank.bank import Bank
+from diagnosis.bank.inputs import BankInputs
+from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.steps import choose_step
+from diagnosis.recording.quantity import Target
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.simulator.translate import Translation
+
+
+@dataclass(frozen=True)
+class Series:
+    """One channel of one recording, as the bank samples it.
+
+    Args:
+        channel: The channel.
+        quantity: Quantity of the bank.
+        element: Its element, from 0.
+        samples: Numbers of its samples among those of the quantity.
+        used: Which of them count: not clipped, not near a switch.
+    """
+
+    channel: Channel
+    quantity: str
+    element: int
+    samples: AnyArray
+    used: AnyArray
+
+    @property
+    def measured(self) -> Array:
+        """Values at `samples`, SI."""
+        return self.channel.values[-len(self.samples) :]
+
+    @property
+    def times(self) -> Array:
+        """Times of `samples` [s]."""
+        return self.channel.times[-len(self.samples) :]
+
+
+class Run:
+    """One recording.
+
+    Args:
+        translation: Its scenario as a bank.
+        recording: What was measured.
+        bank: Simulates it.
+
+    Raises:
+        InputError: The recording has a channel that the scenario has not, or nothing within the simulated time.
+    """
+
+    def __init__(self, translation: Translation, recording: Recording, bank: Bank) -> None:
+        self.translation = translation
+        layout = translation.layout
+        entries = [(c, *bank_quantity(c.target, layout, recording)) for c in recording.channels.values()]
+        self.times: dict[str, Array] = {}
+        for channel, quantity, _ in entries:
+            inside = channel.times[channel.times >= translation.start]
+            self.times[quantity] = np.union1d(self.times.get(quantity, np.zeros(0)), inside)
+        self.inputs = self._inputs(bank, [(c, q) for c, q, _ in entries])
+        switches = np.array(translation.drive.switches())
+        self.series = tuple(self._series(entry, switches, recording.switch_margin) for entry in entries)
+        self.count = sum(len(s.samples) for s in self.series)
+        self.pick = np.concatenate([self._places(layout, s) for s in self.series])
+        self.measured = np.concatenate([s.measured for s in self.series])
+        # 1 / deviation, 0 where a sample does not count
+        self.weight = np.concatenate([np.where(s.used, 1.0 / deviation(s.channel), 0.0) for s in self.series])
+
+    def _inputs(self, bank: Bank, channels: list[tuple[Channel, str]]) -> BankInputs:
+        deviations = {q: min(c.deviation for c, quantity in channels if quantity == q) for q in self.times}
+        t = self.translation
+        return choose_step(bank, t.parameters, t.drive, t.start, self.times, deviations).inputs
+
+    def _series(self, entry: tuple[Channel, str, int], switches: Array, margin: float) -> Series:
+        channel, quantity, element = entry
+        known = channel.times >= self.translation.start
+        used = known & ~channel.is_clipped
+        if switches.size and len(switches) < 0.2 * len(channel.times):  # a course recorded as an input always jumps
+            nearest = np.min(np.abs(channel.times[:, None] - switches[None, :]), axis=1)
+            used &= nearest > margin
+        samples = np.searchsorted(self.times[quantity], channel.times[known])
+        return Series(channel, quantity, element, samples, used[known])
+
+    def _places(self, layout: BankLayout, series: Series) -> AnyArray:
+        """Numbers of a series' samples in the bank's output, which holds quantity by quantity, sample by sample."""
+        first = 0
+        for name in QUANTITIES:
+            if name == series.quantity:
+                break
+            first += len(self.times.get(name, ())) * layout.elements(name)
+        return np.asarray(first + series.samples * layout.elements(series.quantity) + series.element)
+
+    def residuals(self, outputs: Array) -> Array:
+        """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size)."""
+        return np.asarray((self.measured - outputs[:, self.pick]) * self.weight)
+
+    def slopes(self, slopes: Array) -> Array:
+        """Derivatives of the outputs, shape (directions, out_size), to those of the residuals, (directions, samples)."""
+        found = slopes[:, self.pick]
+        found *= -self.weight
+        return np.asarray(found)
+
+    def clocks(self) -> Mapping[str, float]:
+        """Quantity to how late its readings may be by what the recording states of its clock and sensors [s].
+
+        A short lag is a delay to first order; a long one (beyond a second) is no nuisance but a candidate.
+        """
+        found: dict[str, float] = {}
+        for s in self.series:
+            lag = s.channel.lag_bound if s.channel.lag_bound <= 1.0 else 0.0
+            found[s.quantity] = max(found.get(s.quantity, 0.0), 0.5 * float(np.hypot(s.channel.offset_bound, lag)))
+        return {quantity: amount for quantity, amount in found.items() if amount > 0.0}
+
+
+def deviation(channel: Channel) -> float:
+    """Noise and rounding together."""
+    return float(np.hypot(channel.deviation, channel.quantum / np.sqrt(12.0) if channel.is_deviation_given else 0.0))
+
+
+def bank_quantity(target: Target, layout: BankLayout, recording: Recording) -> tuple[str, int]:
+    """Quantity of the bank and number of its element (from 0) for a channel.
+
+    Raises:
+        InputError: The scenario has no such quantity.
+    """
+    source = recording.path / "recording.yaml"
+    if target.kind == "supply" and target.quantity == "current" and layout.strings:
+        return "supply_current", 0
+    if target.kind == "string" and target.quantity == "current" and target.element[0] <= len(layout.strings):
+        return "current", target.element[0] - 1
+    if target.kind == "coil" and target.quantity in QUANTITIES and QUANTITIES[target.quantity].axis == "coil":
+        coil = _coil(target.element, layout)
+        if coil is not None:
+            return target.quantity, coil
+    name = f"{target.kind}{list(target.element) or ''}.{target.quantity}"
+    raise InputError(source, f"channels.{name}", "the scenario has no such quantity",
+                     f"it has {layout.coils} coils in {len(layout.strings)} strings")  # fmt: skip
+
+
+def _coil(element: tuple[int, ...], layout: BankLayout) -> int | None:
+    if len(element) == 1:
+        return element[0] - 1 if element[0] <= layout.coils else None
+    string, place = element
+    if string > len(layout.strings) or place > layout.strings[string - 1]:
+        return None
+    return layout.first[string - 1] + place - 1
