@@ -19,7 +19,7 @@ class Reference:
         floor: Of the readings without their noise: nothing can do better but by chance.
         training_gain: Fall of -2 log posterior by the true terms in the training recordings, or None.
         baselines: Of other methods, by name; not finite where they diverge.
-        terms: Number of terms that sparse regression reports.
+        terms: Terms that sparse regression reports per channel, on average.
         seconds: Wall time by part.
         failure: Why there is none of it.
     """
@@ -31,6 +31,6 @@ class Reference:
     floor: float | None = None
     training_gain: float | None = None
     baselines: Mapping[str, float] = field(default_factory=dict)
-    terms: int | None = None
+    terms: float | None = None
     seconds: Mapping[str, float] = field(default_factory=dict)
     failure: str = ""
