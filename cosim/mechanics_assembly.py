@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 from cosim.components import FabricComponent, ParameterValue, PendulumComponent
 from cosim.parameters import Resolved
 from cosim.quantity import PhysicalValue
+from mechanics.added import AddedEffects, tilted
 from mechanics.fabric import FabricDesign
 from mechanics.pendulum import PendulumDesign, PendulumUnit
 from mechanics.solver import SolverSettings
@@ -26,7 +28,21 @@ FABRIC_UNITS = {
     "steel_stiffness": "N/m",
     "steel_rest_length": "m",
     "tether_play": "m",
+    "start_speed": "m/s",
+    "start_number": "1",
+    "tilt": "rad",
+    "roll": "rad",
+    "slide_friction": "N",
+    "slide_damping": "N*s/m",
+    "hinge_friction": "m",
+    "wire_stiffness": "N/m",
+    "coil_play": "m",
+    "coil_contraction": "m^2/N",
+    "cold_stiffness": "N/m",
+    "payload": "kg",
 }
+#: Those of them that are effects which a plain fabric leaves out.
+_ADDED = frozenset(field.name for field in fields(AddedEffects))
 
 #: The same of a pendulum.
 PENDULUM_UNITS = {
@@ -58,11 +74,18 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
             raise ValueError(f"{key} must be one number with a unit")
         else:
             numbers[key] = value.to(FABRIC_UNITS[key])
+    added = AddedEffects(**{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
+    if added.slide_friction and component.solver.springs == "motor":
+        raise ValueError("slide_friction needs solver.springs `force`: springs as motors use up the joint's motor")
+    leaning = numbers.pop("tilt", 0.0), numbers.pop("roll", 0.0)
+    numbers["gravity"] = tilted(numbers.get("gravity", FabricDesign.gravity), *leaning)
+    numbers["start_number"] = round(numbers.get("start_number", 0))
     design = FabricDesign(
         rows=component.rows,
         columns=component.columns,
         tether_rows=component.tether.rows,
         tether_kind=component.tether.kind,
+        added=added,
         **numbers,
     )
     solver = SolverSettings(

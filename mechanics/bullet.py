@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.unit import Array
+from mechanics.bullet_added import AddedForces
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
@@ -91,6 +92,7 @@ class World:
         self._sliding = [(self._bodies[i], 2 * int(i), 2 * int(i) + 1) for i in sliding]
         self._slides = sliding
         self._free = np.flatnonzero(~layout.is_fixed)
+        self._added = AddedForces(design, layout, self._client, self._bodies, sliding.tolist())
 
     def close(self) -> None:
         """Free Bullet's world; safe to call twice."""
@@ -222,11 +224,13 @@ class World:
             rest_length: Shape (coil,) [m].
         """
         act = self._push if self.solver.springs == "force" else self._drive
-        k, r = stiffness.tolist(), rest_length.tolist()
+        k, r = stiffness.tolist(), self.design.added.rest_length(stiffness, rest_length).tolist()
         links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
         step, client = pybullet.stepSimulation, self._client
         for _ in range(steps):
             act(links)
+            if self._added.is_active:
+                self._added.push()
             step(client)
 
     def _opening_force(self, slide: float, k0: float, r0: float, k1: float, r1: float) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cosim.unit import Array
+from mechanics.added import NO_EFFECTS, AddedEffects
 from mechanics.lattice import Weave, jammed_weave, taut_weave
 
 #: Clearance of every hook in the woven start [m]: well above rounding, small against the tolerance.
@@ -42,6 +43,9 @@ class FabricDesign:
         restitution: Coefficient of restitution between links.
         gravity: Acceleration vector [m/s^2].
         tether_play: Gap between neighbouring bars of one layer in held rows [m].
+        start_speed: Free links start with random speeds of up to this along every axis [m/s].
+        start_number: Which random start; each has its own.
+        added: Effects that a plain fabric leaves out.
 
     Raises:
         ValueError: A number is out of range or the fabric cannot be woven; names the field, its value and a remedy.
@@ -66,6 +70,9 @@ class FabricDesign:
     restitution: float = 0.0
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
     tether_play: float = 1e-4
+    start_speed: float = 0.0
+    start_number: int = 0
+    added: AddedEffects = NO_EFFECTS
 
     def __post_init__(self) -> None:
         self._check_numbers()
@@ -74,9 +81,11 @@ class FabricDesign:
     def _check_numbers(self) -> None:
         for name in ("bar_diameter", "tolerance", "length_cold", "length_hot", "link_mass", "steel_rest_length"):
             _require(name, getattr(self, name), getattr(self, name) > 0, "give a positive number")
-        for name in ("steel_stiffness", "friction", "tether_play"):
+        for name in ("steel_stiffness", "friction", "tether_play", "start_speed", "start_number"):
             _require(name, getattr(self, name), getattr(self, name) >= 0, "give zero or a positive number")
         _require("restitution", self.restitution, 0 <= self.restitution <= 1, "give a number from 0 to 1")
+        is_possible = self.friction > 0 or self.added.hinge_friction == 0
+        _require("added.hinge_friction", self.added.hinge_friction, is_possible, "it needs a friction above 0")
         _require("length_offset", self.length_offset, self.length_hot + self.length_offset > 0, "make it larger")
         if len(self.gravity) != 3 or not all(map(math.isfinite, self.gravity)):
             raise ValueError(f"gravity is {self.gravity}: give three finite accelerations (x, y, z) in m/s^2")

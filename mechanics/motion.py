@@ -41,7 +41,7 @@ class Motion:
 
 
 def woven(design: FabricDesign, layout: Layout) -> Motion:
-    """The flat start at rest."""
+    """The flat start, at rest unless the design says otherwise."""
     n = design.links
     sine, cosine = np.sin(layout.tilt / 2), np.cos(layout.tilt / 2)
     orientation = np.zeros((n, 4))
@@ -49,7 +49,11 @@ def woven(design: FabricDesign, layout: Layout) -> Motion:
     along = np.stack([np.zeros(n), np.cos(layout.tilt), np.sin(layout.tilt)], axis=1)
     position = layout.back_bar + half(design).centre * along
     slide = layout.bar_distance - design.bar_distance_cold
-    return Motion(SCALE * position, orientation, np.zeros((n, 3)), np.zeros((n, 3)), SCALE * slide, np.zeros(n))
+    velocity = np.zeros((n, 3))
+    if design.start_speed:
+        speeds = np.random.default_rng(design.start_number).uniform(-1.0, 1.0, (n, 3))
+        velocity[~layout.is_fixed] = SCALE * design.start_speed * speeds[~layout.is_fixed]
+    return Motion(SCALE * position, orientation, velocity, np.zeros((n, 3)), SCALE * slide, np.zeros(n))
 
 
 def rotation(orientation: Array) -> npt.NDArray[np.float64]:

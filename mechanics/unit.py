@@ -190,11 +190,12 @@ class FabricUnit(Unit):
         put["link_length"][...] = bar_distance - design.length_offset
         length = np.repeat(put["link_length"], 2)
         put["extension"][...] = length - put["rest_length"]
-        put["tension"][...] = coil_tension(put["stiffness"], put["extension"])
+        slack = length - self.design.added.rest_length(put["stiffness"], put["rest_length"])
+        put["tension"][...] = coil_tension(put["stiffness"], slack)
         put["position"][...] = (back + front) / 2
         put["orientation"][...] = motion.orientation
         self._measure_shape(back, front, axes)
-        self._measure_energy(motion, axes, length)
+        self._measure_energy(motion, axes, length, slack)
 
     def _measure_shape(self, back: Array, front: Array, axes: Array) -> None:
         put, per_row, rows = self._store.arrays, self.design.links_per_row, self.design.rows
@@ -207,7 +208,7 @@ class FabricUnit(Unit):
         a_links = back.reshape(rows, per_row, 3)[:, 0::2]
         put["fabric_length"][...] = np.linalg.norm(a_links[-1] - a_links[0], axis=1).mean()
 
-    def _measure_energy(self, motion: Motion, axes: Array, length: Array) -> None:
+    def _measure_energy(self, motion: Motion, axes: Array, length: Array, slack: Array) -> None:
         put, part = self._store.arrays, self._half
         along = axes[:, :, 1]
         velocity = motion.velocity / SCALE
@@ -231,7 +232,7 @@ class FabricUnit(Unit):
         put["potential_energy"][...] = (
             -moving[0] @ (back_centre @ gravity)
             - moving[1] @ (front_centre @ gravity)
-            + spring_energy(put["stiffness"], put["extension"], length, self._steel)
+            + spring_energy(put["stiffness"], slack, length, self._steel)
         )
 
     def _check_finite(self, motion: Motion, time: int) -> None:

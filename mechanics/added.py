@@ -1,0 +1,89 @@
+"""Mechanical effects that the plain fabric leaves out; each is absent at 0. No engine here."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from cosim.unit import Array
+
+
+@dataclass(frozen=True)
+class AddedEffects:
+    """Effects beyond rigid links, ideal springs and Coulomb friction between links.
+
+    All of them take energy or store it, so none may be negative; a negative friction would drive the fabric.
+
+    Args:
+        slide_friction: Dry friction in the slide of every link [N]: it holds what it can, and takes no more than this.
+        slide_damping: c in the force -c v against the speed v of every slide [N s/m].
+        hinge_friction: Lever b of the dry torque b N against rolling in a contact that carries N [m].
+        wire_stiffness: Spring from the last link of every row to where it was woven: the supply wires [N/m].
+        coil_play: Play of the coils in their pins [m]: they pull only beyond it.
+        coil_contraction: By how much the coils' rest length shrinks per stiffness beyond `cold_stiffness` [m^2/N].
+        cold_stiffness: Stiffness at which they have the rest length given [N/m].
+        payload: Mass hung on the links of the last row [kg], carried as its weight.
+
+    Raises:
+        ValueError: A number is negative or not finite.
+
+    Source: Coulomb and viscous friction: B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994)
+    1083-1138. Rolling friction: K. L. Johnson, Contact Mechanics, Cambridge 1985, section 9.6. Contraction: two-way
+    effect in proportion to the transformed fraction, K. Otsuka, C. M. Wayman, Shape Memory Materials, Cambridge 1998,
+    chapter 1, with the stiffness linear in that fraction; 157.1 N/m: paper, table 1.
+    """
+
+    slide_friction: float = 0.0
+    slide_damping: float = 0.0
+    hinge_friction: float = 0.0
+    wire_stiffness: float = 0.0
+    coil_play: float = 0.0
+    coil_contraction: float = 0.0
+    cold_stiffness: float = 157.1
+    payload: float = 0.0
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not (math.isfinite(value) and value >= 0):
+                raise ValueError(f"{field.name} is {value}: give zero or a positive number")
+
+    def rest_length(self, stiffness: Array, rest_length: Array) -> Array:
+        """Length at which each coil begins to pull [m], shape (coil,).
+
+        Args:
+            stiffness: Shape (coil,) [N/m].
+            rest_length: Unloaded length of the cold coil between its pins, shape (coil,) [m].
+        """
+        if self.coil_play == 0.0 and self.coil_contraction == 0.0:
+            return rest_length
+        shrunk = rest_length - self.coil_contraction * np.maximum(stiffness - self.cold_stiffness, 0.0)
+        return np.asarray(np.maximum(shrunk, 0.0) + self.coil_play)
+
+
+#: The plain fabric.
+NO_EFFECTS = AddedEffects()
+
+
+def tilted(gravity: tuple[float, float, float], tilt: float, roll: float) -> tuple[float, float, float]:
+    """Gravity as a fabric sees it whose stand leans.
+
+    Args:
+        gravity: In the level frame [m/s^2].
+        tilt: By how much the free end of the stand's y axis is raised, a turn about x [rad].
+        roll: Turn about y, which follows the tilt [rad].
+
+    Returns:
+        In the frame of the fabric.
+
+    >>> [round(g, 3) for g in tilted((0.0, 0.0, -10.0), 0.1, 0.0)]
+    [0.0, -0.998, -9.95]
+    """
+    if tilt == 0.0 and roll == 0.0:
+        return gravity
+    x, y, z = gravity
+    y, z = math.cos(tilt) * y + math.sin(tilt) * z, -math.sin(tilt) * y + math.cos(tilt) * z
+    x, z = math.cos(roll) * x - math.sin(roll) * z, math.sin(roll) * x + math.cos(roll) * z
+    return x, y, z
