@@ -24,19 +24,19 @@ class Course:
 
     Args:
         component: Component of the scenario that is driven.
-        variable: Its output.
-        unit: SI unit.
-        times: Corners [s].
-        values: Values there; the input holds or is linear between them, as the scenario says.
-        is_linear: Whether it is linear between the corners; else it holds.
+        output: Its output.
+        unit: Unit of the output.
+        times: Corners [s], rising.
+        values: For each corner the values of all elements of the output (one where it has no elements).
+        is_linear: Whether it is linear between the corners; else each value holds to the next corner.
     """
 
     component: str
-    variable: str
+    output: str
     unit: str
     times: tuple[float, ...]
-    values: tuple[float, ...]
-    is_linear: bool = True
+    values: tuple[tuple[float, ...], ...]
+    is_linear: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,7 @@ class NextExperiment:
         channel: Channel in which the rivals differ most.
         best_time: When they differ most [s].
         tried: Programmes that were simulated.
+        mass: Of the load that hangs from each coil [kg]; 0: as in the scenario.
     """
 
     scenario: str | None
@@ -75,3 +76,4 @@ class NextExperiment:
     channel: str = ""
     best_time: float = 0.0
     tried: int = 0
+    mass: float = 0.0

@@ -10,7 +10,7 @@ import numpy as np
 from cosim.errors import InputError
 from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank
-from diagnosis.bank.inputs import BankInputs
+from diagnosis.bank.inputs import BankInputs, grid
 from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.steps import choose_step
 from diagnosis.recording.quantity import Target
@@ -54,12 +54,15 @@ class Run:
         translation: Its scenario as a bank.
         recording: What was measured.
         bank: Simulates it.
+        step: Longest step [s]; None: as long as its error stays far below the noise.
 
     Raises:
         InputError: The recording has a channel that the scenario has not, or nothing within the simulated time.
     """
 
-    def __init__(self, translation: Translation, recording: Recording, bank: Bank) -> None:
+    def __init__(
+        self, translation: Translation, recording: Recording, bank: Bank, step: float | None = None
+    ) -> None:  # fmt: skip
         self.translation = translation
         layout = translation.layout
         entries = [(c, *bank_quantity(c.target, layout, recording)) for c in recording.channels.values()]
@@ -67,7 +70,11 @@ class Run:
         for channel, quantity, _ in entries:
             inside = channel.times[channel.times >= translation.start]
             self.times[quantity] = np.union1d(self.times.get(quantity, np.zeros(0)), inside)
-        self.inputs = self._inputs(bank, [(c, q) for c, q, _ in entries])
+        if step is None:
+            self.inputs = self._inputs(bank, [(c, q) for c, q, _ in entries])
+        else:
+            ends = grid(translation.start, recording.end, step, translation.drive.switches())
+            self.inputs = translation.drive.on_grid(ends)
         switches = np.array(translation.drive.switches())
         self.series = tuple(self._series(entry, switches, recording.switch_margin) for entry in entries)
         self.count = sum(len(s.samples) for s in self.series)

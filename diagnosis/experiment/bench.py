@@ -1,0 +1,206 @@
+"""The model of the recordings under other programmes, read by the same sensors."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.bank.inputs import Drive
+from diagnosis.bank.parameters import BankParameters
+from diagnosis.experiment.separation import Bordered, Separation, distance, root, separation
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.fit import STEP, Fit
+from diagnosis.search.problem import Layout, Point, Term
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.runs import Run, deviation
+
+#: Samples of a channel that a prediction uses; others count through the weight of these.
+SAMPLES = 60
+#: Step of the simulations [s]: its error is that of both explanations, and they are compared with each other.
+COARSE = 0.2
+#: Time after an edge within which every sample is used [s]: lags and clocks show there alone.
+EDGE = 1.5
+#: Edges up to which that is done: with more of them there are enough samples near edges anyway.
+_EDGES = 12
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What is done in an experiment.
+
+    Args:
+        drive: Programmes.
+        duration: [s].
+        load: Weight that hangs from each coil [N], or None for that of the scenario.
+    """
+
+    drive: Drive
+    duration: float
+    load: float | None = None
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """What an experiment does to two explanations.
+
+    Args:
+        separation: Predicted outcome.
+        channel: Where they differ most.
+        time: When [s].
+    """
+
+    separation: Separation
+    channel: str
+    time: float
+
+
+class Bench:
+    """Simulates explanations under conditions that nobody has tried yet.
+
+    Args:
+        model: Model of the recordings.
+        recordings: These, in order.
+        fits: Explanations, the most probable first.
+    """
+
+    def __init__(self, model: BankModel, recordings: Sequence[Recording], fits: Sequence[Fit]) -> None:
+        self.model, self.recordings, self.fits = model, recordings, fits
+        self._daily = np.array([" of recording " in p.name for p in model.parameters])
+        self._points = [self._restarted(f.point) for f in fits]
+        self._roots = [root(self._spread(f)) for f in fits]
+
+    def repeat(self) -> BankModel:
+        """The model of one more set of the same recordings."""
+        return self._with([
+            _run(r, one, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])), self.model)
+            for r, one in zip(self.model.runs, self.recordings)
+        ])  # fmt: skip
+
+    def under(self, conditions: Conditions) -> BankModel:
+        """The model of an experiment."""
+        return self._with([_run(self.model.runs[0], self.recordings[0], conditions, self.model)])
+
+    def temperatures(self, conditions: Conditions, count: int = 200) -> Array:
+        """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time."""
+        run = _run(self.model.runs[0], self.recordings[0], conditions, self.model)
+        times = np.linspace(run.inputs.time[0], run.inputs.time[-1], count)
+        parameters = self._with([run]).bank_parameters(self._points[0], 0)
+        return np.asarray(self.model.bank.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
+
+    def contrasts(self, experiment: BankModel, log_odds: Sequence[float]) -> list[Contrast]:
+        """What an experiment does to the first explanation and each other one.
+
+        Args:
+            experiment: From `under` or `repeat`.
+            log_odds: ln of the odds of the first against each of the others, before the experiment.
+        """
+        values = experiment.residuals(self._points)
+        if not np.isfinite(values).all():
+            return []
+        base = experiment.base_jacobian(self._points[0])
+        inner = base.T @ base
+        bordered = [Bordered(base, inner, _term_slopes(experiment, p, v)) for p, v in zip(self._points, values)]
+        found = []
+        for other in range(1, len(self.fits)):
+            difference = values[0] - values[other]
+            first = distance(difference, bordered[other], self._roots[other])
+            second = distance(difference, bordered[0], self._roots[0])
+            found.append(self._contrast(experiment, difference, separation(first, second, log_odds[other - 1])))
+        return found
+
+    @staticmethod
+    def _contrast(experiment: BankModel, difference: Array, parted: Separation) -> Contrast:
+        layout = experiment.layout
+        strength = np.bincount(layout.channel, difference**2, minlength=len(layout.names))
+        best = int(np.argmax(strength))
+        own = layout.channel == best
+        moment = float(layout.time[own][np.argmax(np.abs(difference[own]))])
+        return Contrast(parted, layout.names[best], moment)
+
+    def _with(self, runs: list[Run]) -> BankModel:
+        """A model of other runs; candidates, parameters and the compiled bank are shared."""
+        other = copy.copy(self.model)
+        other.runs = runs
+        series = [s for run in runs for s in run.series]
+        channel = np.concatenate([np.full(len(s.samples), n) for n, s in enumerate(series)])
+        time = np.concatenate([s.times for s in series])
+        other.layout = Layout(channel, time, tuple(s.channel.name for s in series), ("",) * len(series))
+        return other
+
+    def _restarted(self, point: Point) -> Point:
+        """The same on another day: its own ambient, and what broke once stays broken."""
+        begin = self.model.runs[0].translation.start
+        terms = {t: tuple(begin if p.name == "instant" else v for p, v in zip(t.parameters, values))
+                 for t, values in point.terms.items()}  # fmt: skip
+        return Point(np.where(self._daily, 0.0, point.base), terms)
+
+    def _spread(self, fit: Fit) -> Array:
+        """Covariance of the parameters before another experiment: those of a day are as uncertain as ever."""
+        covariance = fit.covariance.copy()
+        fresh = np.flatnonzero(self._daily)
+        covariance[fresh] = covariance[:, fresh] = 0.0
+        covariance[fresh, fresh] = 1.0
+        known = [len(self._daily) + i for i, name in enumerate(_term_parameters(fit.point.terms)) if name == "instant"]
+        covariance[known] = covariance[:, known] = 0.0
+        return covariance
+
+
+def _term_parameters(terms: Mapping[Term, tuple[float, ...]]) -> list[str]:
+    return [p.name for t in terms for p in t.parameters]
+
+
+def _term_slopes(model: BankModel, point: Point, here: Array) -> Array:
+    """Derivatives of the residuals by the parameters of the terms, shape (residuals, term parameters)."""
+    moved, steps = [], []
+    for term, values in point.terms.items():
+        for i, (p, value) in enumerate(zip(term.parameters, values)):
+            sizes = [abs(s) for s in p.starts if s] or [1.0]
+            step = STEP * max(abs(value), float(np.median(sizes)))
+            step = step if value + step < p.upper else -step
+            moved.append(point.plus(term, [v + step if j == i else v for j, v in enumerate(values)]))
+            steps.append(step)
+    if not moved:
+        return np.zeros((len(here), 0))
+    found = ((model.residuals(moved) - here) / np.array(steps)[:, None]).T
+    return np.where(np.isfinite(found), found, 0.0)
+
+
+def _run(like: Run, recording: Recording, conditions: Conditions, model: BankModel) -> Run:
+    """A run with other inputs, and samples that stand for all that the sensors would take."""
+    translation = like.translation
+    base = dict(translation.parameters.base)
+    if conditions.load is not None:
+        base["load"] = conditions.load
+    moved = replace(translation, drive=conditions.drive, parameters=BankParameters(base, translation.parameters.terms))
+    start, stop = translation.start, translation.start + conditions.duration
+    corners = np.array(conditions.drive.switches())
+    channels, weights = {}, []
+    for series in like.series:
+        channel, weight = _sampled(series.channel, (start, stop), corners)
+        channels[channel.name] = channel
+        weights.append(weight)
+    run = Run(moved, replace(recording, channels=channels, end=stop), model.bank, COARSE)
+    run.weight = run.weight * np.concatenate(weights)
+    return run
+
+
+def _sampled(channel: Channel, span: tuple[float, float], corners: Array) -> tuple[Channel, Array]:
+    """A channel of the same sensor with few samples, and the weight of each."""
+    period = float(np.median(np.diff(channel.times)))
+    times = span[0] + period * np.arange(1, int((span[1] - span[0]) / period + 1e-9) + 1)
+    every = max(1, len(times) // SAMPLES)
+    is_kept = np.arange(len(times)) % every == 0
+    weight = np.full(len(times), np.sqrt(every))
+    if 0 < len(corners) <= _EDGES and every > 1:
+        after = times[:, None] - corners[None, :]
+        near = np.asarray(((after > 0.0) & (after < EDGE)).any(axis=1))
+        is_kept |= near
+        weight[near] = 1.0
+    chosen = times[is_kept]
+    same = replace(channel, times=chosen, values=np.zeros(len(chosen)), deviation=deviation(channel),
+                   is_deviation_given=False, is_clipped=np.zeros(len(chosen), dtype=bool))  # fmt: skip
+    return same, weight[is_kept]
