@@ -19,6 +19,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.simulator.free import FreeSet, directions, free_parameters
+from diagnosis.simulator.priors import daily_priors, stated_priors
 from diagnosis.simulator.runs import Run
 from diagnosis.simulator.translate import translate
 
@@ -59,7 +60,10 @@ class BankModel:
         for run in self.runs:
             clocks |= {q: max(amount, clocks.get(q, 0.0)) for q, amount in run.clocks().items()}
         nominal = translations[0].parameters.base
-        self._free = list(free_parameters(self.coils, nominal, self.measured, clocks, len(self.runs)))
+        first = translations[0]
+        priors = stated_priors(first.uncertainty, first.scatter)
+        daily = [daily_priors(r, f"{first.actuator}.initial_temperature", first.ambient) for r in recordings]
+        self._free = list(free_parameters(self.coils, nominal, self.measured, clocks, priors, daily))
         self._sets = [FreeSet(self._free, number) for number in range(len(self.runs))]
         self._shown: dict[Term, tuple[list[int], bool] | None] = {}
         self.parameters: Sequence[Parameter] = [f.parameter for f in self._free]

@@ -13,6 +13,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
+from diagnosis.simulator.runs import deviation
 from diagnosis.simulator.unit_laws import laws_of
 
 
@@ -104,11 +105,8 @@ def _compared(recording: Recording) -> ComparedRun:
 
 
 def _with_rounding(recording: Recording) -> Recording:
-    """Rounding is noise too, where the noise that is given is that of the sensor alone."""
+    """Rounding is noise too, where the noise that is given is that of the sensor alone; it is counted once."""
     channels = {
-        name: replace(c, deviation=float(np.hypot(c.deviation, c.quantum / np.sqrt(12.0))))
-        if c.is_deviation_given
-        else c
-        for name, c in recording.channels.items()
+        name: replace(c, deviation=deviation(c), is_deviation_given=False) for name, c in recording.channels.items()
     }
     return replace(recording, channels=channels)

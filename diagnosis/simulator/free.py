@@ -13,7 +13,7 @@ from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import coil_label
 from diagnosis.bank.sensitivities import Direction
 from diagnosis.search.problem import Parameter
-from diagnosis.simulator.priors import DAILY, PRIORS, Prior, matters
+from diagnosis.simulator.priors import Prior, matters
 
 #: Both branches of the stiffness moved along the temperature; no field of the bank.
 SHIFTS: Mapping[str, tuple[str, ...]] = {
@@ -40,7 +40,7 @@ class Free:
 
 def free_parameters(
     layout: BankLayout, nominal: Mapping[str, float | Array], measured: Collection[str], clocks: Mapping[str, float],
-    recordings: int,
+    priors: Mapping[str, Prior], daily: Sequence[Mapping[str, Prior]],
 ) -> Iterator[Free]:  # fmt: skip
     """All that may be off.
 
@@ -49,9 +49,10 @@ def free_parameters(
         nominal: Values of the scenario.
         measured: Quantities of which there are channels.
         clocks: Quantity to how late its readings may be [s], one standard deviation.
-        recordings: How many there are.
+        priors: Base parameter of the bank to how far it may be off.
+        daily: The same for every recording by itself.
     """
-    for name, prior in PRIORS.items():
+    for name, prior in priors.items():
         value = float(np.mean(nominal[name])) if name in nominal else 0.0
         if not matters(prior, set(measured)) or (prior.is_relative and value == 0.0):
             continue
@@ -66,8 +67,8 @@ def free_parameters(
         mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
         label = f"delay of every {quantity}"
         yield Free("clock_offset", mask, None, Parameter(label, "s", 0.0, deviation, is_relative=False))
-    for number in range(recordings):
-        for name, prior in DAILY.items():
+    for number, own in enumerate(daily):
+        for name, prior in own.items():
             label = f"{name} of recording {number + 1}"
             yield _free(label, name, np.ones(layout.coils), number, (0.0, prior.shared), prior)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -45,6 +46,9 @@ class Translation:
         actuator: Name of the component that holds the coils.
         circuit: Name of the circuit, or None where power is given.
         load: Name of the hanging load, or None.
+        ambient: `component.output` of the programme of the surroundings.
+        uncertainty: Parameter of the actuator to the standard deviation of ln(value), where its set states one.
+        scatter: The same from coil to coil.
     """
 
     layout: BankLayout
@@ -54,6 +58,9 @@ class Translation:
     actuator: str
     circuit: str | None
     load: str | None
+    ambient: str = ""
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    scatter: Mapping[str, float] = field(default_factory=dict)
 
 
 def translate(scenario: Scenario) -> Translation:
@@ -106,7 +113,11 @@ class _Reader:
                 raise NoBank("a bank begins with whole coils (give open_coils as a finding, not in the scenario)")
             layout = BankLayout(coils, tuple(circuit.strings), circuit.supply)
             drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage"))
-        return Translation(layout, self._parameters(), drive, start, self.actuator, self.circuit, self.load)
+        own = self.assembly.parameters[self.actuator]
+        return Translation(
+            layout, self._parameters(), drive, start, self.actuator, self.circuit, self.load,
+            ".".join(self._into(self.actuator, "ambient_temperature")[0].source), own.uncertainty, own.scatter,
+        )  # fmt: skip
 
     def _into(self, unit: str, variable: str) -> list[Connection]:
         return [c for c in self.connections if c.target == (unit, variable)]
