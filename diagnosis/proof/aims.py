@@ -24,6 +24,7 @@ class Aim:
         share: Reached.
         visible: Reached where the true terms lower -2 log posterior by at least `VISIBLE`; None where that makes no
             sense.
+        fewest: Cases that the share must be of.
     """
 
     name: str
@@ -31,17 +32,18 @@ class Aim:
     high: float
     share: Share
     visible: Share | None = None
+    fewest: int = 1
 
     @property
     def is_reached(self) -> bool:
-        """Whether the share lies within what is wanted."""
-        return self.share.total > 0 and self.low <= self.share.value <= self.high
+        """Whether the share lies within what is wanted, of enough cases."""
+        return self.share.total >= self.fewest and self.low <= self.share.value <= self.high
 
     @property
     def wanted(self) -> str:
         """As text."""
         if self.low == 0.0:
-            return f"at most {100 * self.high:.0f} %"
+            return f"at most {100 * self.high:.0f} % of at least {self.fewest}"
         if self.high < 1.0:
             return f"{100 * self.low:.0f} to {100 * self.high:.0f} %"
         return f"{100 * self.low:.0f} %"
@@ -72,7 +74,7 @@ def aims(results: Sequence[CaseResult]) -> list[Aim]:
         _of_effects("time right", 0.9, named, lambda e: e.is_time_right),
         _of_effects("named first", 0.85, named, lambda e: e.is_named),
         _of_effects("within the ambiguity class", 0.95, named, lambda e: e.is_in_class),
-        Aim("false alarms", 0.0, 0.05, Share.of(r.score.is_false_alarm for r in nulls)),
+        Aim("false alarms", 0.0, 0.05, Share.of(r.score.is_false_alarm for r in nulls), fewest=100),
         _of_cases("held-out chi-square within 1.1 times of the model that knows the effect", 0.9, [*named, *two],
                   lambda r: r.score.held_out.is_as_good),
         _of_cases("both of two effects", 0.7, two, lambda r: all(bool(e.is_named) for e in r.score.effects)),

@@ -15,7 +15,7 @@ from diagnosis.proof.variables import Course, courses
 from diagnosis.search.fit import Fit
 
 
-def baselines(data: Data, base: Fit) -> tuple[dict[str, float], float, dict[str, float]]:
+def baselines(data: Data, base: Fit) -> tuple[dict[str, float | None], float, dict[str, float]]:
     """Held-out chi-square per sample by method, terms that SINDy reports per channel, and seconds by method.
 
     Args:
@@ -29,12 +29,14 @@ def baselines(data: Data, base: Fit) -> tuple[dict[str, float], float, dict[str,
     between = clock.perf_counter()
     by_terms, terms = sparse_regression.predict(training, held_out)
     end = clock.perf_counter()
-    values = {
+    values: dict[str, float | None] = {
         "gaussian process": _chi_square(held_out, by_process), "sparse regression": _chi_square(held_out, by_terms)
     }  # fmt: skip
     return values, terms, {"gaussian process": between - begin, "sparse regression": end - between}
 
 
-def _chi_square(held_out: Sequence[Course], predicted: Sequence[Array]) -> float:
+def _chi_square(held_out: Sequence[Course], predicted: Sequence[Array]) -> float | None:
+    """Mean over all samples that count; None where it is not finite."""
     left = np.concatenate([(c.residuals - p)[c.used] for c, p in zip(held_out, predicted)])
-    return float(np.mean(left**2))
+    mean = float(np.mean(left**2))
+    return mean if np.isfinite(mean) else None

@@ -18,7 +18,7 @@ class Reference:
             the catalogue has no such terms.
         floor: Of the readings without their noise: nothing can do better but by chance.
         training_gain: Fall of -2 log posterior by the true terms in the training recordings, or None.
-        baselines: Of other methods, by name; not finite where they diverge.
+        baselines: Of other methods, by name; None where a forecast runs away.
         terms: Terms that sparse regression reports per channel, on average.
         seconds: Wall time by part.
         failure: Why there is none of it.
@@ -30,7 +30,7 @@ class Reference:
     oracle: float | None = None
     floor: float | None = None
     training_gain: float | None = None
-    baselines: Mapping[str, float] = field(default_factory=dict)
+    baselines: Mapping[str, float | None] = field(default_factory=dict)
     terms: float | None = None
     seconds: Mapping[str, float] = field(default_factory=dict)
     failure: str = ""
