@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -23,6 +24,9 @@ def diagnose(
     without: Annotated[
         list[str] | None, typer.Option(help="Effect of the catalogue to do without; may be given several times.")
     ] = None,
+    limit: Annotated[
+        list[str] | None, typer.Option(help="Greatest value in a next experiment: `supply.voltage=12 V`.")
+    ] = None,
 ) -> None:
     """Find out what a model leaves out, by recordings of the real thing.
 
@@ -30,33 +34,38 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.curves import curves  # late: `--help` must not load Bullet
-    from diagnosis.diagnose import Means
+    from diagnosis.diagnose import Means  # late: `--help` must not load Bullet
     from diagnosis.diagnose import diagnose as find
+    from diagnosis.experiment.limits import parse_limits
+    from diagnosis.hand_over import hand_over
     from diagnosis.recording.recording import load_recording
-    from diagnosis.report.json_file import write_json
-    from diagnosis.report.network import Network
-    from diagnosis.report.page import write_html
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
-    from diagnosis.simulator.models import strings_of
 
+    _check(recording, held_out, out)
+    console = Console(stderr=True)
+    try:
+        with console.status("reading") as status:
+            base = load_scenario(scenario)
+            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base))
+            training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
+            found = find(base, training, judges, Settings(level=level, seed=seed), status.update, means)
+            status.update("writing")
+            diagnosis = hand_over(found, base, out)
+    except KeyboardInterrupt:
+        print(f"interrupted: there is no diagnosis in {out}; the same command starts afresh", file=sys.stderr)
+        raise typer.Exit(130) from None
+    print_summary(diagnosis, Console())
+    print(out / "report.html")
+
+
+def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
+    """Refuse what would lose something, or judge a fit by itself, before any work is done."""
     if (out / "diagnosis.json").exists():
         raise InputError(out, "", "this folder already holds a diagnosis", "give another folder with `--out`")
+    if out.exists() and not out.is_dir():
+        raise InputError(out, "", "this is a file, not a folder", "give another folder with `--out`")
     same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
     if same:
         raise InputError(sorted(same)[0], "", "this recording is fitted and held out at once",
                          "hold out a recording that was made with another programme")  # fmt: skip
-    console = Console(stderr=True)
-    with console.status("reading") as status:
-        base = load_scenario(scenario)
-        training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
-        settings = Settings(level=level, seed=seed)
-        found = find(base, training, judges, settings, status.update, Means(tuple(without or ()), jobs))
-        status.update("writing")
-        out.mkdir(parents=True, exist_ok=True)
-        write_json(found.diagnosis, out / "diagnosis.json")
-        network = Network(strings_of(base))
-        write_html(found.diagnosis, curves(found), out / "report.html", network, base.title)
-    print_summary(found.diagnosis, Console())
-    print(out / "report.html")

@@ -25,8 +25,8 @@ from diagnosis.simulator.translate import GRAVITY
 MOST = 4
 #: A programme that decides with this probability is enough: then the shortest such is taken.
 ENOUGH = 0.95
-#: Families of which longer programmes are tried too.
-_LONGER = 3
+#: Families that are tried with half the load, and of which longer programmes are tried.
+_LOADED, _LONGER = 2, 3
 
 
 @dataclass(frozen=True)
@@ -41,27 +41,55 @@ class _Tried:
     gain: float
 
 
-def open_explanations(outcome: Outcome) -> tuple[Explanation, ...]:
-    """Explanations that the recordings leave open, the most probable first; fewer than two where nothing is open.
+@dataclass(frozen=True)
+class Open:
+    """Explanations that recordings leave open.
+
+    Args:
+        explanations: The most probable first.
+        chances: Probability of each among them, shape (explanations,).
+    """
+
+    explanations: tuple[Explanation, ...]
+    chances: Array
+
+    @property
+    def log_odds(self) -> list[float]:
+        """ln of the odds of the first against each of the others."""
+        return [float(np.log(self.chances[0] / c)) for c in np.maximum(self.chances[1:], 1e-12)]
+
+
+def open_explanations(outcome: Outcome) -> Open | None:
+    """Explanations that the recordings leave open; None where nothing is open.
 
     Args:
         outcome: Of a search.
     """
-    ordered = sorted(outcome.rivals, key=lambda e: e.fit.cost)
-    if not ordered:
-        return ()
-    if not outcome.best.terms:  # nothing was earned: the model as it is against what came nearest
-        return (outcome.best, *(e for e in ordered if e.terms))[:MOST]
-    near = [e for e in ordered if e.fit.cost < ordered[0].fit.cost + UNSEPARATED]
-    best = next((e for e in near if e.terms == outcome.best.terms), None)
-    return tuple(near if best is None else [best, *(e for e in near if e is not best)])[:MOST]
+    if not outcome.best.terms:
+        return _unearned(outcome)
+    size = len(outcome.best.terms)
+    others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
+    near = [e for e in others if e.fit.cost < outcome.best.fit.cost + UNSEPARATED]
+    found = (outcome.best, *sorted(near, key=lambda e: e.fit.cost))[:MOST]
+    return Open(found, probabilities(found)) if len(found) > 1 else None
+
+
+def _unearned(outcome: Outcome) -> Open | None:
+    """The model as it is against what came nearest: with a gain of just the margin an effect would be a toss-up."""
+    with_term = [e for e in outcome.rivals if e.terms]
+    gains = np.array([outcome.base.cost - e.fit.cost for e in with_term])
+    kept = [i for i in np.argsort(-gains) if gains[i] > outcome.margin - UNSEPARATED][: MOST - 1]
+    if not kept:
+        return None
+    weights = np.concatenate([[1.0], np.exp(0.5 * (gains[kept] - outcome.margin))])
+    return Open((Explanation(outcome.base), *(with_term[i] for i in kept)), weights / weights.sum())
 
 
 def design(
-    scenario: Scenario, model: BankModel, recordings: Sequence[Recording], explanations: Sequence[Explanation],
+    scenario: Scenario, model: BankModel, recordings: Sequence[Recording], question: Open,
     limits: Mapping[str, float] | None = None,
 ) -> NextExperiment | None:  # fmt: skip
-    """The experiment that parts explanations best, or None where nothing is open or nothing can be driven.
+    """The experiment that parts explanations best, or None where nothing can be driven.
 
     Of families of programmes within the limits of the rig it takes the one with the largest predicted odds; where
     several decide almost surely, the shortest of them. Predictions are full simulations of each explanation; what each
@@ -71,31 +99,28 @@ def design(
         scenario: The model as it is.
         model: Model of the recordings.
         recordings: These, in order.
-        explanations: What is open, the most probable first; see `open_explanations`.
+        question: What is open; see `open_explanations`.
         limits: `component.output` to its greatest value, in the unit of that output.
 
     Raises:
         InputError: A limit names nothing that can be driven.
     """
-    if len(explanations) < 2:
-        return None
     longest = max(float(run.inputs.time[-1] - run.inputs.time[0]) for run in model.runs)
     driven = rig(scenario, [scenario_of(scenario, r) for r in recordings], longest, limits or {})
     if driven is None:
         return None
-    bench = Bench(model, recordings, [e.fit for e in explanations])
-    chances = probabilities(tuple(explanations))
-    tried = _tried(driven, bench, chances)
+    bench = Bench(model, recordings, [e.fit for e in question.explanations])
+    tried = _tried(driven, bench, question)
     if not tried:
         return None
     best = _best(tried)
-    repeated = _weighed(bench.contrasts(bench.repeat(), _odds(chances)), chances)
+    repeated = _weighed(bench.contrasts(bench.repeat(), question.log_odds), question)
     first = best.contrasts[0]
     return NextExperiment(
         scenario=None,
         kind=best.shape.kind,
-        statement=_statement(best, repeated[0], explanations),
-        rivals=tuple(Rival(_words(e), float(c)) for e, c in zip(explanations, chances)),
+        statement=_statement(best, repeated[0], question),
+        rivals=tuple(Rival(_words(e), float(c)) for e, c in zip(question.explanations, question.chances)),
         courses=best.courses,
         duration=best.conditions.duration,
         limits=(*driven.limits(), f"coils at most {HOTTER:g} K hotter than in the recordings",
@@ -115,48 +140,44 @@ def _words(explanation: Explanation) -> tuple[str, ...]:
     return tuple(map(str, explanation.terms)) or ("the model as it is",)
 
 
-def _odds(chances: Array) -> list[float]:
-    """ln of the odds of the first against each other explanation."""
-    return [float(np.log(max(chances[0], 1e-12) / max(c, 1e-12))) for c in chances[1:]]
-
-
-def _weighed(contrasts: Sequence[Contrast], chances: Array) -> tuple[float, float]:
+def _weighed(contrasts: Sequence[Contrast], question: Open) -> tuple[float, float]:
     """Probability of a decision, and expected ln of the Bayes factor, averaged over the rivals of the first."""
     if not contrasts:
         return 0.0, 0.0
-    weights = chances[1:] / np.sum(chances[1:])
+    weights = question.chances[1:] / np.sum(question.chances[1:])
     return (float(weights @ [c.separation.decides for c in contrasts]),
             float(weights @ [c.separation.log_bayes_factor for c in contrasts]))  # fmt: skip
 
 
-def _tried(driven: Rig, bench: Bench, chances: Array) -> list[_Tried]:
-    """One programme of each family; of the best, if none decides, longer ones, repeated ones, and half the load."""
+def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:
+    """One programme of each family; of the best, as long as none decides, with half the load, longer, and repeated."""
     planner = Planner(driven, bench)
     found: list[_Tried] = []
     for shape in shapes(driven.duration, driven.columns, planner.levels()):
-        found += _one(planner, shape, None, chances)
+        found += _one(planner, shape, None, question)
     if not found or max(t.decides for t in found) >= ENOUGH:
         return found
     first = sorted(found, key=lambda t: -t.gain)
-    for one in first[:_LONGER]:
-        found += _one(planner, stretched(one.shape, 3.0 * driven.duration), None, chances)
-    shortest = next(t.shape for t in first if t.shape.duration <= driven.duration)
-    found += _one(planner, again(shortest, 3), None, chances)
     if driven.load is not None:
         weight = float(np.max(np.asarray(bench.model.runs[0].translation.parameters.base["load"])))
-        best = max(found, key=lambda t: t.gain)
-        found += _one(planner, best.shape, 0.5 * weight, chances)
-    return found
+        for one in first[:_LOADED]:
+            found += _one(planner, one.shape, 0.5 * weight, question)
+        if max(t.decides for t in found) >= ENOUGH:
+            return found
+    for one in sorted(found, key=lambda t: -t.gain)[:_LONGER]:
+        found += _one(planner, stretched(one.shape, 3.0 * driven.duration), one.conditions.load, question)
+    shortest = next(t.shape for t in first if t.shape.duration <= driven.duration)
+    return found + _one(planner, again(shortest, 3), None, question)
 
 
-def _one(planner: Planner, shape: Shape, load: float | None, chances: Array) -> list[_Tried]:
+def _one(planner: Planner, shape: Shape, load: float | None, question: Open) -> list[_Tried]:
     made = planner.conditions(shape, load)
     if made is None:
         return []
-    contrasts = planner.bench.contrasts(planner.bench.under(made[1]), _odds(chances))
+    contrasts = planner.bench.contrasts(planner.bench.under(made[1]), question.log_odds)
     if not contrasts:
         return []
-    decides, gain = _weighed(contrasts, chances)
+    decides, gain = _weighed(contrasts, question)
     return [_Tried(shape, *made, contrasts, decides, gain)]
 
 
@@ -168,12 +189,12 @@ def _best(tried: Sequence[_Tried]) -> _Tried:
     return max((t for t in enough if t.conditions.duration <= shortest), key=lambda t: t.gain)
 
 
-def _statement(best: _Tried, again: float, explanations: Sequence[Explanation]) -> str:
-    first, second = ("; ".join(_words(e)) for e in explanations[:2])
+def _statement(best: _Tried, repeated: float, question: Open) -> str:
+    first, second = (" with ".join(_words(e)).replace("_", " ") for e in question.explanations[:2])
     load = "" if best.conditions.load is None else f", with half the load ({best.conditions.load / GRAVITY:.3g} kg)"
-    more = f" (and {len(explanations) - 2} more)" if len(explanations) > 2 else ""
+    more = f" (and {len(question.chances) - 2} more)" if len(question.chances) > 2 else ""
     kind = best.shape.kind[0].upper() + best.shape.kind[1:]
     return (
         f"{kind} for {best.conditions.duration:g} s{load} would decide between {first} and {second}{more} with odds of "
-        f"20 to 1 in {100 * best.decides:.0f} % of cases, a repeat of the recordings in {100 * again:.0f} %."
+        f"20 to 1 in {100 * best.decides:.0f} % of cases, a repeat of the recordings in {100 * repeated:.0f} %."
     )

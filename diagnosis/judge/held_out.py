@@ -54,7 +54,7 @@ def channel_fits(
                 whiteness[stage] = _largest(scaled)
             found.append(
                 ChannelFit(recording.title, is_held_out, series.channel.name, series.channel.unit, rmse, chi_square,
-                           whiteness)
+                           whiteness, int(np.count_nonzero(series.used)))
             )  # fmt: skip
     return found
 

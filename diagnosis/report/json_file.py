@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from cosim.errors import InputError
+from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis
 
 _REMEDY = "give the diagnosis.json of this version's `cosim diagnose`; docs/diagnosis.schema.json tells its keys"
@@ -23,7 +24,7 @@ _REMEDY = "give the diagnosis.json of this version's `cosim diagnose`; docs/diag
 def write_json(diagnosis: Diagnosis, path: Path) -> None:
     """Write diagnosis.json as docs/diagnosis.schema.json has it; a number that is not finite becomes null."""
     text = json.dumps(as_json(diagnosis), indent=2, ensure_ascii=False, allow_nan=False)
-    path.write_text(text + "\n", encoding="utf-8")
+    write_atomically(path, (text + "\n").encode())
 
 
 def as_json(diagnosis: Diagnosis) -> dict[str, Any]:

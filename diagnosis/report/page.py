@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.isolability import Isolability
 from diagnosis.report.display import clean, listed, number, percent
@@ -34,7 +35,7 @@ def write_html(
         network: Strings of the scenario; taken from the names of channels and elements where it is not given.
         title: Of the scenario.
     """
-    path.write_text(page(diagnosis, series, network or inferred(diagnosis), title), encoding="utf-8")
+    write_atomically(path, page(diagnosis, series, network or inferred(diagnosis), title).encode())
 
 
 def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title: str = "") -> str:

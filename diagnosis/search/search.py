@@ -74,7 +74,8 @@ class Outcome:
         base_structure: What is left without terms.
         best: The accepted explanation; without terms where none was earned.
         left: What is left with it.
-        rivals: Other explanations with as many terms, best first (the accepted one is among them).
+        rivals: Other explanations with as many terms, best first (the accepted one is among them); where none was
+            earned, the model without terms and those that came nearest.
         margin: Gain that a term had to exceed.
         false_alarm_rate: Probability that chance alone gives the first accepted term its gain; 1 without one.
         tried: Choices of terms and shapes that were simulated.
@@ -126,6 +127,8 @@ def search(
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
         if not grown or current[0].fit.cost - grown[0].fit.cost <= margin:
+            if level == 0:  # not earned, but an experiment may decide about them
+                rivals = (best, *grown)
             break
         if level == 0:
             rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost)

@@ -1,0 +1,43 @@
+"""What a diagnosis leaves in its folder; diagnosis.json comes last and tells that all is there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from cosim.run_folder import writing
+from cosim.scenario import Scenario
+from diagnosis.curves import curves
+from diagnosis.diagnose import Found
+from diagnosis.experiment.write import write_experiment
+from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.report.json_file import write_json
+from diagnosis.report.network import Network
+from diagnosis.report.page import write_html
+from diagnosis.simulator.models import strings_of
+
+
+def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
+    """Write next_experiment/scenario.yaml where one was designed, report.html and diagnosis.json.
+
+    Args:
+        found: The diagnosis and its models.
+        scenario: What was diagnosed.
+        out: Folder; made where it does not exist.
+
+    Returns:
+        The diagnosis with the paths of what was written.
+
+    Raises:
+        InputError: The folder cannot be written.
+    """
+    diagnosis = found.diagnosis
+    with writing(out):
+        out.mkdir(parents=True, exist_ok=True)
+        if diagnosis.next_experiment is not None:
+            written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
+            diagnosis = replace(diagnosis, next_experiment=written)
+        network = Network(strings_of(scenario))
+        write_html(diagnosis, curves(found), out / "report.html", network, scenario.title)
+        write_json(diagnosis, out / "diagnosis.json")
+    return diagnosis
