@@ -40,8 +40,8 @@ COIL_FIELDS: Mapping[str, tuple[float, str]] = {
 }
 STRING_FIELDS: Mapping[str, tuple[float, str]] = {"string_resistance": (0.0, "ohm")}
 SOURCE_FIELDS: Mapping[str, tuple[float, str]] = {"supply_resistance": (0.0, "ohm")}
-#: Over the quantities: how late the clock of all channels of one quantity is.
-QUANTITY_FIELDS: Mapping[str, tuple[float, str]] = {"clock_offset": (0.0, "s")}
+#: Over the quantities: how late the clock of all channels of one quantity is, and how slow their sensors.
+QUANTITY_FIELDS: Mapping[str, tuple[float, str]] = {"clock_offset": (0.0, "s"), "sensor_lag": (0.0, "s")}
 FieldAxis = Axis | Literal["quantity"]
 AXIS_OF_FIELD: Mapping[str, FieldAxis] = {
     **dict.fromkeys(COIL_FIELDS, "coil"), **dict.fromkeys(STRING_FIELDS, "string"),

@@ -22,13 +22,14 @@ typedef struct {
     const double *const *sample_time;
     const int64_t *out_offset;   /* of every quantity in a set's output */
     const int64_t *term_offset;  /* of every term's first array in a set's parameters; -1: switched off */
+    const double *const *traces; /* per quantity: rows at the ends of steps, read in place of a simulation; or NULL */
 } Plan;
 
 typedef struct {
     const Plan *plan;
     int64_t width, coils, strings, sources, row; /* row: number of the step */
     double t, t_begin, t_end, dt, dt_middle; /* t: instant that a hook's values belong to; dt_middle: 0 or dt / 2 */
-    const double *coil, *string, *source, *late; /* parameters; late: clock offset of every quantity */
+    const double *coil, *string, *source, *late, *slow; /* parameters; late, slow: clock offset and lag of every quantity */
     const double *set;                       /* parameters of the whole set */
     double *temperature, *before, *middle, *mean, *felt, *rate, *slope, *energy; /* rate: mean over the step; slope: at its end */
     double *resistance, *current, *power, *heat, *conductance, *capacity, *ambient;

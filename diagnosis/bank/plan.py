@@ -22,7 +22,8 @@ class PlanLayout(ctypes.Structure):
         *((n, ctypes.c_int64) for n in ("coils", "width", "strings", "sources", "steps", "is_midpoint", "pairs",
                                         "has_circuit")),
         *((n, _POINTER) for n in ("first", "pair_a", "pair_b", "time", "is_switch", "voltage", "ambient", "power",
-                                  "given", "samples", "sample_time", "out_offset", "term_offset")),
+                                  "given", "samples", "sample_time", "out_offset", "term_offset",
+                                  "traces")),
     ]  # fmt: skip
 
 

@@ -160,26 +160,36 @@ static void lag_column(const Plan *plan, int is_flow, double lag, double *column
     }
 }
 
-static void sample_channel(const Step *s, int q, const double *trace, Sensor *sensor, double *column)
+static void sample_channel(const Step *s, int q, const double *trace, Sensor *sensor, double *column, double *raw)
 {
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), element = sensor->channel - quantity_channel(s, q);
     const int is_flow = quantity_is_flow[q];
     sensor->partner = element;
     sensor->offset = s->late[q];
+    sensor->lag = s->slow[q];
     HOOK_channel(sensor);
     const int64_t partner = sensor->partner < 0 || sensor->partner >= elements ? element : sensor->partner;
     for (int64_t k = 0; k <= plan->steps; k++) {
         const double own = trace[k * elements + element];
         column[k] = own + sensor->share * (trace[k * elements + partner] - own);
     }
+    int64_t hint = 0, a, b;
+    const int is_lagged_flow = is_flow && sensor->lag > 0.0;
+    if (is_lagged_flow) {
+        memcpy(raw, column, (plan->steps + 1) * sizeof(double));
+    }
     if (sensor->lag > 0.0) {
         lag_column(plan, is_flow, sensor->lag, column);
     }
-    int64_t hint = 0, a, b;
     for (int64_t n = 0; n < sensor->samples; n++) {
-        const double w = locate(plan, is_flow && sensor->lag <= 0.0, sensor->time[n] - sensor->offset, &hint, &a, &b);
-        sensor->value[n] = column[a] + w * (column[b] - column[a]);
+        const double w = locate(plan, is_flow && !is_lagged_flow, sensor->time[n] - sensor->offset, &hint, &a, &b);
+        if (is_lagged_flow) { /* a flow stands still within a step, so that what is behind it dies away exactly */
+            const double since = w * (plan->time[b] - plan->time[a]);
+            sensor->value[n] = raw[b] + (column[a] - raw[b]) * bank_exp(-since / sensor->lag);
+        } else {
+            sensor->value[n] = column[a] + w * (column[b] - column[a]);
+        }
     }
     HOOK_sensor(sensor);
 }
@@ -189,7 +199,7 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
     const double *time = plan->sample_time[q];
-    if (!HAS_SENSOR(plan)) {
+    if (!HAS_SENSOR(plan) && s->slow[q] <= 0.0) {
         int64_t hint = 0, a, b;
         for (int64_t n = 0; n < samples; n++) {
             const double w = locate(plan, quantity_is_flow[q], time[n] - s->late[q], &hint, &a, &b);
@@ -200,11 +210,11 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
         }
         return;
     }
-    double *column = work, *value = work + plan->steps + 1;
+    double *column = work, *raw = work + plan->steps + 1, *value = raw + plan->steps + 1;
     for (int64_t i = 0; i < elements; i++) {
         Sensor sensor = {.set = s->set, .channel = quantity_channel(s, q) + i, .samples = samples, .time = time,
                          .value = value};
-        sample_channel(s, q, trace, &sensor, column);
+        sample_channel(s, q, trace, &sensor, column, raw);
         for (int64_t n = 0; n < samples; n++) {
             out[n * elements + i] = value[n];
         }
@@ -247,21 +257,10 @@ static double *place(Step *s, double *memory)
     return memory + 2 * STATES * s->width;
 }
 
-/* Simulates one set. Returns -1, or the step in which a temperature or an extension stopped being finite. */
-static int64_t run(const Plan *plan, const double *set, double *out, double *memory)
+/* Fills the traces. Returns -1, or the step in which a temperature or an extension stopped being finite. */
+static int64_t simulate(Step *s, double *const *trace)
 {
-    Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
-                 .sources = plan->sources, .set = set, .coil = set};
-    Step *s = &step;
-    s->string = set + COIL_FIELDS * plan->width;
-    s->source = s->string + STRING_FIELDS * plan->strings;
-    s->late = s->source + SOURCE_FIELDS * plan->sources;
-    memory = place(s, memory);
-    double *trace[QUANTITIES];
-    for (int q = 0; q < QUANTITIES; q++) {
-        trace[q] = plan->samples[q] ? memory : NULL;
-        memory += plan->samples[q] ? (plan->steps + 1) * quantity_elements(s, q) : 0;
-    }
+    const Plan *plan = s->plan;
     begin(s);
     keep(s, trace, 0);
     for (int64_t k = 0; k < plan->steps; k++) {
@@ -275,6 +274,43 @@ static int64_t run(const Plan *plan, const double *set, double *out, double *mem
         keep(s, trace, k + 1);
     }
     keep_start(s, trace);
+    return -1;
+}
+
+/* Traces of another simulation, to be read as this one is. */
+static void copy_traces(const Step *s, double *const *trace)
+{
+    for (int q = 0; q < QUANTITIES; q++) {
+        if (trace[q]) {
+            memcpy(trace[q], s->plan->traces[q], (s->plan->steps + 1) * quantity_elements(s, q) * sizeof(double));
+        }
+    }
+}
+
+/* Simulates one set. Returns -1, or the step in which a temperature or an extension stopped being finite. */
+static int64_t run(const Plan *plan, const double *set, double *out, double *memory)
+{
+    Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
+                 .sources = plan->sources, .set = set, .coil = set};
+    Step *s = &step;
+    s->string = set + COIL_FIELDS * plan->width;
+    s->source = s->string + STRING_FIELDS * plan->strings;
+    s->late = s->source + SOURCE_FIELDS * plan->sources;
+    s->slow = s->late + QUANTITIES;
+    memory = place(s, memory);
+    double *trace[QUANTITIES];
+    for (int q = 0; q < QUANTITIES; q++) {
+        trace[q] = plan->samples[q] ? memory : NULL;
+        memory += plan->samples[q] ? (plan->steps + 1) * quantity_elements(s, q) : 0;
+    }
+    if (plan->traces) {
+        copy_traces(s, trace);
+    } else {
+        const int64_t step = simulate(s, trace);
+        if (step >= 0) {
+            return step;
+        }
+    }
     for (int q = 0; q < QUANTITIES; q++) {
         if (trace[q]) {
             sample(s, q, trace[q], out + plan->out_offset[q], memory);
@@ -294,7 +330,7 @@ int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t 
         size += (plan->steps + 1) * (plan->coils + plan->strings + 1);
         most_samples = plan->samples[q] > most_samples ? plan->samples[q] : most_samples;
     }
-    size += plan->steps + 1 + most_samples;
+    size += 2 * (plan->steps + 1) + most_samples;
     double *memory = malloc(size * sizeof(double));
     if (!memory) {
         return 2;

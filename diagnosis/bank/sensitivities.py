@@ -11,7 +11,7 @@ import numpy.typing as npt
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.independence import Independence
 from diagnosis.bank.inputs import BankInputs
-from diagnosis.bank.layout import QUANTITIES, Array
+from diagnosis.bank.layout import QUANTITIES, QUANTITY_FIELDS, Array
 from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
 from diagnosis.bank.plan import Plan
 
@@ -123,9 +123,10 @@ def _share_sensor(packing: Packing, base: Array) -> None:
         if axis == "channel":
             values = base[packing.where(name)]
             values[first : first + layout.elements("string_share")] = values[supply]
-    clocks = base[packing.where("clock_offset")]
     names = list(QUANTITIES)
-    clocks[names.index("string_share")] = clocks[names.index("supply_current")]
+    for field in QUANTITY_FIELDS:
+        values = base[packing.where(field)]
+        values[names.index("string_share")] = values[names.index("supply_current")]
 
 
 def _groups(apart: Independence, packing: Packing, directions: Sequence[Direction]) -> list[_Group]:

@@ -22,7 +22,7 @@ CANDIDATE = CandidateTerm(
             is_amplitude=True,
         ),
     ),
-    places=("row_gradient", "column_gradient", "string"),
+    places=("row_gradient", "column_gradient"),
     lines={
         "heat": "conductance *= 1.0 + amount;",
     },

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.search.fit import HUBER
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.structure import WINDOWS
 
@@ -28,7 +29,7 @@ def conspicuousness(residuals: Array, layout: Layout) -> Array:
     found = np.zeros(len(layout.names))
     for number in range(len(layout.names)):
         values = residuals[layout.channel == number]
-        values = values[values != 0.0]
+        values = np.clip(values[values != 0.0], -HUBER, HUBER)
         for window in (*WINDOWS, 48):
             if len(values) >= window:
                 sums = np.convolve(values, np.ones(window), mode="valid") / np.sqrt(window)

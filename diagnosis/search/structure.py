@@ -9,6 +9,7 @@ import numpy as np
 from scipy.stats import norm
 
 from cosim.unit import Array
+from diagnosis.search.fit import HUBER
 from diagnosis.search.problem import Layout
 
 #: Samples per window.
@@ -69,7 +70,7 @@ def structure(residuals: Array, layout: Layout, groups: Mapping[str, Array] | No
 
 def _larger(best: Structure, values: Array, times: Array, name: str) -> Structure:
     used = values != 0.0
-    values, times = values[used], times[used]
+    values, times = np.clip(values[used], -HUBER, HUBER), times[used]  # a wild reading alone is no structure
     for window in WINDOWS:
         if len(values) < window:
             continue

@@ -18,9 +18,9 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.simulator.free import FreeSet, directions, free_parameters
+from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, stated_priors
-from diagnosis.simulator.runs import Run
+from diagnosis.simulator.runs import Run, clocks
 from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
@@ -56,14 +56,12 @@ class BankModel:
         self._candidates = {t.identifier: t for t in catalogue}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
-        clocks: dict[str, float] = {}
-        for run in self.runs:
-            clocks |= {q: max(amount, clocks.get(q, 0.0)) for q, amount in run.clocks().items()}
         nominal = translations[0].parameters.base
         first = translations[0]
         priors = stated_priors(first.uncertainty, first.scatter)
         daily = [daily_priors(r, f"{first.actuator}.initial_temperature", first.ambient) for r in recordings]
-        self._free = list(free_parameters(self.coils, nominal, self.measured, clocks, priors, daily))
+        self._free = list(free_parameters(self.coils, nominal, self.measured, clocks(self.runs), priors, daily))
+        self._sensors = sensor_values(self._free)
         self._sets = [FreeSet(self._free, number) for number in range(len(self.runs))]
         self._shown: dict[Term, tuple[list[int], bool] | None] = {}
         self.parameters: Sequence[Parameter] = [f.parameter for f in self._free]
@@ -135,7 +133,7 @@ class BankModel:
 
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""
-        base = dict(self.runs[run].translation.parameters.base)
+        base = {**self.runs[run].translation.parameters.base, **self._sensors}
         self._sets[run].vary(base, point.base)
         terms: dict[str, Mapping[str, float | Array]] = {}
         for term, values in point.terms.items():

@@ -21,6 +21,23 @@ SHIFTS: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
+#: Deviation of the logarithm of a sensor's lag: of a stated bound a fifth is typical, a half not rare.
+LAG_SPREAD = 0.9
+
+
+@dataclass(frozen=True)
+class Clocks:
+    """How late readings may be by what the recordings state of clocks and sensors; quantity to seconds.
+
+    Args:
+        late: One standard deviation of the clock; of a state, which never jumps, a short lag is a delay too.
+        slow: Typical lag of the sensors of a flow, which jumps.
+    """
+
+    late: Mapping[str, float]
+    slow: Mapping[str, float]
+
+
 @dataclass(frozen=True)
 class Free:
     """A free parameter in terms of the bank: values change by a factor or a summand over a mask.
@@ -39,7 +56,7 @@ class Free:
 
 
 def free_parameters(
-    layout: BankLayout, nominal: Mapping[str, float | Array], measured: Collection[str], clocks: Mapping[str, float],
+    layout: BankLayout, nominal: Mapping[str, float | Array], measured: Collection[str], clocks: Clocks,
     priors: Mapping[str, Prior], daily: Sequence[Mapping[str, Prior]],
 ) -> Iterator[Free]:  # fmt: skip
     """All that may be off.
@@ -48,7 +65,7 @@ def free_parameters(
         layout: Coils and strings.
         nominal: Values of the scenario.
         measured: Quantities of which there are channels.
-        clocks: Quantity to how late its readings may be [s], one standard deviation.
+        clocks: How late readings may be.
         priors: Base parameter of the bank to how far it may be off.
         daily: The same for every recording by itself.
     """
@@ -63,14 +80,21 @@ def free_parameters(
             yield _free(name, name, np.ones(size), None, (value, prior.shared), prior)
         for i in range(size if prior.scatter and size > 1 else 0):
             yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], None, (value, prior.scatter), prior)
-    for quantity, deviation in clocks.items():
-        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
-        label = f"delay of every {quantity}"
-        yield Free("clock_offset", mask, None, Parameter(label, "s", 0.0, deviation, is_relative=False))
+    yield from _sensors(clocks)
     for number, own in enumerate(daily):
         for name, prior in own.items():
             label = f"{name} of recording {number + 1}"
             yield _free(label, name, np.ones(layout.coils), number, (0.0, prior.shared), prior)
+
+
+def _sensors(clocks: Clocks) -> Iterator[Free]:
+    for quantity, late in clocks.late.items():
+        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
+        label = f"delay of every {quantity}"
+        yield Free("clock_offset", mask, None, Parameter(label, "s", 0.0, late, is_relative=False))
+    for quantity, lag in clocks.slow.items():
+        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
+        yield Free("sensor_lag", mask, None, Parameter(f"lag of every {quantity}", "s", lag, LAG_SPREAD))
 
 
 def _free(
@@ -79,6 +103,15 @@ def _free(
     nominal, deviation = size
     unit = "K" if not prior.is_relative else "1"
     return Free(field, mask, recording, Parameter(name, unit, nominal, deviation, prior.is_relative))
+
+
+def sensor_values(free: Sequence[Free]) -> dict[str, float | Array]:
+    """Nominal lags of sensors, over the quantities [s]."""
+    lags = np.zeros(len(QUANTITIES))
+    for one in free:
+        if one.field == "sensor_lag":
+            lags += one.parameter.nominal * one.mask
+    return {"sensor_lag": lags}
 
 
 class FreeSet:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,7 @@ from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.steps import choose_step
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
+from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.translate import Translation
 
 
@@ -117,16 +118,18 @@ class Run:
         found *= -self.weight
         return np.asarray(found)
 
-    def clocks(self) -> Mapping[str, float]:
-        """Quantity to how late its readings may be by what the recording states of its clock and sensors [s].
 
-        A short lag is a delay to first order; a long one (beyond a second) is no nuisance but a candidate.
-        """
-        found: dict[str, float] = {}
-        for s in self.series:
-            lag = s.channel.lag_bound if s.channel.lag_bound <= 1.0 else 0.0
-            found[s.quantity] = max(found.get(s.quantity, 0.0), 0.5 * float(np.hypot(s.channel.offset_bound, lag)))
-        return {quantity: amount for quantity, amount in found.items() if amount > 0.0}
+def clocks(runs: Sequence[Run]) -> Clocks:
+    """How late readings may be. A lag beyond a second is no nuisance of sensors but a candidate."""
+    late: dict[str, float] = {}
+    slow: dict[str, float] = {}
+    for s in (s for run in runs for s in run.series):
+        lag = s.channel.lag_bound if s.channel.lag_bound <= 1.0 else 0.0
+        if QUANTITIES[s.quantity].is_flow:
+            slow[s.quantity] = max(slow.get(s.quantity, 0.0), 0.2 * lag)
+            lag = 0.0
+        late[s.quantity] = max(late.get(s.quantity, 0.0), 0.5 * float(np.hypot(s.channel.offset_bound, lag)))
+    return Clocks({q: v for q, v in late.items() if v > 0.0}, {q: v for q, v in slow.items() if v > 0.0})
 
 
 def deviation(channel: Channel) -> float:
