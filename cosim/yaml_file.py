@@ -15,7 +15,8 @@ from cosim.errors import InputError
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
 _MEMBER = re.compile(r"^(bool|function-plain\[.*|list\[.*|float|int|str)$")
 _KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass", "bullet_pendulum",
-          "gauss_seidel", "jacobi", "iterated", "step_doubling")  # fmt: skip
+          "gauss_seidel", "jacobi", "iterated", "step_doubling",
+          "contact", "lead", "source_resistance", "current_limit")  # fmt: skip
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):

@@ -7,7 +7,8 @@
 
 #include "variables.h"
 
-/* The units of all models with their exponents of the SI base units. */
+/* The units of all models with their exponents of the SI base units. A config.h with further ones defines MODEL_UNITS,
+ * rows of this table with a comma after each. */
 static const struct {
     const char *name;
     int kg, m, s, A, K;
@@ -20,6 +21,9 @@ static const struct {
     {"J/kg", 0, 2, -2, 0, 0},       {"ohm*m", 1, 3, -3, -2, 0}, {"J/K", 1, 2, -2, 0, -1},  {"W/K", 1, 2, -3, 0, -1},
     {"V", 1, 2, -3, -1, 0},         {"A", 0, 0, 0, 1, 0},       {"C", 0, 0, 1, 1, 0},      {"m^2/s", 0, 2, -1, 0, 0},
     {"F/m^3", -1, -5, 4, 2, 0},     {"m^3/C", 0, 3, -1, -1, 0},
+#ifdef MODEL_UNITS
+    MODEL_UNITS
+#endif
 };
 
 static void write_exponent(const char *base, int exponent)
@@ -64,7 +68,12 @@ static void write_header(int version)
            "  generationTool=\"describe.c\"\n  variableNamingConvention=\"structured\"%s>\n",
            version, MODEL_IDENTIFIER, is_3 ? "instantiationToken" : "guid", token, MODEL_DESCRIPTION,
            is_3 ? "" : "\n  numberOfEventIndicators=\"0\"");
-    for (int interface = 0; interface < 2; interface++) {
+#ifdef MODEL_CO_SIMULATION_ONLY
+    const int first = 1;
+#else
+    const int first = 0;
+#endif
+    for (int interface = first; interface < 2; interface++) {
         const char *state = is_3 ? "State" : "state";
         printf("  <%s\n    modelIdentifier=\"%s\"\n    canGetAndSetFMU%s=\"true\"\n    canSerializeFMU%s=\"true\"\n",
                interface == 0 ? "ModelExchange" : "CoSimulation", MODEL_IDENTIFIER, state, state);

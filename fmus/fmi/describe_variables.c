@@ -5,12 +5,14 @@
 #include "describe.h"
 #include "variables.h"
 
-/* Whether the blank-separated list `names` holds `name`. */
-static bool holds(const char *names, const char *name)
+/* Whether the blank-separated list `names` holds `name`; with is_initial also if it holds `@name`, which means: in
+ * Initialization Mode alone. */
+static bool holds(const char *names, const char *name, bool is_initial)
 {
     const size_t length = strlen(name);
     for (const char *at = strstr(names, name); at != NULL; at = strstr(at + 1, name)) {
-        if ((at == names || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) {
+        const char *begin = is_initial && at > names && at[-1] == '@' ? at - 1 : at;
+        if ((begin == names || begin[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) {
             return true;
         }
     }
@@ -25,7 +27,8 @@ static bool depends_on(size_t i, size_t j, bool is_initial)
     if (is_initial && (role == ROLE_PARAMETER || role == ROLE_FLAG)) {
         return true;
     }
-    return holds(model_variables[i].depends, model_variables[j].name) && !(is_initial && role == ROLE_STATE);
+    return holds(model_variables[i].depends, model_variables[j].name, is_initial) &&
+           !(is_initial && role == ROLE_STATE);
 }
 
 static void write_causality(Role role)

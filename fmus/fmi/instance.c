@@ -118,6 +118,13 @@ Instance *instance_create(int fmi_version, Interface interface, const char *toke
         free(importer);
         return NULL;
     }
+#ifdef MODEL_CO_SIMULATION_ONLY
+    if (interface != CO_SIMULATION) {
+        log(importer, "this model is made for Co-Simulation alone");
+        free(importer);
+        return NULL;
+    }
+#endif
     Instance *instance = calloc(1, sizeof *instance);
     if (instance == NULL || !lay_out(&instance->model, COILS)) {
         log(importer, "out of memory");

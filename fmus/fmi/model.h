@@ -2,7 +2,7 @@
  *
  * A model is a folder with config.h (the table, an X-macro) and model.c (the equations). The enumeration, the C table
  * and modelDescription.xml all come from that table. Everything is SI; every value is a double in one block, so that
- * saving a state is one copy.
+ * saving a state is one copy. A config.h that defines MODEL_CO_SIMULATION_ONLY makes a model without Model Exchange.
  */
 #ifndef MODEL_H
 #define MODEL_H
@@ -40,7 +40,8 @@ typedef struct {
     double start;
     Limit limit;             /* checked when set (inputs, parameters) and when computed (outputs) */
     double nominal;
-    const char *depends;     /* names of the inputs and states that it depends on directly, separated by blanks */
+    const char *depends;     /* names of the inputs and states that it depends on directly, separated by blanks;
+                              * `@name`: in Initialization Mode alone */
     const char *description;
 } Variable;
 

@@ -1,0 +1,63 @@
+"""Terms of the circuit as elements of a component of kind ngspice."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from diagnosis.amend.changes import CannotAmend, FittedTerm
+
+Values = Mapping[str, float]
+
+
+def quantity(value: float, unit: str) -> str:
+    """A number as a scenario says it; ten digits."""
+    return f"{value:.10g} {unit}"
+
+
+def _contact(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "contact", "string": n, "resistance": quantity(v["R_contact"], "ohm")}
+
+
+def _loose(n: int, v: Values) -> dict[str, Any]:
+    return {**_contact(n, v), "instant": quantity(v["instant"], "s")}
+
+
+def _lead(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "lead", "string": n, "rise": quantity(v["rise"], "ohm/A^2")}
+
+
+def _source(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "source_resistance", "supply": n, "resistance": quantity(v["R_source"], "ohm")}
+
+
+def _limit(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "current_limit", "supply": n, "limit": quantity(v["limit"], "A"), "share": float(v["share"])}
+
+
+#: Effect to its element at a string or source (from 1).
+_ELEMENTS: Mapping[str, Callable[[int, Values], dict[str, Any]]] = {
+    "contact_resistance": _contact,
+    "loose_contact": _loose,
+    "self_heating_lead": _lead,
+    "supply_source_resistance": _source,
+    "supply_current_limit": _limit,
+}
+
+
+def circuit_elements(terms: Sequence[FittedTerm]) -> list[dict[str, Any]]:
+    """Elements of `components.<circuit>.elements`.
+
+    Raises:
+        CannotAmend: A term of the circuit has no element.
+    """
+    found = []
+    for fitted in terms:
+        make = _ELEMENTS.get(fitted.term.identifier)
+        if make is None:
+            raise CannotAmend(f"the netlist has no element for {fitted.term.identifier} ({fitted.term.law})")
+        amplitude = fitted.values[fitted.term.amplitude.name]
+        for n, strength in enumerate(amplitude):
+            if strength != 0.0:
+                found.append(make(n + 1, {name: float(values[n]) for name, values in fitted.values.items()}))
+    return found

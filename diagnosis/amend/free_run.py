@@ -1,0 +1,135 @@
+"""What the sensors of a recording would read of a free run of the closed co-simulation."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.quantity import PhysicalValue
+from cosim.run import run
+from cosim.scenario import Scenario
+from cosim.unit import Array
+from diagnosis.amend.amend import AmendedModel
+from diagnosis.amend.changes import Changes
+from diagnosis.amend.parts import Part
+from diagnosis.bank.bank import Bank
+from diagnosis.bank.inputs import BankInputs
+from diagnosis.bank.layout import QUANTITIES
+from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
+from diagnosis.bank.plan import Plan
+from diagnosis.candidates.registry import catalogue
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Recording
+from diagnosis.simulator.translate import Translation, translate
+
+def free_run(amended: AmendedModel, recording: Recording, times: Mapping[str, Array]) -> dict[str, Array]:
+    """Run the amended scenario under the conditions of a recording, and read it.
+
+    Args:
+        amended: The model.
+        recording: Whose conditions (programmes, ambient, first temperature) hold; nothing of what it measured is used.
+        times: Quantity of the bank to sample times [s], rising.
+
+    Returns:
+        Quantity to values at its samples, shape (samples, elements), SI, as the sensors read them, without noise.
+
+    Raises:
+        InputError: The conditions do not fit the scenario.
+        RunStopped: A unit failed.
+    """
+    results = run(scenario_of(amended.scenario, carried(recording, amended)))
+    return read_run(results, translate(scenario_of(amended.original, recording)), times, amended.changes)
+
+
+def free_run_of(scenario: Scenario, recording: Recording, times: Mapping[str, Array]) -> dict[str, Array]:
+    """The same of a scenario as it is, without any change."""
+    own = scenario_of(scenario, recording)
+    return read_run(run(own), translate(own), times)
+
+
+def read_run(
+    results: xr.Dataset, translation: Translation, times: Mapping[str, Array], changes: Changes | None = None
+) -> dict[str, Array]:  # fmt: skip
+    """Samples of a run, through the sensors of the bank.
+
+    Args:
+        results: Of `cosim.run`.
+        translation: The scenario as a bank, under the same conditions.
+        times: Quantity to sample times [s], rising.
+        changes: What was found, the sensors' part of which is applied; None: ideal sensors.
+    """
+    inputs = translation.drive.on_grid(np.asarray(results["time"].values, dtype=np.float64))
+    plan = Plan(translation.layout, inputs, times, is_midpoint=True)
+    traces = {q: _trace(results, translation, q, inputs) for q in plan.times}
+    terms = tuple(t for t in catalogue() if t.axis == "channel")
+    parameters = BankParameters()
+    if changes is not None:
+        found = {s.term.identifier: dict(s.values) for s in changes.of(Part.SENSOR)}
+        parameters = BankParameters(dict(changes.sensors), found)
+    packing = Packing(translation.layout, terms, active_terms(terms, parameters))
+    # The bank reads these traces in place of its own, so that both go through the same sensors.
+    pointers = (ctypes.c_void_p * len(QUANTITIES))(*(traces[q].ctypes.data if q in traces else 0 for q in QUANTITIES))
+    plan.structure.traces = ctypes.addressof(pointers)
+    out = Bank(translation.layout, terms).run(plan, packing, pack(packing, terms, parameters)[None])
+    return {q: values[0] for q, values in plan.split(out).items()}
+
+
+def _trace(results: xr.Dataset, translation: Translation, quantity: str, inputs: BankInputs) -> Array:
+    """A quantity over the run, shape (outputs, elements); a flow stands in the row that its step ends with."""
+    owner = {
+        "temperature": translation.actuator, "stiffness": translation.actuator, "resistance": translation.actuator,
+        "current": translation.circuit, "supply_current": translation.circuit, "power": translation.circuit,
+        "extension": translation.load, "length": translation.load,
+    }[quantity]  # fmt: skip
+    if owner is None and quantity == "power":
+        assert inputs.power is not None
+        return np.ascontiguousarray(np.vstack([inputs.power[:1], inputs.power]))
+    variable = f"{owner}.{ {'current': 'string_current'}.get(quantity, quantity) }"
+    values = np.asarray(results[variable].values, dtype=np.float64).reshape(len(results["time"]), -1)
+    values = values.copy()
+    if QUANTITIES[quantity].is_flow:
+        values[0] = values[1]  # before the first step nothing flows
+    return np.ascontiguousarray(values)
+
+
+def carried(recording: Recording, amended: AmendedModel) -> Recording:
+    """The recording with what it overrides of recalibrated parameters moved by the factors that the fit found."""
+    translation = amended.changes.translation
+    components: dict[str, Any] = dict(recording.overrides.get("components", {}))
+    for name in (translation.actuator, translation.load):
+        if name is not None and name in components:
+            components[name] = _carried_component(components[name], name == translation.load, amended)
+    return replace(recording, overrides={**recording.overrides, "components": components})
+
+
+def _carried_component(given: Mapping[str, Any], is_load: bool, amended: AmendedModel) -> dict[str, Any]:
+    factors = amended.changes.factors
+    result = dict(given)
+    if is_load and "mass" in given:
+        mass = _scaled(result.pop("mass"), factors.get("load", np.ones(())))
+        if amended.files.load is not None:
+            result["parameters"] = {**given.get("parameters", {}), "mass": mass}
+        else:
+            result["mass"] = mass
+    elif "parameters" in given:
+        fields = {"heat_transfer_coefficient": "conductance", "area": "conductance"}
+        fields |= dict.fromkeys(("volume", "density", "specific_heat"), "capacity")
+        own = given["parameters"]
+        result["parameters"] = {n: _scaled(v, factors.get(fields.get(n, n), np.ones(()))) for n, v in own.items()}
+    return result
+
+
+def _scaled(given: Any, factor: Array) -> Any:
+    """A value or a list of values times a factor, in the unit that it is given in."""
+    if np.ndim(factor) == 0 and float(factor) == 1.0:
+        return given
+    parts = given if isinstance(given, list) else [given]
+    values = [PhysicalValue.parse(v) for v in parts]
+    numbers = np.array([v.number for v in values]) * factor
+    texts = [f"{n:.10g} {values[i if len(values) > 1 else 0].unit}".strip() for i, n in enumerate(np.atleast_1d(numbers))]
+    return texts if len(texts) > 1 else texts[0]

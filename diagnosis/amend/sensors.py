@@ -1,0 +1,39 @@
+"""Terms of the measurement: written beside the scenario, and applied to what a run gives."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diagnosis.amend.changes import Changes
+from diagnosis.amend.parts import Part
+from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.places import channel_label
+
+
+def sensor_entries(changes: Changes) -> list[dict[str, Any]]:
+    """One entry for each channel and effect, with its law, parameters and units."""
+    names = channel_names(changes.translation.layout)
+    found: list[dict[str, Any]] = []
+    for quantity, late in zip(QUANTITIES, changes.sensors.get("clock_offset", np.zeros(0))):
+        if late != 0.0:
+            found.append({"quantity": quantity, "effect": "clock_offset", "law": "value = truth(t - delay)",
+                          "parameters": {"delay": f"{float(late):.10g} s"}})  # fmt: skip
+    for fitted in changes.of(Part.SENSOR):
+        term = fitted.term
+        for n, strength in enumerate(fitted.values[term.amplitude.name]):
+            if strength != 0.0:
+                numbers = {p.name: f"{float(fitted.values[p.name][n]):.10g} {_unit(p.unit)}".strip()
+                           for p in term.parameters}  # fmt: skip
+                found.append({"channel": names[n], "effect": term.identifier, "law": term.law, "parameters": numbers})
+    return found
+
+
+def _unit(unit: str) -> str:
+    return "" if unit in ("1", "unit of the channel") else unit
+
+
+def channel_names(layout: BankLayout) -> list[str]:
+    """Names of the bank's channels in their order."""
+    return [channel_label(layout, q, n) for q in QUANTITIES for n in range(layout.elements(q))]
