@@ -15,9 +15,9 @@ This page is written by `cosim prove`; [proving.md](proving.md) says how recordi
 Shares stand with the number of cases and the 95 % interval of Wilson. A case whose diagnosis fails or takes too long
 counts as wrong.
 """
-_ON_AIMS = f"""Units, elements, times, names and classes are of cases with one effect or one fault of a sensor. *Visible*
-are effects whose true terms, fitted to the training recordings, lower -2 log posterior by at least {VISIBLE:g}: what
-lies below that is absorbed by the parameters and their priors, and nobody can find it in these data.
+_ON_AIMS = f"""Units, elements, times, names and classes are of cases with one effect or one fault of a sensor.
+*Visible* are effects whose true terms, fitted to the training recordings, lower -2 log posterior by at least
+{VISIBLE:g}: what lies below is absorbed by the parameters and their priors, and nobody can find it in these data.
 """
 _ON_EFFECTS = """Named first, by strength; the weakest first. *Gain* is the median of what the true terms explain.
 """
