@@ -39,6 +39,7 @@ FABRIC_UNITS = {
     "coil_play": "m",
     "coil_contraction": "m^2/N",
     "cold_stiffness": "N/m",
+    "added_friction": "1",
     "payload": "kg",
 }
 #: Those of them that are effects which a plain fabric leaves out.

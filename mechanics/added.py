@@ -24,6 +24,7 @@ class AddedEffects:
         coil_play: Play of the coils in their pins [m]: they pull only beyond it.
         coil_contraction: By how much the coils' rest length shrinks per stiffness beyond `cold_stiffness` [m^2/N].
         cold_stiffness: Stiffness at which they have the rest length given [N/m].
+        added_friction: Friction between links beyond `friction` of the design, a coefficient of a pair.
         payload: Mass hung on the links of the last row [kg], carried as its weight.
 
     Raises:
@@ -42,6 +43,7 @@ class AddedEffects:
     coil_play: float = 0.0
     coil_contraction: float = 0.0
     cold_stiffness: float = 157.1
+    added_friction: float = 0.0
     payload: float = 0.0
 
     def __post_init__(self) -> None:

@@ -195,7 +195,7 @@ class World:
                 body,
                 piece,
                 # Bullet multiplies the coefficients of the two bodies in contact.
-                lateralFriction=math.sqrt(self.design.friction),
+                lateralFriction=math.sqrt(self.design.pair_friction),
                 spinningFriction=0.0,
                 rollingFriction=0.0,
                 restitution=math.sqrt(self.design.restitution),

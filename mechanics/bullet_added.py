@@ -49,7 +49,7 @@ class AddedForces:
         added, client = design.added, self._client
         if added.hinge_friction:
             # Bullet adds the products of each body's rolling friction with the other's friction.
-            rolling = SCALE * added.hinge_friction / (2 * math.sqrt(design.friction))
+            rolling = SCALE * added.hinge_friction / (2 * math.sqrt(design.pair_friction))
             for body in bodies:
                 for piece in (-1, 0):
                     pybullet.changeDynamics(body, piece, rollingFriction=rolling, physicsClientId=client)

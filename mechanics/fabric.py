@@ -84,7 +84,7 @@ class FabricDesign:
         for name in ("steel_stiffness", "friction", "tether_play", "start_speed", "start_number"):
             _require(name, getattr(self, name), getattr(self, name) >= 0, "give zero or a positive number")
         _require("restitution", self.restitution, 0 <= self.restitution <= 1, "give a number from 0 to 1")
-        is_possible = self.friction > 0 or self.added.hinge_friction == 0
+        is_possible = self.pair_friction > 0 or self.added.hinge_friction == 0
         _require("added.hinge_friction", self.added.hinge_friction, is_possible, "it needs a friction above 0")
         _require("length_offset", self.length_offset, self.length_hot + self.length_offset > 0, "make it larger")
         if len(self.gravity) != 3 or not all(map(math.isfinite, self.gravity)):
@@ -124,6 +124,11 @@ class FabricDesign:
     def outer_width(self) -> float:
         """w [m]; the paper's 4 d + tol unless given."""
         return 4 * self.bar_diameter + self.tolerance if self.width is None else self.width
+
+    @property
+    def pair_friction(self) -> float:
+        """Coefficient of friction of two links in contact."""
+        return self.friction + self.added.added_friction
 
     @property
     def bar_distance_cold(self) -> float:
