@@ -23,7 +23,10 @@ from tests.proof.examples import (
 SHORTED = finding("shorted_coil", "electrical", "coil[2,3]", parameters=(Estimate("instant", "s", 41.0, 39.0, 43.0),))
 
 
-def _scored(*findings, truth=answer(RADIATION), verdict=Verdict.MISSING_PHYSICS, after=1.0) -> Score:
+ONE = answer(RADIATION)
+
+
+def _scored(*findings, truth=ONE, verdict=Verdict.MISSING_PHYSICS, after=1.0) -> Score:
     return score(diagnosis(*findings, verdict=verdict, after=after), truth, SMALL, REFERENCE, DURATION)
 
 
