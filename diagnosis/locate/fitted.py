@@ -1,0 +1,64 @@
+"""A recalibrated coil bank with everything that the location needs of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.bank.layout import BankLayout
+from diagnosis.bank.parameters import BankParameters
+from diagnosis.search.fit import Fit
+from diagnosis.search.problem import Model, Parameter, Point
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.tempered import TemperedModel
+from diagnosis.simulator.wrapped import WrappedModel
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A coil bank at its recalibrated point.
+
+    Args:
+        bank: The model that simulates.
+        parameters: All that were fitted; those of the bank first, then biases of sensors.
+        fit: Recalibrated, without terms.
+        inflation: Of the variance of every channel, shape (channels,).
+    """
+
+    bank: BankModel
+    parameters: Sequence[Parameter]
+    fit: Fit
+    inflation: Array
+
+    @property
+    def coils(self) -> BankLayout:
+        """Coils and strings."""
+        return self.bank.coils
+
+    @property
+    def point(self) -> Point:
+        """The recalibrated point as the bank knows it."""
+        return Point(self.fit.point.base[: len(self.bank.parameters)])
+
+    def values(self, recording: int) -> BankParameters:
+        """Parameters of the bank for one recording."""
+        return self.bank.bank_parameters(self.point, recording)
+
+
+def fitted(model: Model, fit: Fit) -> Fitted | None:
+    """The coil bank inside a model, or None where there is none.
+
+    Args:
+        model: A coil bank, also with biases or tempered.
+        fit: Of this model, without terms.
+    """
+    inner: object = model
+    inflation = np.ones(len(model.layout.names))
+    while isinstance(inner, WrappedModel):
+        if isinstance(inner, TemperedModel):
+            inflation = inner.inflation
+        inner = inner.inner
+    return Fitted(inner, model.parameters, fit, inflation) if isinstance(inner, BankModel) else None
