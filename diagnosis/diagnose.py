@@ -16,6 +16,7 @@ from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
+from diagnosis.locate.locate import locate
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings, search
@@ -103,6 +104,8 @@ def diagnose(
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = findings(model, outcome)
+    on_progress("driving each unit alone")
+    located = locate(model, outcome.base, [r.title for r in training], settings.seed)
     diagnosis = Diagnosis(
         verdict=word,
         statement=_statement(word, found),
@@ -118,6 +121,7 @@ def diagnose(
         seconds=clock.perf_counter() - begin,
         simulations=model.simulations,
         seed=settings.seed,
+        locations=located.locations,
     )
     return Found(diagnosis, model, judge, points, carried)
 
