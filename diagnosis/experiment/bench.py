@@ -20,7 +20,8 @@ from diagnosis.simulator.runs import Run, deviation
 
 #: Samples of a channel that a prediction uses; others count through the weight of these.
 SAMPLES = 60
-#: Step of the simulations [s]: its error is that of both explanations, and they are compared with each other.
+#: Step of the simulations [s]: its error is that of both explanations, and they are compared with each other. Where a
+#: sensor is suspected, its delays are resolved as finely as in the fits.
 COARSE = 0.2
 #: Time after an edge within which every sample is used [s]: lags and clocks show there alone.
 EDGE = 1.5
@@ -71,22 +72,25 @@ class Bench:
         self.model, self.recordings, self.fits = model, recordings, fits
         self._daily = np.array([" of recording " in p.name for p in model.parameters])
         self._points = [self._restarted(f.point) for f in fits]
+        has_sensor = any(t.unit == "measurement" for f in fits for t in f.point.terms)
+        finest = float(min(np.max(np.diff(run.inputs.time)) for run in model.runs))
+        self._step = min(COARSE, finest) if has_sensor else COARSE
         self._roots = [root(self._spread(f)) for f in fits]
 
     def repeat(self) -> BankModel:
         """The model of one more set of the same recordings."""
         return self._with([
-            _run(r, one, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])), self.model)
+            self._run(r, one, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])))
             for r, one in zip(self.model.runs, self.recordings)
         ])  # fmt: skip
 
     def under(self, conditions: Conditions) -> BankModel:
         """The model of an experiment."""
-        return self._with([_run(self.model.runs[0], self.recordings[0], conditions, self.model)])
+        return self._with([self._run(self.model.runs[0], self.recordings[0], conditions)])
 
     def temperatures(self, conditions: Conditions, count: int = 200) -> Array:
         """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time."""
-        run = _run(self.model.runs[0], self.recordings[0], conditions, self.model)
+        run = self._run(self.model.runs[0], self.recordings[0], conditions)
         times = np.linspace(run.inputs.time[0], run.inputs.time[-1], count)
         parameters = self._with([run]).bank_parameters(self._points[0], 0)
         return np.asarray(self.model.bank.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
@@ -120,6 +124,26 @@ class Bench:
         own = layout.channel == best
         moment = float(layout.time[own][np.argmax(np.abs(difference[own]))])
         return Contrast(parted, layout.names[best], moment)
+
+    def _run(self, like: Run, recording: Recording, conditions: Conditions) -> Run:
+        """A run with other inputs, and samples that stand for all that the sensors would take."""
+        translation = like.translation
+        base = dict(translation.parameters.base)
+        if conditions.load is not None:
+            base["load"] = conditions.load
+        moved = replace(
+            translation, drive=conditions.drive, parameters=BankParameters(base, translation.parameters.terms)
+        )
+        start, stop = translation.start, translation.start + conditions.duration
+        corners = np.array(conditions.drive.switches())
+        channels, weights = {}, []
+        for series in like.series:
+            channel, weight = _sampled(series.channel, (start, stop), corners)
+            channels[channel.name] = channel
+            weights.append(weight)
+        run = Run(moved, replace(recording, channels=channels, end=stop), self.model.bank, self._step)
+        run.weight = run.weight * np.concatenate(weights)
+        return run
 
     def _with(self, runs: list[Run]) -> BankModel:
         """A model of other runs; candidates, parameters and the compiled bank are shared."""
@@ -167,25 +191,6 @@ def _term_slopes(model: BankModel, point: Point, here: Array) -> Array:
         return np.zeros((len(here), 0))
     found = ((model.residuals(moved) - here) / np.array(steps)[:, None]).T
     return np.where(np.isfinite(found), found, 0.0)
-
-
-def _run(like: Run, recording: Recording, conditions: Conditions, model: BankModel) -> Run:
-    """A run with other inputs, and samples that stand for all that the sensors would take."""
-    translation = like.translation
-    base = dict(translation.parameters.base)
-    if conditions.load is not None:
-        base["load"] = conditions.load
-    moved = replace(translation, drive=conditions.drive, parameters=BankParameters(base, translation.parameters.terms))
-    start, stop = translation.start, translation.start + conditions.duration
-    corners = np.array(conditions.drive.switches())
-    channels, weights = {}, []
-    for series in like.series:
-        channel, weight = _sampled(series.channel, (start, stop), corners)
-        channels[channel.name] = channel
-        weights.append(weight)
-    run = Run(moved, replace(recording, channels=channels, end=stop), model.bank, COARSE)
-    run.weight = run.weight * np.concatenate(weights)
-    return run
 
 
 def _sampled(channel: Channel, span: tuple[float, float], corners: Array) -> tuple[Channel, Array]:

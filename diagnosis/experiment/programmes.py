@@ -14,6 +14,8 @@ _STAIRS = (0.15, 0.3, 0.45, 0.6, 0.8, 1.0, 0.7, 0.5, 0.35, 0.2, 0.0)
 #: Levels of steps in no order, between which every size of jump occurs.
 _MIXED = (1.0, 0.2, 0.7, 0.0, 0.45, 0.9, 0.1, 0.6, 0.3, 1.0, 0.0)
 
+#: Multiples of it, modulo 1, are spread evenly however many there are.
+_GOLDEN = 0.6180339887498949
 _BELOW = "below the transformation"
 _UNEVEN = "uneven strings"
 
@@ -112,7 +114,10 @@ def _edges(duration: float, columns: int) -> Shape:
     for _ in range(31):
         bits.append(register[-1])
         register = [register[4] ^ register[1], *register[:-1]]
-    return _steps("sharp edges", [0.9 * b + 0.1 for b in bits], duration, columns)
+    even = _steps("sharp edges", [0.9 * b + 0.1 for b in bits], duration, columns)
+    # Off the even grid, so that samples at a fixed rate fall at all distances after an edge.
+    moved = 0.3 * duration / 31 * np.concatenate([[0.0], _GOLDEN * np.arange(31) % 1.0])
+    return Shape(even.kind, even.times + moved, even.heat, duration)
 
 
 def _soak(kind: str, level: float, duration: float, columns: int) -> Shape:
