@@ -19,6 +19,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.translate import GRAVITY
 
 #: Explanations that are weighed against each other.
@@ -83,6 +84,17 @@ def _unearned(outcome: Outcome) -> Open | None:
         return None
     weights = np.concatenate([[1.0], np.exp(0.5 * (gains[kept] - outcome.margin))])
     return Open((Explanation(outcome.base), *(with_term[i] for i in kept)), weights / weights.sum())
+
+
+def next_experiment(
+    scenario: Scenario, model: DiagnosisModel, recordings: Sequence[Recording], outcome: Outcome,
+    limits: Mapping[str, float],
+) -> NextExperiment | None:  # fmt: skip
+    """What would decide about explanations that are left open, where the coil bank can simulate it; see `design`."""
+    question = open_explanations(outcome)
+    if question is None or not isinstance(model, BankModel):
+        return None
+    return design(scenario, model, recordings, question, limits)
 
 
 def design(
