@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,10 +12,14 @@ from cosim.errors import InputError
 from cosim.scenario import Scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
+from diagnosis.experiment.design import next_experiment
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
+from diagnosis.judge.recordings import used
+from diagnosis.judge.remainder import remainders
+from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.locate.locate import locate
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
@@ -31,10 +35,12 @@ class Means:
     Args:
         without: Identifiers of candidates that it must not know, for a proof that hides them.
         threads: Threads of one simulation.
+        limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
     """
 
     without: tuple[str, ...] = ()
     threads: int = 2
+    limits: Mapping[str, float] = field(default_factory=dict)
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -106,6 +112,8 @@ def diagnose(
     found = findings(model, outcome)
     on_progress("driving each unit alone")
     located = locate(model, outcome.base, [r.title for r in training], settings.seed)
+    on_progress("designing the next experiment")
+    experiment = next_experiment(scenario, model, training, outcome, means.limits)
     diagnosis = Diagnosis(
         verdict=word,
         statement=_statement(word, found),
@@ -122,6 +130,11 @@ def diagnose(
         simulations=model.simulations,
         seed=settings.seed,
         locations=located.locations,
+        scenario=str(scenario.path or scenario.title),
+        recordings=used(training, held_out),
+        spread=spread_over_recordings(fits),
+        left=remainders(outcome.best.fit.residuals, model.layout, model.groups()),
+        next_experiment=experiment,
     )
     return Found(diagnosis, model, judge, points, carried)
 
