@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -40,8 +41,12 @@ COIL_FIELDS: Mapping[str, tuple[float, str]] = {
 }
 STRING_FIELDS: Mapping[str, tuple[float, str]] = {"string_resistance": (0.0, "ohm")}
 SOURCE_FIELDS: Mapping[str, tuple[float, str]] = {"supply_resistance": (0.0, "ohm")}
-#: Over the quantities: how late the clock of all channels of one quantity is, and how slow their sensors.
-QUANTITY_FIELDS: Mapping[str, tuple[float, str]] = {"clock_offset": (0.0, "s"), "sensor_lag": (0.0, "s")}
+#: Over the quantities: how late the clock of all channels of one quantity is, how slow and how far off their sensors.
+QUANTITY_FIELDS: Mapping[str, tuple[float, str]] = {
+    "clock_offset": (0.0, "s"),
+    "sensor_lag": (0.0, "s"),
+    "gain_error": (0.0, "1"),
+}
 FieldAxis = Axis | Literal["quantity"]
 AXIS_OF_FIELD: Mapping[str, FieldAxis] = {
     **dict.fromkeys(COIL_FIELDS, "coil"), **dict.fromkeys(STRING_FIELDS, "string"),
@@ -149,21 +154,33 @@ class BankLayout:
             (i, at[other]) for (r, c), i in at.items() for other in ((r, c + 1), (r + 1, c)) if other in at
         )  # fmt: skip
 
+    @cached_property
+    def _elements(self) -> dict[str, int]:
+        sizes = {"coil": self.coils, "string": len(self.strings), "supply": 1 if self.strings else 0}
+        return {name: sizes[quantity.axis] for name, quantity in QUANTITIES.items()}
+
+    @cached_property
+    def _channels(self) -> dict[str, int]:
+        first = np.cumsum([0, *self._elements.values()])
+        return {name: int(n) for name, n in zip(QUANTITIES, first)}
+
+    @cached_property
+    def _sizes(self) -> dict[str, int]:
+        channels = sum(self._elements.values())
+        sizes = {"coil": self.coils, "string": len(self.strings), "source": self.sources, "channel": channels}
+        return {**sizes, "quantity": len(QUANTITIES)}
+
     def elements(self, quantity: str) -> int:
         """Number of elements of a quantity."""
-        sizes = {"coil": self.coils, "string": len(self.strings), "supply": 1 if self.strings else 0}
-        return sizes[QUANTITIES[quantity].axis]
+        return self._elements[quantity]
 
     def channel(self, quantity: str) -> int:
         """Number of the first channel of a quantity; its elements follow in order."""
-        names = list(QUANTITIES)
-        return sum(self.elements(q) for q in names[: names.index(quantity)])
+        return self._channels[quantity]
 
     def size(self, axis: FieldAxis) -> int:
         """Length of a parameter array over an axis."""
-        channels = sum(self.elements(q) for q in QUANTITIES)
-        sizes = {"coil": self.coils, "string": len(self.strings), "source": self.sources, "channel": channels}
-        return {**sizes, "quantity": len(QUANTITIES)}[axis]
+        return self._sizes[axis]
 
     def stride(self, axis: FieldAxis) -> int:
         """Room of that array in the bank: coils are padded to whole vectors."""

@@ -88,7 +88,13 @@ def _of_kind(kind: PlaceKind, term: CandidateTerm, layout: BankLayout, measured:
     else:
         names = {"coil": coil_label, "string": lambda _, n: f"string[{n + 1}]", "source": _source_label}[term.axis]
         for n in range(size):
-            yield Place(kind, names(layout, n), np.eye(size)[n])
+            yield Place(kind, names(layout, n), _unit(size, n))
+
+
+def _unit(size: int, at: int) -> Array:
+    mask = np.zeros(size)
+    mask[at] = 1.0
+    return mask
 
 
 def _gradient(kind: PlaceKind, layout: BankLayout) -> Iterator[Place]:
@@ -128,7 +134,7 @@ def _channels(kind: PlaceKind, quantity: str, term: CandidateTerm, layout: BankL
         yield Place(kind, f"every {quantity}", mask, fixed)
     elif kind == "channel":
         for n in range(count):
-            yield Place(kind, channel_label(layout, quantity, n), np.eye(size)[first + n], fixed)
+            yield Place(kind, channel_label(layout, quantity, n), _unit(size, first + n), fixed)
     elif kind == "swap":
         for a, b in combinations(range(count), 2):
             mask, partner = np.zeros(size), np.zeros(size)

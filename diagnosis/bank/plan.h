@@ -29,7 +29,7 @@ typedef struct {
     const Plan *plan;
     int64_t width, coils, strings, sources, row; /* row: number of the step */
     double t, t_begin, t_end, dt, dt_middle; /* t: instant that a hook's values belong to; dt_middle: 0 or dt / 2 */
-    const double *coil, *string, *source, *late, *slow; /* parameters; late, slow: clock offset and lag of every quantity */
+    const double *coil, *string, *source, *late, *slow, *wrong; /* parameters; the last three: clock offset, lag and gain error of every quantity */
     const double *set;                       /* parameters of the whole set */
     double *temperature, *before, *middle, *mean, *felt, *rate, *slope, *energy; /* rate: mean over the step; slope: at its end */
     double *resistance, *current, *power, *heat, *conductance, *capacity, *ambient;

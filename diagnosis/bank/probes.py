@@ -75,14 +75,19 @@ def flat_probe_sensitivities(
     times: Array | Mapping[str, Array],
     probe: Probe,
     threads: int = 1,
+    plan: Plan | None = None,
+    outputs: Array | None = None,
 ) -> Array:  # fmt: skip
-    """Derivatives as in `probe_sensitivities`, as the bank lays them out: shape (places, out_size)."""
-    return _probed(bank, parameters, inputs, times, probe, threads)[2]
+    """Derivatives as in `probe_sensitivities`, as the bank lays them out: shape (places, out_size).
+
+    `plan` and `outputs`: see `flat_sensitivities`.
+    """
+    return _probed(bank, parameters, inputs, times, probe, threads, plan, outputs)[2]
 
 
 def _probed(
     bank: Bank, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array], probe: Probe,
-    threads: int,
+    threads: int, plan: Plan | None = None, outputs: Array | None = None,
 ) -> tuple[Plan, Array, Array]:  # fmt: skip
     term = probe.term
     direct = [n for n, p in enumerate(probe.places) if p.kind != "swap"]
@@ -92,14 +97,14 @@ def _probed(
         at = parameters.with_term(term.identifier, **_values(bank.layout, parameters, probe, found))
     name = f"{term.identifier}.{term.amplitude.name}"
     directions = [Direction(name, probe.places[n].mask, probe.step, is_central=False) for n in direct]
-    plan, base, slopes = flat_sensitivities(bank, at, inputs, times, directions, threads)
+    plan, base, slopes = flat_sensitivities(bank, at, inputs, times, directions, threads, plan, outputs)
     if len(direct) == len(probe.places):
         return plan, base, slopes
     whole = np.zeros((len(probe.places), plan.out_size))
     whole[direct] = slopes
-    outputs, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(whole)
+    found_at, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(whole)
     for n in set(range(len(probe.places))) - set(direct):
-        _exchange(bank.layout, outputs, derivatives, probe.places[n].mask, n)
+        _exchange(bank.layout, found_at, derivatives, probe.places[n].mask, n)
     return plan, base, whole
 
 

@@ -198,14 +198,14 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
 {
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
-    const double *time = plan->sample_time[q];
+    const double *time = plan->sample_time[q], gain = 1.0 + s->wrong[q];
     if (!HAS_SENSOR(plan) && s->slow[q] <= 0.0) {
         int64_t hint = 0, a, b;
         for (int64_t n = 0; n < samples; n++) {
             const double w = locate(plan, quantity_is_flow[q], time[n] - s->late[q], &hint, &a, &b);
             const double *low = trace + a * elements, *high = trace + b * elements;
             for (int64_t i = 0; i < elements; i++) {
-                out[n * elements + i] = low[i] + w * (high[i] - low[i]);
+                out[n * elements + i] = gain * (low[i] + w * (high[i] - low[i]));
             }
         }
         return;
@@ -216,7 +216,7 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
                          .value = value};
         sample_channel(s, q, trace, &sensor, column, raw);
         for (int64_t n = 0; n < samples; n++) {
-            out[n * elements + i] = value[n];
+            out[n * elements + i] = gain * value[n];
         }
     }
 }
@@ -297,6 +297,7 @@ static int64_t run(const Plan *plan, const double *set, double *out, double *mem
     s->source = s->string + STRING_FIELDS * plan->strings;
     s->late = s->source + SOURCE_FIELDS * plan->sources;
     s->slow = s->late + QUANTITIES;
+    s->wrong = s->slow + QUANTITIES;
     memory = place(s, memory);
     double *trace[QUANTITIES];
     for (int q = 0; q < QUANTITIES; q++) {

@@ -86,33 +86,67 @@ def flat_sensitivities(
     times: Array | Mapping[str, Array],
     directions: Sequence[Direction],
     threads: int = 1,
+    plan: Plan | None = None,
+    outputs: Array | None = None,
 ) -> tuple[Plan, Array, Array]:  # fmt: skip
     """As `sensitivities`, but outputs and derivatives as the bank lays them out.
+
+    Args:
+        bank: As for `sensitivities`, and so are the four that follow.
+        parameters: Where.
+        inputs: Grid of steps and what drives them.
+        times: Sample times.
+        directions: What to vary.
+        threads: Threads that share the simulations.
+        plan: What `sharing_plan` made of the same inputs and times, where it is at hand.
+        outputs: Outputs at the same parameters under that plan, where they are at hand.
 
     Returns:
         Plan that splits them by quantity (`string_share` comes last where it is there at all); outputs, shape
         (out_size,); derivatives, shape (directions, out_size).
     """
-    wanted = bank.wanted(inputs, times)
     active = active_terms(bank.terms, parameters)
     active |= {d.parameter.split(".")[0] for d in directions if "." in d.parameter}
     packing = bank.packing(active)
     apart = Independence(bank.layout, [t for t in bank.terms if t.identifier in active], parameters)
-    if "supply_current" in wanted:
-        wanted = {**wanted, "string_share": wanted["supply_current"]}
-    plan = bank.plan(inputs, wanted)
+    plan = sharing_plan(bank, inputs, times) if plan is None else plan
     groups = _groups(apart, packing, directions)
     base = pack(packing, bank.terms, parameters)
-    if "string_share" in wanted:
+    if "string_share" in plan.times:
         _share_sensor(packing, base)
     rows = _perturbed(packing, base, directions, groups)
-    out = bank.run(plan, packing, np.concatenate([base[None], rows]), threads)
+    if outputs is None:
+        rows = np.concatenate([base[None], rows])
+    out = bank.run(plan, packing, rows, threads)
+    if outputs is not None:
+        out = np.concatenate([outputs[None], out])
     slopes = _slopes(plan, out, directions, groups)
-    if "string_share" in wanted:
+    if "string_share" in plan.times:
         views = plan.split(slopes)
         grouped = [n for g in groups if g.level in ("coil", "string") for part, n in g.members.items() if part >= 0]
         views["supply_current"][grouped] = views["string_share"][grouped].sum(axis=2, keepdims=True)
     return plan, out[0], slopes
+
+
+def sharing_plan(bank: Bank, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
+    """Plan whose outputs hold the share of every string in the supply's current too, for `flat_sensitivities`."""
+    wanted = bank.wanted(inputs, times)
+    if "supply_current" in wanted:
+        wanted = {**wanted, "string_share": wanted["supply_current"]}
+    return bank.plan(inputs, wanted)
+
+
+def shared_outputs(bank: Bank, parameters: BankParameters, plan: Plan) -> Array:
+    """Outputs under a plan of `sharing_plan`, shape (out_size,).
+
+    Raises:
+        BankError: A value stopped being finite.
+    """
+    packing = bank.packing(active_terms(bank.terms, parameters))
+    base = pack(packing, bank.terms, parameters)
+    if "string_share" in plan.times:
+        _share_sensor(packing, base)
+    return np.asarray(bank.run(plan, packing, base[None])[0])
 
 
 def _share_sensor(packing: Packing, base: Array) -> None:

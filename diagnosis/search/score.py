@@ -143,7 +143,7 @@ class Scoring:
 
     def margin(self, level: float) -> float:
         """Gain that the best of all terms exceeds with probability `level` where none is there."""
-        return float(np.quantile(self.chance, 1.0 - level)) if self.tried else 0.0
+        return float(np.quantile(self.chance, 1.0 - level)) if self.tried and self.chance.size else 0.0
 
     def false_alarm_rate(self, gain: float) -> float:
         """Probability of a gain at least this large where nothing is missing, from the tail of the nulls.

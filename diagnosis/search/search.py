@@ -20,6 +20,8 @@ HOPEFUL = 0.4
 STRAINED = 2.5
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
+#: Nulls that say what chance gives to the best of all terms.
+DRAWS = 96
 #: Most steps of a fit in the competition.
 TRIAL = 15
 #: Places at which unnamed terms are tried too.
@@ -92,6 +94,14 @@ class Outcome:
 
 
 OnProgress = Callable[[str], None]
+#: From the explanation before and those with one term more, best fit first, to those worth going on with.
+Select = Callable[[Explanation, Sequence[Explanation]], Sequence[Explanation]]
+
+
+def best_fits(before: Explanation, grown: Sequence[Explanation]) -> Sequence[Explanation]:
+    """All of them, best fit first: right where noise is all that a right model leaves."""
+    return grown
+
 
 
 def recalibrate(model: Model) -> Fit:
@@ -102,7 +112,7 @@ def recalibrate(model: Model) -> Fit:
 
 def search(
     model: Model, terms: Sequence[Term], settings: Settings, groups: Mapping[str, Array] | None = None,
-    on_progress: OnProgress = lambda text: None,
+    on_progress: OnProgress = lambda text: None, select: Select = best_fits,
 ) -> Outcome:  # fmt: skip
     """Find the terms that a model lacks.
 
@@ -112,6 +122,7 @@ def search(
         settings: See there.
         groups: Groups of channels for the search for structure.
         on_progress: Told what is being done.
+        select: Chooses what goes on.
     """
     on_progress("recalibrating")
     base = recalibrate(model)
@@ -122,7 +133,8 @@ def search(
     margin, rate, tried = settings.floor, 1.0, 0
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
-        grown, scoring = _grow(model, terms, current, settings, margin)
+        is_done = structure(current[0].fit.residuals, model.layout, groups).is_noise
+        grown, scoring = _grow(model, terms, current[:1] if is_done else current, settings, margin)
         tried += scoring.tried
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
@@ -132,6 +144,9 @@ def search(
             break
         if level == 0:
             rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost)
+        grown = list(select(current[0], grown))
+        if not grown:
+            break
         current = grown[: settings.beam]
         best, rivals = current[0], tuple(grown)
         if structure(best.fit.residuals, model.layout, groups).is_noise and level + 1 >= settings.most_terms - 1:
@@ -149,7 +164,7 @@ def _grow(
     grown: dict[frozenset[Term], Explanation] = {}
     scorings = []
     for explanation in current:
-        scoring = _scored(model, explanation.fit, terms, settings)
+        scoring = _scored(model, explanation.fit, terms, settings, DRAWS if not explanation.terms else 0)
         scorings.append(scoring)
         hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
         for candidate in _choice(hopeful, settings.refits):
@@ -166,13 +181,13 @@ def _polished(model: Model, grown: list[Explanation]) -> list[Explanation]:
     return sorted([*done, *grown[len(near) :]], key=lambda e: e.fit.cost)
 
 
-def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) -> Scoring:
+def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, draws: int) -> Scoring:
     """Scores of all terms worth trying: unnamed ones at single elements where a named one scores well."""
     near = focus(model, base.residuals, terms)
-    first = score(model, base, near, seed=settings.seed)
+    first = score(model, base, near, draws, settings.seed)
     places = list(dict.fromkeys(s.term.place for s in first.ranked[:40]))[:PLACES]
     more = unnamed_at(terms, places, near)
-    return first.joined(score(model, base, more, seed=settings.seed)) if more else first
+    return first.joined(score(model, base, more, draws, settings.seed)) if more else first
 
 
 def _choice(ranked: Sequence[Score], count: int) -> list[Score]:

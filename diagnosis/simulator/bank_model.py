@@ -13,7 +13,7 @@ from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
-from diagnosis.bank.sensitivities import flat_sensitivities
+from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -185,6 +185,7 @@ class BankModel:
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
+            outputs = shared_outputs(self.bank, parameters, run.plan)
             for (identifier, values), members in probes.items():
                 term = tasks[members[0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
@@ -193,7 +194,7 @@ class BankModel:
                 self.simulations += len(members)
                 try:
                     slopes = flat_probe_sensitivities(
-                        self.bank, parameters, run.inputs, run.times, probe, self._threads
+                        self.bank, parameters, run.inputs, run.times, probe, self._threads, run.plan, outputs
                     )
                 except BankError:
                     continue
@@ -232,7 +233,9 @@ class BankModel:
                     for direction, weight in directions(free, parameters):
                         along.append(direction)
                         columns.append((i, weight))
-            _, _, slopes = flat_sensitivities(self.bank, parameters, run.inputs, run.times, along, self._threads)
+            _, _, slopes = flat_sensitivities(
+                self.bank, parameters, run.inputs, run.times, along, self._threads, run.plan
+            )
             self.simulations += len(along)
             for (i, weight), row in zip(columns, slopes):
                 jacobian[i, begin : begin + run.count] += row[run.pick] * (-weight * run.weight)

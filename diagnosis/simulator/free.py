@@ -23,6 +23,8 @@ SHIFTS: Mapping[str, tuple[str, ...]] = {
 
 #: Deviation of the logarithm of a sensor's lag: of a stated bound a fifth is typical, a half not rare.
 LAG_SPREAD = 0.9
+#: Deviation of the gain of an ammeter as bought (0.1 to 0.3 % of the reading).
+CALIBRATION = 0.002
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,7 @@ def free_parameters(
         for i in range(size if prior.scatter and size > 1 else 0):
             yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], None, (value, prior.scatter), prior)
     yield from _sensors(clocks)
+    yield from _supply_gain(measured)
     for number, own in enumerate(daily):
         for name, prior in own.items():
             label = f"{name} of recording {number + 1}"
@@ -95,6 +98,14 @@ def _sensors(clocks: Clocks) -> Iterator[Free]:
     for quantity, lag in clocks.slow.items():
         mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
         yield Free("sensor_lag", mask, None, Parameter(f"lag of every {quantity}", "s", lag, LAG_SPREAD))
+
+
+def _supply_gain(measured: Collection[str]) -> Iterator[Free]:
+    """Where the currents of the strings are read too, the supply's must be their sum: two calibrations meet."""
+    if {"supply_current", "current"} <= set(measured):
+        mask = np.array([1.0 if q == "supply_current" else 0.0 for q in QUANTITIES])
+        label = "gain of supply.current"
+        yield Free("gain_error", mask, None, Parameter(label, "1", 0.0, CALIBRATION, is_relative=False))
 
 
 def _free(

@@ -12,6 +12,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.inputs import BankInputs, grid
 from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.sensitivities import sharing_plan
 from diagnosis.bank.steps import choose_step
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
@@ -78,6 +79,7 @@ class Run:
             self.inputs = translation.drive.on_grid(ends)
         switches = np.array(translation.drive.switches())
         self.series = tuple(self._series(entry, switches, recording.switch_margin) for entry in entries)
+        self.plan = sharing_plan(bank, self.inputs, self.times)
         self.count = sum(len(s.samples) for s in self.series)
         self.pick = np.concatenate([self._places(layout, s) for s in self.series])
         self.measured = np.concatenate([s.measured for s in self.series])
