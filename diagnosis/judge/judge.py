@@ -43,16 +43,10 @@ def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
 
 
 def probabilities(rivals: tuple[Explanation, ...]) -> Array:
-    """Posterior probabilities of explanations with equally many terms (Laplace's approximation, equal priors)."""
-    costs = np.array([e.fit.cost + _log_volume(e.fit) for e in rivals])
+    """Posterior probabilities of explanations with equally many terms (Laplace's approximation, see `Explanation.demerit`)."""
+    costs = np.array([e.demerit for e in rivals])
     weights = np.exp(-0.5 * (costs - costs.min()))
     return np.asarray(weights / weights.sum())
-
-
-def _log_volume(fit: Fit) -> float:
-    """ln det of the information about the terms' shape parameters: a free shape must pay for itself."""
-    extra = sum(len(t.parameters) - 1 for t in fit.point.terms)
-    return extra * float(np.log(len(fit.residuals)))
 
 
 def findings(model: DiagnosisModel, outcome: Outcome) -> tuple[Finding, ...]:
@@ -66,7 +60,8 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
     candidate, place = model.where(term)
     fit = outcome.best.fit
     alternatives, probability = _alternatives(outcome, term)
-    near = [a for a in alternatives if a.gain > alternatives[0].gain - UNSEPARATED] if alternatives else []
+    own = max((a.gain for a in alternatives if a.effect == term.identifier), default=0.0)
+    near = [a for a in alternatives if a.gain > own - UNSEPARATED or a.probability > 0.05]
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
     return Finding(
         unit=term.unit,

@@ -18,6 +18,8 @@ from diagnosis.search.structure import Structure, structure
 HOPEFUL = 0.4
 #: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
 STRAINED = 2.5
+#: -2 log of the prior odds of a generic law against one of the catalogue: they are many, and any of them may bend well.
+UNNAMED = 6.0
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
 #: Nulls that say what chance gives to the best of all terms.
@@ -65,6 +67,17 @@ class Explanation:
     def terms(self) -> tuple[Term, ...]:
         """Its terms."""
         return tuple(self.fit.point.terms)
+
+    @property
+    def cost(self) -> float:
+        """-2 log posterior of the fit, and what the odds are against laws without a name before any data."""
+        return self.fit.cost + UNNAMED * sum(not t.is_named for t in self.terms)
+
+    @property
+    def demerit(self) -> float:
+        """What explanations are compared by: a free shape must pay for itself too (Laplace's approximation)."""
+        extra = sum(len(t.parameters) - 1 for t in self.terms)
+        return self.cost + extra * float(np.log(max(len(self.fit.residuals), 2)))
 
 
 @dataclass(frozen=True)
@@ -138,7 +151,7 @@ def search(
         tried += scoring.tried
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
-        if not grown or current[0].fit.cost - grown[0].fit.cost <= margin:
+        if not grown or current[0].cost - grown[0].cost <= margin:
             if level == 0:  # not earned, but an experiment may decide about them
                 rivals = (best, *grown)
             break
@@ -171,14 +184,14 @@ def _grow(
             key = frozenset((*explanation.terms, candidate.term))
             if key not in grown:
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
-    return _polished(model, sorted(grown.values(), key=lambda e: e.fit.cost)), scorings[0]
+    return _polished(model, sorted(grown.values(), key=lambda e: e.demerit)), scorings[0]
 
 
 def _polished(model: Model, grown: list[Explanation]) -> list[Explanation]:
     """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
-    near = [e for e in grown if e.fit.cost < grown[0].fit.cost + CLOSE][:MOST_POLISHED]
+    near = [e for e in grown if e.demerit < grown[0].demerit + CLOSE][:MOST_POLISHED]
     done = [Explanation(fit(model, e.fit.point)) for e in near]
-    return sorted([*done, *grown[len(near) :]], key=lambda e: e.fit.cost)
+    return sorted([*done, *grown[len(near) :]], key=lambda e: e.demerit)
 
 
 def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, draws: int) -> Scoring:

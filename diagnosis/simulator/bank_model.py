@@ -237,8 +237,8 @@ class BankModel:
                 self.bank, parameters, run.inputs, run.times, along, self._threads, run.plan
             )
             self.simulations += len(along)
-            for (i, weight), row in zip(columns, slopes):
-                jacobian[i, begin : begin + run.count] += row[run.pick] * (-weight * run.weight)
+            for (i, weight), row in zip(columns, run.slopes(slopes)):
+                jacobian[i, begin : begin + run.count] += weight * row
             begin += run.count
         return jacobian.T
 

@@ -20,6 +20,10 @@ from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.translate import Translation
 
 
+#: Standard deviation of a channel's zero, as a share of its noise: no instrument is set better than its readings scatter.
+ZERO = 0.15
+
+
 @dataclass(frozen=True)
 class Series:
     """One channel of one recording, as the bank samples it.
@@ -83,6 +87,10 @@ class Run:
         self.count = sum(len(s.samples) for s in self.series)
         self.pick = np.concatenate([self._places(layout, s) for s in self.series])
         self.measured = np.concatenate([s.measured for s in self.series])
+        self._lengths = np.array([len(s.samples) for s in self.series])
+        self._begins = np.concatenate([[0], np.cumsum(self._lengths)[:-1]])
+        used = np.maximum([np.count_nonzero(s.used) for s in self.series], 1)
+        self._shares = (1.0 - 1.0 / np.sqrt(1.0 + used * ZERO**2)) / used
         # 1 / deviation, 0 where a sample does not count
         self.weight = np.concatenate([np.where(s.used, 1.0 / deviation(s.channel), 0.0) for s in self.series])
 
@@ -112,13 +120,23 @@ class Run:
 
     def residuals(self, outputs: Array) -> Array:
         """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size)."""
-        return np.asarray((self.measured - outputs[:, self.pick]) * self.weight)
+        return self._without_zeros((self.measured - outputs[:, self.pick]) * self.weight)
 
     def slopes(self, slopes: Array) -> Array:
         """Derivatives of the outputs, shape (directions, out_size), to those of the residuals, (directions, samples)."""
         found = slopes[:, self.pick]
         found *= -self.weight
-        return np.asarray(found)
+        return self._without_zeros(found)
+
+    def _without_zeros(self, rows: Array) -> Array:
+        """Rows of residuals (in place), whitened for a zero of each channel that is off by an unknown `ZERO`.
+
+        With residuals r of deviation 1 and a common zero of deviation s, the covariance is I + s^2 1 1'; its inverse
+        root takes the share 1 - 1 / sqrt(1 + n s^2) of the mean away.
+        """
+        sums = np.add.reduceat(rows, self._begins, axis=1)
+        rows -= np.repeat(sums * self._shares, self._lengths, axis=1) * (self.weight > 0.0)
+        return rows
 
 
 def clocks(runs: Sequence[Run]) -> Clocks:
