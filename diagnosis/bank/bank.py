@@ -144,7 +144,7 @@ class Bank:
         out = np.empty((len(vectors), plan.out_size))
         plan_structure = type(plan.structure).from_buffer_copy(plan.structure)
         plan_structure.term_offset = packing.term_offset.ctypes.data
-        bounds = np.linspace(0, len(vectors), min(threads, len(vectors)) + 1).astype(int)
+        bounds = np.linspace(0, len(vectors), max(1, min(threads, len(vectors))) + 1).astype(int)
 
         def part(n: int) -> None:
             self._call(
