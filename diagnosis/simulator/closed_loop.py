@@ -9,6 +9,7 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
+from diagnosis.compute.batch import Batches
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.problem import Layout, Parameter, Point, Term
@@ -47,16 +48,20 @@ class ClosedLoopModel:
         scenario: What the recordings are compared with.
         recordings: Recordings of it.
         without: Laws that it must not know.
+        batches: Makes the runs; None: one after the other in this process.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
 
-    def __init__(self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str] = ()) -> None:
+    def __init__(
+        self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str] = (),
+        batches: Batches | None = None,
+    ) -> None:  # fmt: skip
         self._laws = {law.place.term: law for law in laws_of(scenario) if law.place.term.identifier not in without}
         recordings = [_with_rounding(r) for r in recordings]
         free = free_parameters(scenario, recordings)
-        self.model = CosimModel(scenario, recordings, free, [law.place for law in self._laws.values()])
+        self.model = CosimModel(scenario, recordings, free, [law.place for law in self._laws.values()], batches)
         self.runs = [_compared(r) for r in recordings]
         self.parameters: Sequence[Parameter] = self.model.parameters
         self.layout: Layout = self.model.layout

@@ -9,6 +9,9 @@ from cosim.components import CircuitComponent
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.compute.batch import Batches
+from diagnosis.fabric.model import FabricModel
+from diagnosis.fabric.runs import fabric_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.bank_model import BankModel
@@ -120,7 +123,7 @@ class DiagnosisModel(Protocol):
 
 def model_of(
     scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2,
-    without: Sequence[str] = (),
+    without: Sequence[str] = (), batches: Batches | None = None,
 ) -> DiagnosisModel:  # fmt: skip
     """The fastest model that simulates a scenario.
 
@@ -130,14 +133,17 @@ def model_of(
         catalogue: Candidates of the coil bank.
         threads: Simulations at the same time.
         without: Laws of units that the model must not know.
+        batches: Makes the runs of the co-simulation, where there are any.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
+    if fabric_of(scenario) is not None:
+        return FabricModel(scenario, recordings, catalogue, batches, without)
     try:
         translate(scenario)
     except NoBank:
-        return ClosedLoopModel(scenario, recordings, without)
+        return ClosedLoopModel(scenario, recordings, without, batches)
     return BankModel(scenario, recordings, catalogue, threads)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from cosim.assemble import Assembly, assemble
 from cosim.components import (
     CircuitComponent,
+    FabricComponent,
     FmuComponent,
     HangingMassComponent,
     ProgrammeComponent,
@@ -64,17 +65,17 @@ class Translation:
 
 
 def translate(scenario: Scenario) -> Translation:
-    """Read the bank off a scenario.
+    """Read the bank off a scenario; of one with a fabric it is what does not depend on the fabric's motion.
 
     Raises:
-        NoBank: It has a component that a bank does not have (a fabric, another FMU).
+        NoBank: It has a component that a bank does not have (a pendulum, another FMU).
         InputError: The scenario is wrong.
     """
     actuators = [n for n, c in scenario.components.items() if isinstance(c, FmuComponent)]
     if len(actuators) != 1:
         raise NoBank(f"it has {len(actuators)} FMUs; a bank has one")
     for name, component in scenario.components.items():
-        known = ProgrammeComponent | CircuitComponent | HangingMassComponent | FmuComponent
+        known = ProgrammeComponent | CircuitComponent | HangingMassComponent | FabricComponent | FmuComponent
         if not isinstance(component, known):
             raise NoBank(f"a bank has no {component.kind} ({name})")
     actuator = scenario.components[actuators[0]]

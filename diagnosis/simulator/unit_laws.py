@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from cosim.scenario import Scenario
+from diagnosis.fabric.laws import fabric_laws
 from diagnosis.search.pendulum_terms import pendulum_laws
 from diagnosis.search.unit_law import UnitLaw
 
 #: Kind of component to its laws, given its name in the scenario.
-LAWS: Mapping[str, Callable[[str], Sequence[UnitLaw]]] = {"bullet_pendulum": pendulum_laws}
+LAWS: Mapping[str, Callable[[str], Sequence[UnitLaw]]] = {
+    "bullet_pendulum": pendulum_laws, "bullet_fabric": fabric_laws,
+}  # fmt: skip
 
 
 def laws_of(scenario: Scenario) -> list[UnitLaw]:

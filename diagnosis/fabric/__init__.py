@@ -1,0 +1,1 @@
+"""Diagnosis of fabrics in Bullet: few simulations, contact scatter as uncertainty, mechanical candidates."""
