@@ -28,6 +28,7 @@ MOST = 4
 ENOUGH = 0.95
 #: Families that are tried with half the load, and of which longer programmes are tried.
 _LOADED, _LONGER = 2, 3
+_BROAD = ("staircase", "steps in mixed order")
 
 
 @dataclass(frozen=True)
@@ -172,8 +173,10 @@ def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:
     first = sorted(found, key=lambda t: -t.gain)
     if driven.load is not None:
         weight = float(np.max(np.asarray(bench.model.runs[0].translation.parameters.base["load"])))
-        for one in first[:_LOADED]:
-            found += _one(planner, one.shape, 0.5 * weight, question)
+        # A programme that shows nothing with the old load may show all with another: two that visit every level too.
+        chosen = [*(t.shape for t in first[:_LOADED]), *(t.shape for t in found if t.shape.kind in _BROAD)]
+        for shape in {id(s): s for s in chosen}.values():
+            found += _one(planner, shape, 0.5 * weight, question)
         if max(t.decides for t in found) >= ENOUGH:
             return found
     for one in sorted(found, key=lambda t: -t.gain)[:_LONGER]:
