@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.bank.places import coil_label
-from diagnosis.judge.location import Location
+from diagnosis.judge.location import Location, Waveform
 from diagnosis.locate.course import Course, course
 from diagnosis.locate.fitted import Fitted, fitted
 from diagnosis.locate.panel import Panel, panels
@@ -26,9 +26,11 @@ class Located:
 
     Args:
         locations: One line for each unit, the strongest departure first.
+        waveforms: Unknown input at the equations of units that depart by more than noise.
     """
 
     locations: tuple[Location, ...]
+    waveforms: tuple[Waveform, ...] = ()
 
 
 @dataclass(frozen=True)
