@@ -13,9 +13,9 @@ from cosim.scenario import Scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.experiment.design import next_experiment
+from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
-from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
@@ -110,6 +110,7 @@ def diagnose(
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = findings(model, outcome)
+    told_apart = isolability(model, outcome.base, model.terms())
     on_progress("driving each unit alone")
     located = locate(model, outcome.base, [r.title for r in training], settings.seed)
     on_progress("designing the next experiment")
@@ -124,12 +125,13 @@ def diagnose(
         structure_before=outcome.base_structure.z,
         structure_after=outcome.left.z,
         recalibration=recalibration(model, outcome.best.fit),
-        isolability=Isolability(),
+        isolability=told_apart,
         amended_model=None,
         seconds=clock.perf_counter() - begin,
         simulations=model.simulations,
         seed=settings.seed,
         locations=located.locations,
+        waveforms=located.waveforms,
         scenario=str(scenario.path or scenario.title),
         recordings=used(training, held_out),
         spread=spread_over_recordings(fits),
