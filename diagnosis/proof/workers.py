@@ -53,26 +53,32 @@ class Workers:
         yield from self._spread(work, tasks)
 
     def _spread(self, work: Callable[..., Any], tasks: Mapping[str, Given]) -> Iterator[tuple[str, Any]]:
+        dask = _distributed()
         left = iter(tasks.items())
-        names: dict[str, str] = {}
+        names: dict[Any, str] = {}
+        suspects: list[str] = []
 
         def submit(case: str, given: Given) -> Any:
             future = self.client.submit(work, *given(), pure=False)
-            names[future.key] = case
+            names[future] = case
             return future
 
-        first = [submit(*task) for _, task in zip(range(WAITING * self.count), left)]
-        ready = _distributed().as_completed(first)
+        ready = dask.as_completed([submit(*task) for _, task in zip(range(WAITING * self.count), left)])
         try:
             for future in ready:
-                case = names.pop(future.key)
-                yield case, _tried(future.result, tuple)
-                future.release()
+                case = names.pop(future)
+                if future.status == "error" and isinstance(future.exception(), dask.KilledWorker):
+                    suspects.append(case)
+                else:
+                    yield case, _tried(future.result, tuple)
                 following = next(left, None)
                 if following is not None:
                     ready.add(submit(*following))
+            # A process that died took with it cases that only waited there: each has another try, alone.
+            for case in suspects:
+                yield case, _tried(submit(case, tasks[case]).result, tuple)
         finally:
-            self.client.cancel([f for f in first if not f.done()], force=True)
+            self.client.cancel(list(names), force=True)
 
 
 def _tried(work: Callable[..., Any], given: Given) -> Any:
@@ -108,7 +114,7 @@ def workers(jobs: int, address: str | None = None) -> Iterator[Workers]:
             yield Workers(client, sum(client.nthreads().values()))
         return
     with dask.LocalCluster(
-        n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0,
+        n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
         silence_logs=logging.CRITICAL,
     ) as cluster, dask.Client(cluster) as client:  # fmt: skip
         yield Workers(client, jobs)
