@@ -7,10 +7,12 @@ from pathlib import Path
 
 from cosim.run_folder import writing
 from cosim.scenario import Scenario
+from diagnosis.amend.judged import judged
 from diagnosis.curves import curves
 from diagnosis.diagnose import Found
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.recording.recording import load_recording
 from diagnosis.report.json_file import write_json
 from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
@@ -18,7 +20,7 @@ from diagnosis.simulator.models import strings_of
 
 
 def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
-    """Write next_experiment/scenario.yaml where one was designed, report.html and diagnosis.json.
+    """Write the amended model, next_experiment/scenario.yaml where one was designed, report.html and diagnosis.json.
 
     Args:
         found: The diagnosis and its models.
@@ -34,6 +36,9 @@ def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
     diagnosis = found.diagnosis
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
+        held_out = [load_recording(r.path) for r in diagnosis.recordings if r.is_held_out]
+        points = found.points, found.held_out_points
+        diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

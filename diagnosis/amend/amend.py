@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,9 +11,9 @@ from typing import Any
 import yaml
 
 from cosim.fmu_tools.build_c import build_c
-from cosim.parameters import find_parameter_set
-from cosim.scenario import Scenario, load_scenario, scenario_folder
+from cosim.scenario import Scenario, load_scenario
 from diagnosis.amend.actuator_fmu import actuator_source
+from diagnosis.amend.beside import take_along
 from diagnosis.amend.changes import CannotAmend, Changes, FittedTerm, changes_of
 from diagnosis.amend.fmu_source import Source
 from diagnosis.amend.load_fmu import load_source
@@ -76,7 +76,13 @@ def amend(
         CannotAmend: Something that was found has no place in a scenario; the text says what and why.
         InputError: An FMU cannot be compiled.
     """
-    changes = changes_of(scenario, model, point)
+    return write_amended(scenario, changes_of(scenario, model, point), folder, versions)
+
+
+def write_amended(
+    scenario: Scenario, changes: Changes, folder: Path, versions: Sequence[int] = VERSIONS
+) -> AmendedModel:  # fmt: skip
+    """Write an amended scenario from its changes; see `amend`."""
     files = Files(
         f"amended_actuator_fmi{versions[0]}.fmu" if needs_own_fmu(changes) else None,
         f"amended_load_fmi{versions[0]}.fmu" if needs_own_load(changes) else None,
@@ -91,27 +97,28 @@ def amend(
     return _write(scenario, changes, files, folder, data)
 
 
-def amend_like(other: AmendedModel, model: BankModel, point: Point, folder: Path) -> AmendedModel:
-    """A point without terms as a scenario that runs the FMUs of another amended one, their terms switched off.
+def amend_like(other: AmendedModel, changes: Changes, folder: Path) -> AmendedModel:
+    """An amended scenario that runs the FMUs of another one, with other numbers and terms of it left out.
 
     Args:
         other: The amended scenario whose FMUs are taken.
-        model: Model of the recordings that were fitted.
-        point: Fitted values without terms.
+        changes: What was changed, of the same scenario.
         folder: Where the files go.
 
     Raises:
-        CannotAmend: The point has terms, or a parameter that a scenario cannot say.
+        CannotAmend: The FMUs do not hold a term, or a scenario cannot say a parameter.
     """
-    changes = changes_of(other.original, model, point)
-    if changes.terms:
-        raise CannotAmend(f"{changes.terms[0].term.identifier} may not be in the built FMUs")
-    if (needs_own_fmu(changes) and other.files.actuator is None) or (
+    built = {t.term.identifier for t in other.changes.terms}
+    for fitted in (*changes.of(Part.ACTUATOR), *changes.of(Part.LOAD)):
+        if fitted.term.identifier not in built:
+            raise CannotAmend(f"{fitted.term.identifier} is not in the FMUs that were built")
+    lacks = (needs_own_fmu(changes) and other.files.actuator is None) or (
         needs_own_load(changes) and other.files.load is None
-    ):
-        return amend(other.original, model, point, folder)
-    up = os.path.relpath(other.folder, folder)
-    files = Files(*(None if f is None else str(Path(up) / f) for f in (other.files.actuator, other.files.load)))
+    )
+    if lacks:
+        return write_amended(other.original, changes, folder)
+    up = Path(os.path.relpath(other.folder, folder))
+    files = Files(*(None if f is None else str(up / f) for f in (other.files.actuator, other.files.load)))
     return _write(other.original, changes, files, folder, amended_data(other.original, changes, files))
 
 
@@ -119,7 +126,7 @@ def _write(
     scenario: Scenario, changes: Changes, files: Files, folder: Path, data: dict[str, Any]
 ) -> AmendedModel:  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
-    _copy_parameter_sets(scenario, data, folder)
+    take_along(scenario, data, folder)
     text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
     (folder / "scenario.yaml").write_text(_comment(scenario, changes) + text, encoding="utf-8")
     sensors = sensor_entries(changes)
@@ -129,8 +136,7 @@ def _write(
     return AmendedModel(folder, load_scenario(folder / "scenario.yaml"), changes, scenario, files)
 
 
-_SENSOR_COMMENT = """# What the diagnosis found of the sensors: no part of the model that runs, but of what they read of it.
-"""
+_SENSOR_COMMENT = "# What was found of the sensors: no part of the model that runs, but of what they read of it.\n"
 
 
 def _terms(changes: Changes, part: Part) -> list[CandidateTerm]:
@@ -144,21 +150,6 @@ def _build(part: str, source: Source, folder: Path, coils: int, versions: Sequen
         build_c(sources, version, coils, folder / f"amended_{part}_fmi{version}.fmu")
 
 
-def _copy_parameter_sets(scenario: Scenario, data: Mapping[str, Any], folder: Path) -> None:
-    """Parameter sets beside the scenario go with it."""
-    assert scenario.path is not None
-    shipped = scenario_folder() / "parameter_sets"
-    for component in data["components"].values():
-        name = component.get("parameter_set")
-        if name is None:
-            continue
-        path = find_parameter_set(name, scenario.path)
-        if path.parent != shipped:
-            target = folder / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_bytes(path.read_bytes())
-
-
 def _comment(scenario: Scenario, changes: Changes) -> str:
     """What was found, above the scenario."""
     name = "" if scenario.path is None else f" of {scenario.path.name}"
@@ -169,5 +160,7 @@ def _comment(scenario: Scenario, changes: Changes) -> str:
         lines.append(f"# {fitted.part.value}: {fitted.term.name}: {fitted.term.law}")
         for parameter in fitted.term.parameters:
             values = sorted({f"{v:.4g}" for v in fitted.values[parameter.name].tolist()}, key=float)
-            lines.append(f"#   {parameter.name} [{parameter.unit}]: {' to '.join(values[:1] + values[-1:][len(values) == 1:])}")
+            lines.append(
+                f"#   {parameter.name} [{parameter.unit}]: {' to '.join(values[:1] + values[-1:][len(values) == 1 :])}"
+            )
     return "\n".join(lines) + "\n"

@@ -81,9 +81,7 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     )
     nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
     fitted = model.bank_parameters(Point(lasting, point.terms), 0)
-    sensors = {
-        name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base
-    }
+    sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
     terms = fitted_terms(model.bank.terms, fitted)
     return Changes(translate(scenario), _factors(nominal, fitted), terms, sensors)
 

@@ -27,6 +27,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.simulator.translate import Translation, translate
 
+
 def free_run(amended: AmendedModel, recording: Recording, times: Mapping[str, Array]) -> dict[str, Array]:
     """Run the amended scenario under the conditions of a recording, and read it.
 
@@ -131,5 +132,7 @@ def _scaled(given: Any, factor: Array) -> Any:
     parts = given if isinstance(given, list) else [given]
     values = [PhysicalValue.parse(v) for v in parts]
     numbers = np.array([v.number for v in values]) * factor
-    texts = [f"{n:.10g} {values[i if len(values) > 1 else 0].unit}".strip() for i, n in enumerate(np.atleast_1d(numbers))]
+    texts = [
+        f"{n:.10g} {values[i if len(values) > 1 else 0].unit}".strip() for i, n in enumerate(np.atleast_1d(numbers))
+    ]
     return texts if len(texts) > 1 else texts[0]

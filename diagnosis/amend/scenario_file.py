@@ -24,9 +24,11 @@ from diagnosis.bank.layout import COIL_FIELDS, Array
 from diagnosis.simulator.translate import GRAVITY
 
 #: Parameters of the FMU's coils with their units, by the field of the bank that they give.
+_BRANCH = {"a": "N/m", "b": "1", "c": "1/K", "d": "N/m"}
 _DIRECT = {
     "reference_resistance": "ohm", "cooling_rate": "1/s", "resistance_temperature_coefficient": "1/K",
-    **{f"{branch}_{letter}": unit for branch in ("heating", "cooling") for letter, unit in zip("abcd", ("N/m", "1", "1/K", "N/m"))},
+    **{f"heating_{letter}": unit for letter, unit in _BRANCH.items()},
+    **{f"cooling_{letter}": unit for letter, unit in _BRANCH.items()},
 }  # fmt: skip
 #: Start values of thermal_stiffness that are needed where neither the set nor the scenario gives them.
 _DEFAULTS = {"area": (97.85e-6, "m^2"), "density": (6450.0, "kg/m^3"), "specific_heat": (837.0, "J/(kg*K)")}
@@ -194,7 +196,10 @@ def _connect(data: dict[str, Any], changes: Changes) -> None:
     wanted = [f"{sources[n]}.{n} -> {actuator}.{n}" for n in needs if sources[n] is not None]
     wanted += [f"{actuator}.{p.name} -> {load}.{p.name}" for p in ports]
     if wanted:
-        data["connections"] = [*data.get("connections", []), *(c for c in wanted if c not in data.get("connections", []))]
+        data["connections"] = [
+            *data.get("connections", []),
+            *(c for c in wanted if c not in data.get("connections", [])),
+        ]
 
 
 def actuator_inputs(changes: Changes) -> list[str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.amend.changes import Changes
 from diagnosis.amend.parts import Part
-from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.layout import QUANTITIES, QUANTITY_FIELDS, BankLayout
 from diagnosis.bank.places import channel_label
 
 
@@ -16,10 +16,11 @@ def sensor_entries(changes: Changes) -> list[dict[str, Any]]:
     """One entry for each channel and effect, with its law, parameters and units."""
     names = channel_names(changes.translation.layout)
     found: list[dict[str, Any]] = []
-    for quantity, late in zip(QUANTITIES, changes.sensors.get("clock_offset", np.zeros(0))):
-        if late != 0.0:
-            found.append({"quantity": quantity, "effect": "clock_offset", "law": "value = truth(t - delay)",
-                          "parameters": {"delay": f"{float(late):.10g} s"}})  # fmt: skip
+    for field, values in changes.sensors.items():
+        unit = QUANTITY_FIELDS[field][1]
+        for quantity, value in zip(QUANTITIES, np.broadcast_to(values, (len(QUANTITIES),)).tolist()):
+            if value != 0.0:
+                found.append({"quantity": quantity, "effect": field, "parameters": {field: f"{value:.10g} {unit}"}})
     for fitted in changes.of(Part.SENSOR):
         term = fitted.term
         for n, strength in enumerate(fitted.values[term.amplitude.name]):

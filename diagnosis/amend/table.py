@@ -99,4 +99,4 @@ def exponents(unit: str) -> tuple[int, ...]:
     dimensions = dict(quantity.dimensionality)
     if abs(quantity.magnitude - 1.0) > 1e-9 or set(dimensions) - set(_BASES):
         raise ValueError(f"{unit} is no SI unit")
-    return tuple(round(float(dimensions.get(base, 0))) for base in _BASES)
+    return tuple(int(str(dimensions.get(base, 0)).removesuffix(".0")) for base in _BASES)

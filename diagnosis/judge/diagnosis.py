@@ -165,6 +165,25 @@ class ChannelSpread:
 
 
 @dataclass(frozen=True)
+class Difference:
+    """A held-out channel that the fast simulation and a free run of the closed co-simulation predict differently.
+
+    Args:
+        recording: Its title.
+        channel: Name.
+        stage: `before`, `recalibrated` or `after`.
+        size: Root mean square of the difference, in deviations of the noise.
+        chi_square: Per sample, by the fast simulation; that by the free run is in `fit`.
+    """
+
+    recording: str
+    channel: str
+    stage: str
+    size: float
+    chi_square: float
+
+
+@dataclass(frozen=True)
 class Used:
     """A recording that was used.
 
@@ -213,6 +232,9 @@ class Diagnosis:
         locations: Where residuals of units that were driven alone have structure, the strongest first.
         waveforms: Unknown inputs at the located equations.
         next_experiment: What would decide between explanations that are left open, or None.
+        held_out_by: What the fits of held-out recordings come from; empty if none was held out.
+        differences: Held-out channels on which the fast simulation and the free run differ by more than a tenth of the
+            noise, the most first.
     """
 
     verdict: Verdict
@@ -237,3 +259,5 @@ class Diagnosis:
     locations: tuple[Location, ...] = ()
     waveforms: tuple[Waveform, ...] = ()
     next_experiment: NextExperiment | None = None
+    held_out_by: str = ""
+    differences: tuple[Difference, ...] = ()

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.judge.diagnosis import ChannelFit, Difference
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.structure import WINDOWS
@@ -15,6 +15,12 @@ from diagnosis.simulator.models import DiagnosisModel
 
 #: The three models that are compared.
 STAGES = ("before", "recalibrated", "after")
+#: Root mean square by which two predictions of a channel may differ, in deviations of its noise. It changes the mean
+#: square of residuals by at most 0.01 where they are noise, and by a fifth of a standard deviation where they are not.
+TOLERANCE = 0.1
+
+#: Stage to what it predicts: recording, channel, samples, SI.
+Predictions = Mapping[str, Sequence[Sequence[Array]]]
 
 
 def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -> Point:
@@ -28,8 +34,17 @@ def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -
     return Point(base, {same[str(t)]: v for t, v in point.terms.items()})
 
 
+def predictions(model: DiagnosisModel, points: Mapping[str, Point]) -> Predictions:
+    """What the model itself predicts of each of its recordings."""
+    return {stage: [model.predict(point, n) for n in range(len(model.runs))] for stage, point in points.items()}
+
+
 def channel_fits(
-    model: DiagnosisModel, recordings: Sequence[Recording], points: Mapping[str, Point], is_held_out: bool
+    model: DiagnosisModel,
+    recordings: Sequence[Recording],
+    points: Mapping[str, Point],
+    is_held_out: bool,
+    predicted: Predictions | None = None,
 ) -> list[ChannelFit]:
     """Fit of every channel at several points.
 
@@ -38,16 +53,16 @@ def channel_fits(
         recordings: The same, in order.
         points: Stage to point.
         is_held_out: Whether nothing was fitted to them.
+        predicted: What is compared with the readings; None: what the model predicts.
     """
+    given = predictions(model, points) if predicted is None else predicted
     found = []
     for number, recording in enumerate(recordings):
-        run = model.runs[number]
-        predicted = {stage: model.predict(point, number) for stage, point in points.items()}
-        for i, series in enumerate(run.series):
+        for i, series in enumerate(model.runs[number].series):
             measured = series.channel.values[-len(series.samples) :]
             rmse, chi_square, whiteness = {}, {}, {}
             for stage in points:
-                difference = (measured - predicted[stage][i])[series.used]
+                difference = (measured - given[stage][number][i])[series.used]
                 scaled = difference / series.channel.deviation
                 rmse[stage] = _root_mean_square(difference)
                 chi_square[stage] = _root_mean_square(scaled) ** 2
@@ -57,6 +72,31 @@ def channel_fits(
                            whiteness, int(np.count_nonzero(series.used)))
             )  # fmt: skip
     return found
+
+
+def differences(
+    model: DiagnosisModel, recordings: Sequence[Recording], fast: Predictions, free: Predictions
+) -> tuple[Difference, ...]:
+    """Channels of which two ways to simulate give predictions that differ by more than `TOLERANCE`, the most first.
+
+    Args:
+        model: Model of these recordings.
+        recordings: The same, in order.
+        fast: What the model predicts.
+        free: What free runs of the closed co-simulation give.
+    """
+    found = []
+    for stage, by_recording in free.items():
+        for number, recording in enumerate(recordings):
+            for i, series in enumerate(model.runs[number].series):
+                own, other, used = by_recording[number][i], fast[stage][number][i], series.used
+                size = _root_mean_square((own - other)[used] / series.channel.deviation)
+                if not size <= TOLERANCE:
+                    measured = series.channel.values[-len(series.samples) :]
+                    scaled = ((measured - other) / series.channel.deviation)[used]
+                    chi_square = _root_mean_square(scaled) ** 2
+                    found.append(Difference(recording.title, series.channel.name, stage, size, chi_square))
+    return tuple(sorted(found, key=lambda d: -d.size))
 
 
 def _root_mean_square(values: Array) -> float:

@@ -77,6 +77,8 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
         facts.append(("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases"))
     if diagnosis.amended_model:
         facts.append(("Amended model", diagnosis.amended_model))
+    if diagnosis.held_out_by:
+        facts.append(("Judged by", f"{diagnosis.held_out_by}{_differ(diagnosis)}"))
     return element(
         "header",
         element("h1", name),
@@ -84,6 +86,18 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
                 element("strong", diagnosis.statement), " ", ADVICE[diagnosis.verdict]),
         element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
     )  # fmt: skip
+
+
+def _differ(diagnosis: Diagnosis) -> str:
+    """Where the fast simulation, which was fitted, predicts something else than what judged."""
+    if not diagnosis.differences:
+        return ""
+    most = diagnosis.differences[0]
+    return (
+        f"; the fast simulation differs by more than a tenth of the noise on {len(diagnosis.differences)} channels, most "
+        f"on {most.channel} ({most.stage}): by {number(most.size)} deviations, {number(most.chi_square)} chi-square per "
+        "sample"
+    )
 
 
 def _each(texts: Sequence[str]) -> Html:

@@ -1,0 +1,47 @@
+"""Amended scenarios of models that the co-simulation itself simulates: other parameters of its components."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import yaml
+
+from cosim.scenario import Scenario, load_scenario
+from diagnosis.amend.beside import take_along
+from diagnosis.search.cosim_run import Changes, changed
+from diagnosis.search.problem import Point
+from diagnosis.simulator.closed_loop import ClosedLoopModel
+
+
+def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, folder: Path) -> Path:
+    """Write the scenario with the fitted parameters and terms, which its components switch on themselves.
+
+    What belongs to one recording alone (its initial state) is left as the scenario has it.
+
+    Args:
+        scenario: What was diagnosed.
+        model: Model of the recordings that were fitted.
+        point: Its fitted values.
+        folder: Where the scenario goes.
+
+    Returns:
+        The file that `cosim run` takes.
+    """
+    given = model.model.changes_at(point, 0)
+    daily = {(f.component, f.name) for f in model.model.free if f.recording is not None}
+    lasting = Changes(
+        {c: {n: v for n, v in own.items() if (c, n) not in daily} for c, own in given.parameters.items()},
+        {c: {n: v for n, v in own.items() if (c, n) not in daily} for c, own in given.shifts.items()},
+    )
+    folder.mkdir(parents=True, exist_ok=True)
+    data = yaml.safe_load(changed(scenario, lasting).to_yaml())
+    take_along(scenario, data, folder)
+    path = folder / "scenario.yaml"
+    lines = ["# Amended scenario, written by `cosim diagnose` (docs/amended-models.md)."]
+    for term, values in point.terms.items():
+        numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
+        lines.append(f"# {term.place}: {term.law}; {numbers}")
+    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
+    path.write_text("\n".join(lines) + "\n" + text, encoding="utf-8")
+    load_scenario(path)  # what cannot be read back must not be handed over
+    return path

@@ -1,0 +1,130 @@
+"""A diagnosis with its amended model, judged by free runs of the closed co-simulation on recordings held out."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from cosim.run import RunStopped
+from cosim.scenario import Scenario
+from cosim.unit import Array
+from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
+from diagnosis.amend.changes import CannotAmend, changes_of
+from diagnosis.amend.closed_loop import amend_closed_loop
+from diagnosis.amend.free_run import free_run, free_run_of
+from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.judge.held_out import Predictions, channel_fits, differences, predictions
+from diagnosis.judge.spread import spread_over_recordings
+from diagnosis.recording.recording import Recording
+from diagnosis.search.problem import Point
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.wrapped import WrappedModel
+
+BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
+
+
+def judged(
+    diagnosis: Diagnosis, scenario: Scenario, models: tuple[DiagnosisModel, DiagnosisModel | None],
+    points: tuple[Mapping[str, Point], Mapping[str, Point]], held_out: Sequence[Recording], folder: Path,
+) -> Diagnosis:  # fmt: skip
+    """Write the amended model, and take the fits of held-out recordings from free runs of it.
+
+    Args:
+        diagnosis: What was found, its held-out fits by the model that was fitted.
+        scenario: What was diagnosed.
+        models: Of the recordings that were fitted, and of those held out.
+        points: Stage to point of each of the two models.
+        held_out: Recordings that judge, in the order of their model.
+        folder: Where the amended model goes.
+
+    Returns:
+        The diagnosis with the path of the amended model; where something of it cannot be written or run, with the
+        reason in `held_out_by`.
+
+    Raises:
+        InputError: A folder cannot be written, or an FMU cannot be compiled.
+        KeyboardInterrupt: The user stopped it.
+    """
+    begin = clock.perf_counter()
+    found = _judged(diagnosis, scenario, models, points, held_out, folder)
+    return replace(found, seconds=found.seconds + clock.perf_counter() - begin)
+
+
+def _judged(
+    diagnosis: Diagnosis, scenario: Scenario, models: tuple[DiagnosisModel, DiagnosisModel | None],
+    points: tuple[Mapping[str, Point], Mapping[str, Point]], held_out: Sequence[Recording], folder: Path,
+) -> Diagnosis:  # fmt: skip
+    training, judge = models
+    inner, fitted = unwrapped(training, points[0])
+    if isinstance(inner, ClosedLoopModel):
+        path = amend_closed_loop(scenario, inner, fitted["after"], folder)
+        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS)
+    if not isinstance(inner, BankModel):
+        return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
+    try:
+        amended = _amended(scenario, inner, fitted, folder)
+    except CannotAmend as reason:
+        return replace(diagnosis, held_out_by=f"the fast simulation; there is no amended scenario: {reason}")
+    diagnosis = replace(diagnosis, amended_model=str(amended["after"].path))
+    if judge is None:
+        return replace(diagnosis, held_out_by="")
+    fast = predictions(judge, points[1])
+    try:
+        free = _free(judge, points[1], fast, scenario, amended, held_out)
+    except RunStopped as stopped:
+        if stopped.is_interrupt:
+            raise KeyboardInterrupt from stopped
+        return replace(diagnosis, held_out_by=f"the fast simulation; the free run stopped: {stopped.reason}")
+    fits = [f for f in diagnosis.fit if not f.is_held_out]
+    fits += channel_fits(judge, held_out, points[1], is_held_out=True, predicted=free)
+    return replace(
+        diagnosis, fit=tuple(fits), spread=spread_over_recordings(fits), held_out_by=BY_FREE_RUNS,
+        differences=differences(judge, held_out, fast, free),
+    )  # fmt: skip
+
+
+def unwrapped(model: DiagnosisModel, points: Mapping[str, Point]) -> tuple[DiagnosisModel, dict[str, Point]]:
+    """The model that simulates, and the points as it knows them."""
+    inner, own = model, dict(points)
+    while isinstance(inner, WrappedModel):
+        own = {stage: inner.inside(point) for stage, point in own.items()}
+        inner = inner.inner
+    return inner, own
+
+
+def _amended(
+    scenario: Scenario, model: BankModel, points: Mapping[str, Point], folder: Path
+) -> dict[str, AmendedModel]:  # fmt: skip
+    """`after`, and `recalibrated` in a folder beside it with the same FMUs, their terms switched off."""
+    after = write_amended(scenario, changes_of(scenario, model, points["after"]), folder)
+    changes = changes_of(scenario, model, points["recalibrated"])
+    return {"after": after, "recalibrated": amend_like(after, changes, folder.parent / f"{folder.name}_without_terms")}
+
+
+def _free(
+    judge: DiagnosisModel, points: Mapping[str, Point], fast: Predictions, scenario: Scenario,
+    amended: Mapping[str, AmendedModel], held_out: Sequence[Recording],
+) -> dict[str, list[list[Array]]]:  # fmt: skip
+    """Predictions of free runs, with what wrapped models add to their sensors."""
+    inner, own = unwrapped(judge, points)
+    assert isinstance(inner, BankModel)
+    simulated = predictions(inner, own)
+    found: dict[str, list[list[Array]]] = {}
+    for stage in points:
+        found[stage] = []
+        for n, recording in enumerate(held_out):
+            run = inner.runs[n]
+            if stage in amended:
+                values = free_run(amended[stage], recording, run.times)
+            else:
+                values = free_run_of(scenario, recording, run.times)
+            channels = [values[s.quantity][s.samples, s.element] for s in run.series]
+            added = [np.asarray(f - s) for f, s in zip(fast[stage][n], simulated[stage][n])]
+            found[stage].append([c + a for c, a in zip(channels, added)])
+    return found

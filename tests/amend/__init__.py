@@ -1,0 +1,1 @@
+"""Amended models: what was fitted is what runs."""
