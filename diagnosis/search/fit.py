@@ -64,6 +64,8 @@ class Fit:
         columns: Derivatives of the residuals by z; they may have been taken near the point and not at it.
         term_columns: Derivatives of the residuals by the parameters of the terms, shape (residuals, term parameters).
         is_converged: Whether the search for the minimum ended there.
+        widths: Deviation of the prior of each parameter, in its own deviations: 1 unless the recordings show that coils
+            scatter more than was stated, shape (parameters,).
     """
 
     point: Point
@@ -72,6 +74,7 @@ class Fit:
     columns: Columns
     term_columns: Array
     is_converged: bool
+    widths: Array
 
     @cached_property
     def jacobian(self) -> Array:
@@ -84,7 +87,7 @@ class Fit:
         weighted = self.jacobian * huber_weights(self.residuals).astype(self.jacobian.dtype)[:, None]
         normal = np.asarray(weighted.T @ weighted, dtype=np.float64)
         base = np.arange(len(self.point.base))
-        normal[base, base] += 1.0
+        normal[base, base] += self.widths**-2.0
         return normal
 
     @cached_property
@@ -96,21 +99,22 @@ class Fit:
         return np.asarray(inverse / np.outer(scale, scale))
 
 
-def cost(residuals: Array, base: Array) -> float:
-    """-2 log posterior: Huber's function of the residuals and the squares of the prior's z."""
+def cost(residuals: Array, base: Array, widths: Array | float = 1.0) -> float:
+    """-2 log posterior: Huber's function of the residuals and the squares of the prior's z, up to a constant."""
     size = np.abs(residuals)
-    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2)) + base @ base)
+    prior = float(np.sum((base / widths) ** 2))
+    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2)) + prior)
 
 
 class _Objective:
     """Residuals and their derivatives over z and the parameters of the terms, in scaled coordinates."""
 
-    def __init__(self, model: Model, terms: Sequence[Term]) -> None:
-        self.model, self.terms = model, list(terms)
+    def __init__(self, model: Model, terms: Sequence[Term], widths: Array) -> None:
+        self.model, self.terms, self.widths = model, list(terms), widths
         self.count = len(model.parameters)
         free = [p for t in terms for p in t.parameters]
         self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
-        bound = np.array([p.bounds for p in model.parameters])
+        bound = np.array([p.bounds for p in model.parameters]) * widths
         self.lower = np.concatenate([-bound, [p.lower / s for p, s in zip(free, self.scale)]])
         self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
 
@@ -135,7 +139,7 @@ class _Objective:
         return np.where(np.isfinite(found), found, 1e6)  # a model that cannot be simulated is a bad one
 
     def cost(self, x: Array, residuals: Array) -> float:
-        return cost(residuals, x[: self.count])
+        return cost(residuals, x[: self.count], self.widths)
 
     def base_columns(self, x: Array) -> Array:
         """Derivatives by z, shape (residuals, parameters)."""
@@ -165,7 +169,9 @@ def _scale(starts: Sequence[float], width: float) -> float:
     return width if np.isfinite(width) else 1.0
 
 
-def fit(model: Model, start: Point, iterations: int = 60, near: Fit | None = None) -> Fit:
+def fit(
+    model: Model, start: Point, iterations: int = 60, near: Fit | None = None, widths: Array | None = None
+) -> Fit:  # fmt: skip
     """Fit all parameters of the model and of the terms in `start`, from there.
 
     Levenberg-Marquardt on the normal equations, which the prior keeps well conditioned; bounds are kept by leaving out
@@ -176,7 +182,8 @@ def fit(model: Model, start: Point, iterations: int = 60, near: Fit | None = Non
         model: Model and recordings.
         start: Where the search begins; its terms are those that are fitted.
         iterations: Most steps.
-        near: A fit whose derivatives by the model's own parameters are good enough to begin with.
+        near: A fit whose derivatives by the model's own parameters are good enough to begin with, and whose widths hold.
+        widths: See `Fit`; None: those of `near`, or 1.
 
     Returns:
         The fit, converged or not: it says so.
@@ -184,7 +191,9 @@ def fit(model: Model, start: Point, iterations: int = 60, near: Fit | None = Non
     Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7; chord: Kelley,
     Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 5.4.
     """
-    objective = _Objective(model, list(start.terms))
+    if widths is None:
+        widths = np.ones(len(model.parameters)) if near is None else near.widths
+    objective = _Objective(model, list(start.terms), widths)
     x = objective.vector(start)
     here = objective.residuals(x)
     count = objective.count
@@ -209,7 +218,7 @@ def fit(model: Model, start: Point, iterations: int = 60, near: Fit | None = Non
         if is_fresh:
             columns, poor = Columns.of(objective.base_columns(x), x[:count], here), 0
         terms = objective.term_columns(x, here)
-    return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged)
+    return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths)
 
 
 def _descend(
@@ -221,7 +230,7 @@ def _descend(
         Where it ended, residuals there, gain, the gain that was promised at the least damping, damping for the next.
     """
     x, here, value = now
-    normal, slope = _quadratic(objective.count, x, here, slopes)
+    normal, slope = _quadratic(objective.widths, x, here, slopes)
     size = np.maximum(np.diag(normal), 1e-12)
     expected = 0.0
     for attempt in range(12):
@@ -244,19 +253,20 @@ def _descend(
     return x, here, 0.0, expected, damping
 
 
-def _quadratic(count: int, x: Array, here: Array, slopes: tuple[Columns, Array]) -> tuple[Array, Array]:
+def _quadratic(widths: Array, x: Array, here: Array, slopes: tuple[Columns, Array]) -> tuple[Array, Array]:
     """Normal matrix and half the slope of -2 log posterior."""
     columns, terms = slopes
+    count = len(widths)
     pull = huber_weights(here) ** 2 * here
     weighted = terms * (columns.weights**2)[:, None]
     sides = np.column_stack([pull, weighted]).astype(columns.values.dtype)
     across = np.asarray(columns.values.T @ sides, dtype=np.float64)
     normal = np.zeros((len(x), len(x)))
-    normal[:count, :count] = columns.normal + np.eye(count)
+    normal[:count, :count] = columns.normal + np.diag(widths**-2.0)
     normal[:count, count:] = across[:, 1:]
     normal[count:, :count] = across[:, 1:].T
     normal[count:, count:] = terms.T @ weighted
-    slope = np.concatenate([across[:, 0] + x[:count], terms.T @ pull])
+    slope = np.concatenate([across[:, 0] + x[:count] / widths**2, terms.T @ pull])
     return normal, slope
 
 

@@ -53,7 +53,8 @@ class Projection:
         self.residuals = self.weights * base.residuals
         self._count = len(base.point.base)
         self._prior = np.zeros(base.jacobian.shape[1])
-        self._prior[: self._count] = base.point.base
+        self._prior[: self._count] = base.point.base / base.widths**2
+        self._widths = base.widths
         kind = base.jacobian.dtype
         self._jacobian = base.jacobian * self.weights.astype(kind)[:, None]
         self._factor = cho_factor(_steady(base.information))
@@ -66,7 +67,7 @@ class Projection:
         kind = self._jacobian.dtype
         noise = rng.standard_normal((len(self.residuals), draws), dtype=np.float32).astype(kind)
         prior = np.zeros((self._jacobian.shape[1], draws))
-        prior[: self._count] = rng.standard_normal((self._count, draws))
+        prior[: self._count] = rng.standard_normal((self._count, draws)) / self._widths[:, None]
         slope = np.asarray(self._jacobian.T @ noise, dtype=np.float64) + prior
         self._noise_pull = cho_solve(self._factor, slope)
         self._sides = np.hstack([self._jacobian, self.residuals.astype(kind)[:, None], noise])

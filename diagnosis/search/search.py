@@ -10,18 +10,20 @@ import numpy as np
 from cosim.unit import Array
 from diagnosis.search.fit import Fit, cost, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
-from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.problem import Model, Parameter, Point, Term
 from diagnosis.search.score import Score, Scoring, score
 from diagnosis.search.structure import Structure, structure
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
 #: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
-STRAINED = 2.5
+STRAINED = 4.0
 #: -2 log of the prior odds of a generic law against one of the catalogue: they are many, and any of them may bend well.
 UNNAMED = 6.0
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
+#: Elements of a kind from which their scatter is told, and how many stated deviations it may grow to.
+FEWEST, WIDEST = 6, 4.0
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96
 #: Most steps of a fit in the competition.
@@ -116,11 +118,29 @@ def best_fits(before: Explanation, grown: Sequence[Explanation]) -> Sequence[Exp
     return grown
 
 
-
 def recalibrate(model: Model) -> Fit:
     """Fit what the model already has, within its priors, to the end: an unconverged base makes false gains."""
     found = fit(model, Point(np.zeros(len(model.parameters))), iterations=200)
-    return fit(model, found.point, iterations=200)
+    widths = spread(model.parameters, found.point.base)
+    return fit(model, found.point, iterations=200, widths=widths)
+
+
+def spread(parameters: Sequence[Parameter], base: Array) -> Array:
+    """Widths of the priors: those of many elements of a kind grow where most of them lie farther than was stated.
+
+    The median of |z| tells how far, so that one faulty element does not (empirical Bayes; Efron, Large-Scale Inference,
+    Cambridge 2010, chapter 1).
+    """
+    widths = np.ones(len(base))
+    kinds: dict[str, list[int]] = {}
+    for i, parameter in enumerate(parameters):
+        if "]." in parameter.name:
+            kinds.setdefault(parameter.name.split("].", 1)[1], []).append(i)
+    for members in kinds.values():
+        if len(members) >= FEWEST:
+            typical = float(np.median(np.abs(base[members]))) / 0.6745  # of a normal law the median of |z| is 0.6745
+            widths[members] = float(np.clip(typical, 1.0, WIDEST))
+    return widths
 
 
 def search(
@@ -190,7 +210,7 @@ def _grow(
 def _polished(model: Model, grown: list[Explanation]) -> list[Explanation]:
     """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
     near = [e for e in grown if e.demerit < grown[0].demerit + CLOSE][:MOST_POLISHED]
-    done = [Explanation(fit(model, e.fit.point)) for e in near]
+    done = [Explanation(fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
     return sorted([*done, *grown[len(near) :]], key=lambda e: e.demerit)
 
 
@@ -218,15 +238,15 @@ def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
     """Fit all again with a term more, from the recalibrated and from the nominal point and from each start."""
     term = candidate.term
     here = before.point.plus(term, candidate.values)
-    if np.max(np.abs(before.point.base), initial=0.0) < STRAINED:
+    if np.max(np.abs(before.point.base / before.widths), initial=0.0) < STRAINED:
         return fit(model, here, TRIAL, before)
     nominal = Point(np.zeros_like(before.point.base), before.point.terms)
     starts = [candidate.values[0], *term.parameters[0].starts[:3]]
     points = [here, *(nominal.plus(term, (start, *candidate.values[1:])) for start in starts)]
     values = model.residuals(points)
-    costs = [cost(v, p.base) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
-    best = [points[i] for i in np.argsort(costs)[:2]]
-    return fit_best(model, best, TRIAL, before)
+    costs = [cost(v, p.base, before.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
+    other = points[1 + int(np.argmin(costs[1:]))]
+    return fit_best(model, [here, other], TRIAL, before)
 
 
 def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
@@ -236,4 +256,5 @@ def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanatio
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
         if not gains or min(gains.values()) > margin:
             return replace(explanation, gains=gains)
-        explanation = Explanation(fit(model, without[min(gains, key=lambda t: gains[t])].point))
+        point = without[min(gains, key=lambda t: gains[t])].point
+        explanation = Explanation(fit(model, point, widths=explanation.fit.widths))
