@@ -7,11 +7,12 @@ from pathlib import Path
 
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis
-from diagnosis.judge.isolability import Isolability
-from diagnosis.report.display import clean, listed, number, percent
+from diagnosis.report.display import clean, listed, number, percent, span
+from diagnosis.report.experiment_section import experiment_section, isolability_section
 from diagnosis.report.figures import network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
 from diagnosis.report.fit_section import fit_section
+from diagnosis.report.location_section import location_section, remainder_section, waveform_section
 from diagnosis.report.markup import Html, element, image, joined, listing
 from diagnosis.report.network import Network, concerned, inferred
 from diagnosis.report.sentences import ADVICE, effort, improvement, structure, sureness, what, when, where
@@ -53,10 +54,15 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         _answer(diagnosis, name),
         _place_and_time(diagnosis, series, network),
         *(finding_section(n, f) for n, f in enumerate(diagnosis.findings)),
-        fit_section(diagnosis.fit),
+        waveform_section(diagnosis.waveforms),
+        experiment_section(diagnosis.next_experiment),
+        remainder_section(diagnosis.left),
+        fit_section(diagnosis.fit, diagnosis.spread),
         _figures(diagnosis, series),
         _certainty(diagnosis),
-        _isolability(diagnosis.isolability),
+        location_section(diagnosis.locations),
+        isolability_section(diagnosis.isolability),
+        _rests_on(diagnosis),
         element("footer", effort(diagnosis)),
     )  # fmt: skip
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
@@ -75,6 +81,8 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
         facts = [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
                  ("What", _each([what(f) for f in told])), *facts]  # fmt: skip
         facts.append(("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases"))
+    if diagnosis.next_experiment is not None:
+        facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
         facts.append(("Amended model", diagnosis.amended_model))
     if diagnosis.held_out_by:
@@ -93,10 +101,10 @@ def _differ(diagnosis: Diagnosis) -> str:
     if not diagnosis.differences:
         return ""
     most = diagnosis.differences[0]
+    by = f"{number(most.size)} deviations, {number(most.chi_square)} chi-square per sample"
     return (
-        f"; the fast simulation differs by more than a tenth of the noise on {len(diagnosis.differences)} channels, most "
-        f"on {most.channel} ({most.stage}): by {number(most.size)} deviations, {number(most.chi_square)} chi-square per "
-        "sample"
+        f"; the fast simulation differs by more than a tenth of the noise on {len(diagnosis.differences)} channels, "
+        f"most on {most.channel} ({most.stage}): by {by}"
     )
 
 
@@ -149,9 +157,14 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     return _section("Channels that were met worst", note, *drawn)
 
 
-def _isolability(told: Isolability) -> Html:
-    statements = listing(told.statements) if told.statements else element("p", "No statement was made.")
-    return _section("What these channels can tell apart", statements)
+def _rests_on(diagnosis: Diagnosis) -> Html:
+    """Scenario and recordings."""
+    if not diagnosis.recordings:
+        return Html("")
+    rows = [(clean(r.title), "held out" if r.is_held_out else "training", span(r.begin, r.end), str(len(r.channels)),
+             clean(r.path)) for r in diagnosis.recordings]  # fmt: skip
+    told = table(("recording", "part", "time", "channels", "folder"), rows)
+    return _section("What it rests on", element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told)
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
