@@ -39,7 +39,7 @@ def colour(number: int) -> str:
     return FINDING_COLOURS[number % len(FINDING_COLOURS)]
 
 
-def _drawn(paint: Callable[[Figure], None], width: float, height: float) -> str:
+def drawn(paint: Callable[[Figure], None], width: float, height: float) -> str:
     """Data address of an SVG; the same drawing gives the same bytes."""
     look = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "report",
             "text.parse_math": False}  # fmt: skip
@@ -56,7 +56,7 @@ def network_figure(network: Network, findings: Sequence[Finding]) -> str:
     """Strings of coils across the supply, what findings concern in their colours."""
     longest, count = max(network.strings), len(network.strings)
     height = min(0.85 + 0.38 * count, 9.0)
-    return _drawn(lambda f: _paint_network(f.subplots(), network, findings), min(2.0 + 0.62 * longest, 9.0), height)
+    return drawn(lambda f: _paint_network(f.subplots(), network, findings), min(2.0 + 0.62 * longest, 9.0), height)
 
 
 def _paint_network(axes: Axes, network: Network, findings: Sequence[Finding]) -> None:
@@ -98,7 +98,7 @@ def _paint_coil(axes: Axes, x: float, y: float, colours: Sequence[str]) -> None:
 def timeline_figure(findings: Sequence[Finding], begin: float, end: float) -> str:
     """Bars where each finding shows, over the recording."""
     height = 0.75 + 0.3 * len(findings)
-    return _drawn(lambda f: _paint_timeline(f.subplots(), findings, begin, end), 8.4, height)
+    return drawn(lambda f: _paint_timeline(f.subplots(), findings, begin, end), 8.4, height)
 
 
 def _paint_timeline(axes: Axes, findings: Sequence[Finding], begin: float, end: float) -> None:
@@ -120,7 +120,7 @@ def _shortened(text: str, most: int = 44) -> str:
 
 def series_figure(series: Series, findings: Sequence[Finding]) -> str:
     """Measured values and the models' above, what the last two models leave below."""
-    return _drawn(lambda f: _paint_series(f, series, findings), 8.4, 4.4)
+    return drawn(lambda f: _paint_series(f, series, findings), 8.4, 4.4)
 
 
 def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -> None:

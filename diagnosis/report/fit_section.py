@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.judge.diagnosis import ChannelFit, ChannelSpread, Spread
 from diagnosis.report.display import UNKNOWN, difference, number
 from diagnosis.report.fits import STAGES, Row, rows, worst_first
 from diagnosis.report.markup import Html, element, folded, table
@@ -16,8 +16,13 @@ _FIGURES = (*STAGES, *STAGES, *STAGES)
 _GROUPS = (("RMSE", 3), ("chi-square per sample", 3), ("whiteness", 3))
 
 
-def fit_section(fits: Sequence[ChannelFit]) -> Html:
-    """Section with a row for each recording and quantity; every channel for itself is folded away."""
+def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = ()) -> Html:
+    """Section with a row for each recording and quantity; every channel for itself is folded away.
+
+    Args:
+        fits: Of every channel of every recording.
+        spread: Of every channel over recordings.
+    """
     if not fits:
         return element("section", element("h2", "How much better"), element("p", "No recording was judged."))
     note = (
@@ -38,7 +43,37 @@ def fit_section(fits: Sequence[ChannelFit]) -> Html:
         folded(f"All {len(fits)} channels, the worst after recalibration first",
                table(("recording", "channel", *_FIGURES), [_single(f) for f in worst_first(fits)],
                      (("", 2), *_GROUPS))),
+        _over_recordings(spread),
     )  # fmt: skip
+
+
+def _over_recordings(spread: Sequence[ChannelSpread]) -> Html:
+    """Mean and range over recordings, where there are several of a part."""
+    several = [s for s in spread if s.recordings > 1]
+    if not several:
+        return Html("")
+    head = ("channel", "recordings", "samples", *STAGES, *STAGES)
+    rows = [
+        [_part(s), str(s.recordings), str(s.samples),
+         *(_range(s.rmse.get(g), difference(s.unit)[0]) for g in STAGES),
+         *(_range(s.chi_square.get(g), 1.0) for g in STAGES)]
+        for s in several
+    ]  # fmt: skip
+    groups = (("", 3), ("RMSE, mean (lowest to highest)", 3), ("chi-square per sample", 3))
+    return folded("Spread over recordings", table(head, rows, groups))
+
+
+def _part(spread: ChannelSpread) -> str:
+    _, unit = difference(spread.unit)
+    name = f"{spread.channel} [{unit}]" if unit else spread.channel
+    return f"{name} ({'held out' if spread.is_held_out else 'training'})"
+
+
+def _range(spread: Spread | None, factor: float) -> str:
+    if spread is None:
+        return UNKNOWN
+    mean, low, high = (number(factor * v) for v in (spread.mean, spread.lowest, spread.highest))
+    return f"{mean} ({low} to {high})"
 
 
 def _grouped(row: Row) -> list[str]:

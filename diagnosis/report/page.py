@@ -13,7 +13,7 @@ from diagnosis.report.figures import network_figure, series_figure, timeline_fig
 from diagnosis.report.finding_section import finding_section
 from diagnosis.report.fit_section import fit_section
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
-from diagnosis.report.markup import Html, element, image, joined, listing
+from diagnosis.report.markup import Html, element, image, joined, listing, table
 from diagnosis.report.network import Network, concerned, inferred
 from diagnosis.report.sentences import ADVICE, effort, improvement, structure, sureness, what, when, where
 from diagnosis.report.series import Series

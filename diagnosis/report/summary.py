@@ -1,4 +1,4 @@
-"""The answer in the terminal, in at most 25 lines."""
+"""The answer in the terminal, in at most 30 lines."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from rich.console import Console
 from rich.text import Text
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
-from diagnosis.report.display import clean, difference, interval, number
+from diagnosis.judge.next_experiment import NextExperiment
+from diagnosis.report.display import clean, difference, interval, number, span
 from diagnosis.report.fits import STAGES, Row, rows
 from diagnosis.report.sentences import ambiguity, decisive, effort, improvement, structure, sureness, what, when, where
 
 #: Lines that a summary has at most.
-LINES = 25
+LINES = 30
 _STYLES = {
     Verdict.CONSISTENT: "bold green",
     Verdict.RECALIBRATED: "bold green",
@@ -36,6 +37,8 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
     top.stylize(_STYLES[diagnosis.verdict], 0, len(head))
     lines = [top, *map(Text, others)]
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
+    if diagnosis.next_experiment is not None:
+        foot += map(Text, _wrapped("next     ", _next(diagnosis.next_experiment), width, 4))
     if diagnosis.amended_model:
         foot += map(Text, _wrapped("amended  ", diagnosis.amended_model, width, 2))
     body = [Text(line) for line in _body(diagnosis, width)]
@@ -56,10 +59,20 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     yield from _fit(diagnosis, width)
     yield from _wrapped("sure     ", sureness(diagnosis), width, 2)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
+    for rest in diagnosis.left[:_STATEMENTS]:
+        told = (
+            f"{rest.channel}, {span(rest.begin, rest.end)}: z {number(rest.z)}, noise stays below {number(rest.limit)}"
+        )
+        yield from _wrapped("left in  ", told, width, 1)
     for name, value in list(diagnosis.recalibration.items())[:_STATEMENTS]:
         yield from _wrapped("moved    ", f"{clean(name)}: {number(value)}", width, 1)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 1)
+
+
+def _next(experiment: NextExperiment) -> str:
+    where = f" Scenario: {experiment.scenario}" if experiment.scenario else ""
+    return experiment.statement + where
 
 
 def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:

@@ -100,7 +100,6 @@ def test_designed_experiments_decide_more_often_than_repeats(tmp_path: Path) -> 
     found = [count(pair, range(4), tmp_path) for pair in (STRESS, MASS, LATENT, RADIATION, LAG)]
     assert sum(f.open for f in found) >= 25
     designed, repeated = sum(f.designed for f in found), sum(f.repeated for f in found)
-    print([vars(f) for f in found])
     # 0.9 of 25: a true share of 0.97 (field notes) falls below with a probability of 0.04; seeds are fixed.
     assert designed >= 0.9 * sum(f.open for f in found)
     assert designed >= repeated + 8

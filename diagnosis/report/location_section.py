@@ -1,0 +1,60 @@
+"""Where the recalibrated model departs, unit by unit, the input that is missing there, and what is left at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from diagnosis.judge.location import Location, Remainder, Waveform
+from diagnosis.report.course_figures import waveform_figure
+from diagnosis.report.display import UNKNOWN, clean, listed, number, span
+from diagnosis.report.markup import Html, element, image, table
+
+#: Lines of the table and waveforms that are shown; the rest is in diagnosis.json.
+_LINES, _WAVEFORMS = 10, 4
+
+
+def location_section(locations: Sequence[Location]) -> Html:
+    """Table of units that were driven alone; nothing where none was."""
+    if not locations:
+        return Html("")
+    note = (
+        "Each unit was driven alone with the recorded inputs, the noise of their sensors carried along. z is the "
+        "largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 recordings."
+    )
+    head = ("unit", "equation", "element", "channel", "window", "z", "limit", "goes with")
+    rows = [_line(one) for one in locations[:_LINES]]
+    more = len(locations) - _LINES
+    rest = element("p", f"And {more} more in diagnosis.json.", class_="note") if more > 0 else ""
+    return element("section", element("h2", "Each unit driven alone"), table(head, rows), rest,
+                   element("p", note, class_="note"))  # fmt: skip
+
+
+def _line(one: Location) -> list[str]:
+    goes = listed([f"{d.variable} ({d.correlation:+.2f})" for d in one.depends_on], 2) or UNKNOWN
+    z = element("td", number(abs(one.z)), class_="met" if one.is_noise else "missed")
+    return [one.unit, clean(one.equation), clean(one.element), clean(one.channel), span(one.begin, one.end), z,
+            number(one.limit), goes]  # fmt: skip
+
+
+def waveform_section(waveforms: Sequence[Waveform]) -> Html:
+    """Figures of the unknown inputs; nothing where none was estimated."""
+    if not waveforms:
+        return Html("")
+    drawn = []
+    for one in waveforms[:_WAVEFORMS]:
+        whose = f" (finding {one.finding})" if one.finding else ""
+        caption = f"{clean(one.equation)}, {clean(one.element)}{whose}"
+        drawn.append(element("figure", element("figcaption", caption),
+                             image(waveform_figure(one), f"{caption}: estimate with 95 % band")))  # fmt: skip
+    note = "The input that would have to be added for the unit to give what was measured, without any law assumed."
+    return element("section", element("h2", "The missing input"), *drawn, element("p", note, class_="note"))
+
+
+def remainder_section(left: Sequence[Remainder]) -> Html:
+    """What no model explains; nothing where only noise is left."""
+    if not left:
+        return Html("")
+    rows = [(clean(r.channel), span(r.begin, r.end), number(r.z), number(r.limit)) for r in left]
+    note = "Standardised sums of what the last model leaves; noise alone stays below the limit in 99 of 100 recordings."
+    return element("section", element("h2", "What is left"), table(("channel", "window", "z", "limit"), rows),
+                   element("p", note, class_="note"))  # fmt: skip
