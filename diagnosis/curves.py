@@ -1,12 +1,14 @@
-"""Curves of the channels that a report draws: those that the recalibrated model meets worst."""
+"""Curves of the channels that a report draws: those in which findings show most, and those that are met worst."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from diagnosis.diagnose import Found
+from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.report.fits import is_channel, plain_channel
 from diagnosis.report.series import Series
 from diagnosis.search.problem import Point
 from diagnosis.simulator.models import DiagnosisModel
@@ -16,17 +18,27 @@ DRAWN = 3
 
 
 def curves(found: Found) -> list[Series]:
-    """The worst channels held out, then the worst that were fitted."""
-    drawn = [] if found.judge is None else _worst(found, found.judge, found.held_out_points, True)
-    return drawn + _worst(found, found.training, found.points, False)
+    """Channels held out, then channels that were fitted."""
+    drawn = [] if found.judge is None else _part(found, found.judge, found.held_out_points, True)
+    return drawn + _part(found, found.training, found.points, False)
 
 
-def _worst(found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool) -> list[Series]:
+def _order(found: Found, fits: Sequence[ChannelFit]) -> list[int]:
+    """Numbers of the channels to draw: for each finding the one that shows it most, then what is met worst."""
+    worst = sorted(range(len(fits)), key=lambda i: -fits[i].chi_square["recalibrated"])
+    telling = []
+    for finding in found.diagnosis.findings:
+        best = [i for shown in finding.channels for i in worst if is_channel(shown, fits[i].channel, fits[i].recording)]
+        alike = [i for shown in finding.channels for i in worst if fits[i].channel == plain_channel(shown)]
+        telling += (best or alike)[:1]
+    return list(dict.fromkeys([*telling, *worst]))[:DRAWN]
+
+
+def _part(found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool) -> list[Series]:
     fits = [f for f in found.diagnosis.fit if f.is_held_out is is_held_out]
-    order = sorted(range(len(fits)), key=lambda i: -fits[i].chi_square["recalibrated"])[:DRAWN]
     place = [(run, number) for run in range(len(model.runs)) for number in range(len(model.runs[run].series))]
     drawn = []
-    for i in order:
+    for i in _order(found, fits):
         run, number = place[i]
         series = model.runs[run].series[number]
         count = len(series.samples)

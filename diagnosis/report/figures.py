@@ -19,6 +19,7 @@ from cosim.figures.style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Finding
 from diagnosis.report.display import axis, clean, difference
+from diagnosis.report.fits import is_channel
 from diagnosis.report.network import Network, concerned
 from diagnosis.report.series import Series
 
@@ -138,19 +139,31 @@ def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -
     lower.fill_between(
         series.times[keep], -noise[keep], noise[keep], color="#cbd5e0", lw=0, label="2 deviations of the sensor"
     )
-    for name in list(curves)[-2:]:
-        residual = factor * (series.measured - curves[name])
+    for name, values in curves.items():
+        residual = factor * (series.measured - values)
         keep = thinned(residual)
         lower.plot(series.times[keep], residual[keep], **{**_STAGES[name], "lw": 0.9})
+    lower.set_ylim(*_residual_limits(series, factor))
     for n, finding in enumerate(findings):
         # Intervals are times of the training: another programme has others.
-        shows = series.channel in finding.channels and not series.is_held_out
+        shows = (
+            any(is_channel(c, series.channel, series.recording) for c in finding.channels) and not series.is_held_out
+        )
         for a, b in finding.intervals if shows else ():
             upper.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
+            lower.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
     upper.set_ylabel(_labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
     lower.set_ylabel(_labelled("residual", of_difference))
     lower.set(xlabel="time [s]", xlim=_limits(series.times))
     figure.legend(loc="outside upper left", frameon=False, ncols=5, fontsize=8)
+
+
+def _residual_limits(series: Series, factor: float) -> tuple[float, float]:
+    """Of the axis below: all that the last two models leave; the model before them may leave the picture."""
+    last = [np.abs(series.measured - v) for v in list(series.curves.values())[-2:]]
+    sizes = [float(np.nanmax(v, initial=0.0)) for v in (*last, np.asarray(2.5 * np.asarray(series.deviation)))]
+    size = factor * max([s for s in sizes if np.isfinite(s)], default=1.0) or 1.0
+    return -1.08 * size, 1.08 * size
 
 
 def _labels(curves: dict[str, Array]) -> dict[str, str]:

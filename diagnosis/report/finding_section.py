@@ -5,6 +5,7 @@ from __future__ import annotations
 from diagnosis.judge.diagnosis import Estimate, Finding
 from diagnosis.report.display import UNKNOWN, clean, interval, listed, number, percent, symbol, words
 from diagnosis.report.figures import colour
+from diagnosis.report.fits import plain_channel
 from diagnosis.report.markup import Html, element, folded, joined, listing, table
 from diagnosis.report.sentences import ambiguity, decisive, what, when, where
 
@@ -19,7 +20,7 @@ def finding_section(order: int, finding: Finding) -> Html:
     facts = [
         ("Where", where(finding)),
         ("When", when(finding, 12)),
-        ("Shows in", listed(finding.channels, 12) or UNKNOWN),
+        ("Shows in", listed(list(dict.fromkeys(plain_channel(c) for c in finding.channels)), 12) or UNKNOWN),
         ("What", what(finding)),
         ("Law", element("code", finding.law)),
         ("Gain", f"-2 log posterior falls by {number(finding.gain)}"),

@@ -56,6 +56,16 @@ def quantity(channel: str) -> str:
     return re.sub(r"\[[^\]]*\]", "", channel).replace(".", " ").replace("_", " ")
 
 
+def plain_channel(name: str) -> str:
+    """`coil[2,5].temperature (steps)`, as it is called among several recordings, without the recording's title."""
+    return name.partition(" (")[0]
+
+
+def is_channel(name: str, channel: str, recording: str) -> bool:
+    """Whether a finding's name of a channel is that of a channel of a recording."""
+    return name in (channel, f"{channel} ({recording})")
+
+
 def worst_first(fits: Iterable[ChannelFit]) -> list[ChannelFit]:
     """Held-out recordings first, then by the chi-square of the recalibrated model: where something was missing most."""
     return sorted(fits, key=lambda f: (not f.is_held_out, -_known(f.chi_square.get("recalibrated", math.nan))))

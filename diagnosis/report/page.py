@@ -152,9 +152,12 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
         caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
         picture = image(series_figure(one, diagnosis.findings), f"{caption}: measured and simulated")
         drawn.append(element("figure", element("figcaption", caption), picture))
-    note = element("p", "Above: measured and simulated. Below: measured minus simulated, by the last two models. "
-                   "Shaded: where a finding shows in training.", class_="note")  # fmt: skip
-    return _section("Channels that were met worst", note, *drawn)
+    told = (
+        "Those in which findings show most, and those that are met worst. Above: measured and simulated. Below: "
+        "measured minus simulated. Shaded: where a finding shows in training."
+    )
+    note = element("p", told, class_="note")
+    return _section("Channels", note, *drawn)
 
 
 def _rests_on(diagnosis: Diagnosis) -> Html:

@@ -27,7 +27,7 @@ def test_a_network_is_inferred_from_names_and_findings_mark_their_place() -> Non
     assert concerned(swapped, network).coils == {(1, 2), (4, 6)}
     assert concerned(replace(CONTACT, place="supply"), network) == Concerned(supply=True)
     # A place that is no element: its elements are marked; elements outside the network are not.
-    assert concerned(UNNAMED, network).coils == {(1, 1)}
+    assert concerned(UNNAMED, network).coils == {(s, c) for s in range(1, 7) for c in range(1, 7)}  # `all coils`
     assert not concerned(replace(MASS, place="coil[7,1]", elements=()), network)
 
 
