@@ -21,9 +21,11 @@ from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.locate.locate import locate
+from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.search.search import Settings, search
+from diagnosis.search.search import Settings
+from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, model_of
 from diagnosis.simulator.unit_laws import identifiers
 
@@ -93,10 +95,9 @@ def diagnose(
     """
     begin = clock.perf_counter()
     known = means.catalogue()
-    model = model_of(scenario, training, known, means.threads, means.without)
-    judge = model_of(scenario, held_out, known, means.threads, means.without) if held_out else None
-    terms = model.terms()
-    outcome = search(model, terms, settings, model.groups(), on_progress)
+    model = with_biases(model_of(scenario, training, known, means.threads, means.without))
+    judge = with_biases(model_of(scenario, held_out, known, means.threads, means.without)) if held_out else None
+    outcome, model = search_with_model_error(model, settings, on_progress)
     word = verdict(outcome, nominal_cost(model))
     points = {
         "before": Point(np.zeros(len(model.parameters))),

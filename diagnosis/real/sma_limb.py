@@ -67,7 +67,13 @@ def _part(coil: str, pulse: str, columns: dict[str, Array], window: dict[str, st
         # Supply voltage and current were not recorded: 10 W at full duty is a guess, absorbed by the heat capacity.
         "inputs": {"drive.power": {"column": "duty", "unit": "W", "factor": 10.0}},
         "channels": {
-            "coil[1].temperature": {"column": "temperature", "unit": "degC", "quantum": _QUANTUM, "lag_bound": "30 s"}
+            "coil[1].temperature": {
+                "column": "temperature",
+                "unit": "degC",
+                "quantum": _QUANTUM,
+                "lag_bound": "30 s",
+                "bias_bound": "1.5 degC",
+            }  # MCP9600 with its thermocouple, data sheet
         },
     }
     title = f"SMA coil {coil} of a soft limb, {pulse} pulse"

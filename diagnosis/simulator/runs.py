@@ -90,7 +90,9 @@ class Run:
         self._lengths = np.array([len(s.samples) for s in self.series])
         self._begins = np.concatenate([[0], np.cumsum(self._lengths)[:-1]])
         used = np.maximum([np.count_nonzero(s.used) for s in self.series], 1)
-        self._shares = (1.0 - 1.0 / np.sqrt(1.0 + used * ZERO**2)) / used
+        # where a bound of the bias is stated, the zero is a parameter of the model (diagnosis/simulator/biased.py)
+        is_implied = np.array([s.channel.bias_bound == 0.0 for s in self.series])
+        self._shares = np.where(is_implied, 1.0 - 1.0 / np.sqrt(1.0 + used * ZERO**2), 0.0) / used
         # 1 / deviation, 0 where a sample does not count
         self.weight = np.concatenate([np.where(s.used, 1.0 / deviation(s.channel), 0.0) for s in self.series])
 

@@ -114,7 +114,11 @@ TOUCHES = {
 }
 
 
-@pytest.mark.parametrize("term", [pytest.param(t, id=t.identifier) for t in catalogue() if t.unit in TOUCHES])
+#: Those that act in a bank without a circuit alone have tests of their own.
+TOUCHING = [pytest.param(t, id=t.identifier) for t in catalogue() if t.unit in TOUCHES and t.places != ("powered",)]
+
+
+@pytest.mark.parametrize("term", TOUCHING)
 def test_a_candidate_moves_what_belongs_to_its_unit_and_nothing_upstream(term: CandidateTerm, base):
     parameters, without = base
     place = widest_place(term)

@@ -1,0 +1,117 @@
+"""Which explanation foretells what it was not fitted to, within the training recordings alone.
+
+Where a model is wrong by more than noise, a fit says little about it: many terms bend a curve through the readings.
+Each explanation is therefore fitted with one stretch of time left out, and runs freely through it; this goes round.
+
+Source: blocks for correlated data, D. R. Roberts et al., Ecography 40 (2017) 913-929; the simplest model within one
+standard error of the best, T. Hastie, R. Tibshirani and J. Friedman, The Elements of Statistical Learning, 2nd ed.,
+Springer 2009, section 7.10.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.search.fit import fit
+from diagnosis.search.problem import Layout, Model, Point
+from diagnosis.search.search import Explanation
+
+#: Stretches of time that a recording is cut into.
+BLOCKS = 5
+#: Explanations that are validated, the best fits first.
+VALIDATED = 10
+#: Most Jacobians of a fit to a part; it starts from the fit to the whole.
+ITERATIONS = 8
+
+
+def blocks(layout: Layout, count: int = BLOCKS) -> list[AnyArray]:
+    """Residuals of each stretch of time, shape (residuals,) each; channels are cut at equal times of their own."""
+    place = np.zeros(len(layout.time), dtype=int)
+    for number in range(len(layout.names)):
+        own = layout.channel == number
+        begin, end = layout.time[own].min(), layout.time[own].max()
+        share = (layout.time[own] - begin) / max(end - begin, 1e-300)
+        place[own] = np.minimum((count * share).astype(int), count - 1)
+    return [place == k for k in range(count)]
+
+
+@dataclass(frozen=True)
+class Foretold:
+    """How well an explanation foretells.
+
+    Args:
+        explanation: It.
+        residuals: Of every stretch by the fit to the others, shape (residuals,).
+        losses: Mean of their squares (bounded) in each stretch, shape (stretches,).
+    """
+
+    explanation: Explanation
+    residuals: Array
+    losses: Array
+
+    @property
+    def loss(self) -> float:
+        """Mean over the stretches."""
+        return float(np.mean(self.losses))
+
+
+class Validation:
+    """Validates explanations of one model.
+
+    Args:
+        model: Model and training recordings.
+        hiding: Makes a model that sees a part of the residuals.
+        on_progress: Told what is being done.
+    """
+
+    def __init__(
+        self, model: Model, hiding: Callable[[AnyArray], Model], on_progress: Callable[[str], None] = lambda text: None
+    ) -> None:
+        self._model, self._on_progress = model, on_progress
+        self._stretches = blocks(model.layout)
+        self._parts = [hiding(~stretch) for stretch in self._stretches]
+        self._known: dict[Point, Foretold] = {}
+        self.best: Foretold | None = None
+
+    def foretold(self, explanation: Explanation) -> Foretold:
+        """How well an explanation foretells each stretch from the others."""
+        residuals = np.zeros(len(self._model.layout.time))
+        losses = []
+        for part, stretch in zip(self._parts, self._stretches):
+            point = fit(part, explanation.fit.point, ITERATIONS).point
+            own = self._model.residuals([point])[0][stretch]
+            residuals[stretch] = own
+            losses.append(float(np.mean(own**2)))
+        return Foretold(explanation, residuals, np.array(losses))
+
+    def select(self, before: Explanation, grown: Sequence[Explanation]) -> list[Explanation]:
+        """Explanations that foretell better than the one before, the best first; none if none does.
+
+        One that has no unnamed term goes before those that foretell better by less than a standard error.
+        """
+        if self.best is None:
+            self.best = self.foretold(before)
+        found = []
+        for number, explanation in enumerate(grown[:VALIDATED]):
+            self._on_progress(f"validating explanation {number + 1} of {min(len(grown), VALIDATED)}")
+            found.append(self.foretold(explanation))
+        found.sort(key=lambda f: f.loss)
+        if not found or found[0].loss >= self.best.loss:
+            return []
+        chosen = min(found, key=lambda f: (not _within(f, found[0]), _unnamed(f), f.loss))
+        self.best = chosen
+        return [chosen.explanation, *(f.explanation for f in found if f is not chosen)]
+
+
+def _within(one: Foretold, best: Foretold) -> bool:
+    """Whether an explanation foretells as well as the best, within the standard error of the difference."""
+    difference = one.losses - best.losses
+    return bool(np.mean(difference) <= np.std(difference, ddof=1) / np.sqrt(len(difference)))
+
+
+def _unnamed(one: Foretold) -> int:
+    return sum(not t.is_named for t in one.explanation.terms)

@@ -1,0 +1,72 @@
+"""A model that hands everything on to another; those that change something build on it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.search.problem import Layout, Parameter, Point, Term, strength_slopes
+from diagnosis.simulator.models import DiagnosisModel, Effect, RecordedRun, Spot
+
+
+class WrappedModel:
+    """See `diagnosis.simulator.models.DiagnosisModel`.
+
+    Args:
+        inner: The model that simulates.
+    """
+
+    def __init__(self, inner: DiagnosisModel) -> None:
+        self.inner = inner
+        self.parameters: Sequence[Parameter] = inner.parameters
+        self.layout: Layout = inner.layout
+
+    @property
+    def runs(self) -> Sequence[RecordedRun]:
+        """One for each recording, in order."""
+        return self.inner.runs
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far."""
+        return self.inner.simulations
+
+    def inside(self, point: Point) -> Point:
+        """The point as the inner model knows it."""
+        return point
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.inner.residuals([self.inside(p) for p in points])
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.inner.base_jacobian(self.inside(point))
+
+    def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+        """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
+        own = self.inside(point)
+        here = np.zeros(0) if hasattr(self.inner, "slopes") else self.inner.residuals([own])[0]
+        return strength_slopes(self.inner, own, here, tasks)
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing, at every place."""
+        return self.inner.terms()
+
+    def where(self, term: Term) -> tuple[Effect, Spot]:
+        """What a term says about itself, and where it acts."""
+        return self.inner.where(term)
+
+    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
+        """See `diagnosis.search.focus.Local`."""
+        return self.inner.shows_in(term)
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """Channels that are looked at together, by name."""
+        return self.inner.groups()
+
+    def predict(self, point: Point, run: int) -> Sequence[Array]:
+        """Simulated values of every channel of a recording at its samples, SI."""
+        return self.inner.predict(self.inside(point), run)
