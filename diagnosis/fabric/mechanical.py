@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from cosim.unit import AnyArray, Array
-from diagnosis.fabric.scatter import Bins, Whitening, scatter_covariance
+from diagnosis.fabric.scatter import Bins, Whitening, calibrated_scatter
 from diagnosis.fabric.surface import Surface
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 
@@ -31,7 +31,7 @@ class MechanicalModel:
         self.parameters, self.surface, self.measured, self.bins, self.members = (
             parameters, surface, measured, bins, members,
         )  # fmt: skip
-        self.scatter = scatter_covariance(members, bins)
+        self.scatter = calibrated_scatter(members, bins)
         self._whiten = Whitening(self.scatter, bins.noise)
         self.layout = Layout(bins.channel, bins.time, tuple(names), ("mechanical",) * len(names))
 

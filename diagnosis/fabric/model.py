@@ -124,6 +124,11 @@ class FabricModel:
             found.append(ComparedRun((*banked, *own)))
         return found
 
+    @property
+    def micro_steps(self) -> int:
+        """Micro-steps of one simulation of every recording."""
+        return self.fabric_runs.micro_steps
+
     def bank_point(self, point: Point) -> Point:
         """What of a point belongs to the coil bank."""
         return Point(point.base[: self.banked], {t: v for t, v in point.terms.items() if t not in self._laws})

@@ -58,6 +58,11 @@ class FabricRuns(Protocol):
         ...
 
     @property
+    def micro_steps(self) -> int:
+        """Micro-steps of one simulation of every recording."""
+        ...
+
+    @property
     def reasons(self) -> list[str]:
         """Why runs of the last batch stopped, each once."""
         ...
@@ -78,6 +83,7 @@ class ClosedRuns:
     ) -> None:  # fmt: skip
         self._component, self._batches = component, batches
         self._settings: list[Setting] = [setting(scenario_of(scenario, r), r) for r in recordings]
+        self.micro_steps = _micro_steps([s.scenario for s in self._settings], component)
         self.reasons: list[str] = []
 
     def make(self, wanted: Sequence[tuple[int, Mapping[str, PhysicalValue], Point]]) -> list[list[Array] | None]:
@@ -110,6 +116,7 @@ class BulletRuns:
         self._component, self._bank, self._batches = component, bank, batches
         self._recordings = list(recordings)
         self._scenarios = [_resolved(scenario_of(scenario, r)) for r in recordings]
+        self.micro_steps = _micro_steps(self._scenarios, component)
         circuits = [c for c in scenario.components.values() if isinstance(c, CircuitComponent)]
         self._strings = tuple(circuits[0].strings) if circuits else ()
         self.reasons: list[str] = []
@@ -153,6 +160,16 @@ class BulletRuns:
         # Without a load a coil's extension is what its own length changes by (thermal contraction).
         rest = np.asarray(self._bank.runs[number].translation.parameters.base["rest_length"]) + found["extension"]
         return Courses(found["stiffness"], rest)
+
+
+def _micro_steps(scenarios: Sequence[Scenario], component: str) -> int:
+    found = 0
+    for scenario in scenarios:
+        fabric = scenario.components[component]
+        assert isinstance(fabric, FabricComponent)
+        length = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
+        found += length // nanoseconds(fabric.solver.micro_step)
+    return found
 
 
 def _joined(key: str, changes: Changes) -> str:

@@ -91,6 +91,31 @@ def _pooled(variance: Array, bins: Bins) -> Array:
     return found
 
 
+def calibrated_scatter(members: Array, bins: Bins, seed: int = 0) -> Array:
+    """Covariance as in `scatter_covariance`, widened where the members themselves are farther apart than it says.
+
+    Every member is foretold from the others; what its mean squared residual exceeds 1 by is made good.
+
+    Args:
+        members: Shape (members, bins); with no more than `FEWEST` of them nothing can be left out.
+        bins: What each bin is.
+        seed: Of the sensors' noise that is added to the member that is left out.
+
+    Returns:
+        Shape (bins, bins).
+    """
+    whole = scatter_covariance(members, bins)
+    if len(members) <= FEWEST:
+        return whole
+    squares = []
+    for number, member in enumerate(members):
+        others = np.delete(members, number, axis=0)
+        noise = bins.noise * np.random.default_rng([seed, number]).standard_normal(len(member))
+        whiten = Whitening(scatter_covariance(others, bins), bins.noise)
+        squares.append(float(np.mean(whiten(member + noise - others.mean(axis=0)) ** 2)))
+    return whole * max(1.0, float(np.mean(squares)))
+
+
 class Whitening:
     """Turns differences between measurement and model into independent residuals of deviation 1.
 

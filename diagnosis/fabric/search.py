@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,10 +16,10 @@ from diagnosis.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
 
-#: Random starts at the nominal point, from which scatter is known, and at the point found.
-MEMBERS, CONFIRMED = 6, 4
-#: Random starts at which a hopeful effect is simulated again, where it was fitted.
-SHARPENED = 2
+#: Most micro-steps of all recordings together, with what such a fabric is worth: random starts of the ensemble at the
+#: nominal point, from which scatter is known; starts of every effect; starts at the point found. The number of
+#: micro-steps stands for the time of a simulation, so that a result does not depend on the machine.
+EFFORTS = ((6_000, 8, 3, 6), (15_000, 6, 2, 5), (10**12, 6, 1, 4))
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 3, 12.0
 #: A strength this close to one that was simulated needs no other simulation.
@@ -65,10 +65,10 @@ class _Plan:
         self.model, self.settings, self._tell = model, settings, on_progress
         self._count = len(model.mechanical_recordings)
         self._bank_point = Point(np.zeros(model.banked))
-        self._left = self._count * (
-            MEMBERS + len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
-            + HOPEFUL * SHARPENED + CONFIRMED + 2
-        )  # fmt: skip
+        _, self._size, self._repeats, self._confirmed = next(e for e in EFFORTS if model.micro_steps <= e[0])
+        effects = len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
+        once = self._size + self._repeats * (effects + HOPEFUL) + self._confirmed
+        self._left = self._count * once
 
     def _enter(self, stage: str, simulations: int) -> None:
         """A stage that makes so many simulations for each recording."""
@@ -85,9 +85,9 @@ class _Plan:
         if model.bank is not None:
             self._tell("recalibrating circuit and coils")
             self._bank_point = recalibrate(model.bank).point
-        self._enter("contact scatter", MEMBERS)
+        self._enter("contact scatter", self._size)
         here = self._point(np.zeros(len(model.free)))
-        members = [m for m in model.simulated([(here, s + 1) for s in range(MEMBERS)]) if m is not None]
+        members = [m for m in model.simulated([(here, s + 1) for s in range(self._size)]) if m is not None]
         if len(members) < FEWEST:
             reason = (model.fabric_runs.reasons or ["it stops"])[0]
             raise InputError(model.mechanical_recordings[0].path, "", f"Bullet cannot simulate this fabric: {reason}",
@@ -99,10 +99,10 @@ class _Plan:
         """One simulation of every parameter and of every start value of every effect."""
         model, count = self.model, len(self.model.free)
         tasks = [(t, s) for t in model.laws() for s in t.parameters[0].starts]
-        self._enter("mechanical effects", count + len(tasks))
+        self._enter("mechanical effects", self._repeats * (count + len(tasks)))
         points = [self._point(np.eye(count)[i]) for i in range(count)]
         points += [self._point(np.zeros(count), {t: (s,)}) for t, s in tasks]
-        found = model.simulated([(p, 1 + i % MEMBERS) for i, p in enumerate(points)])
+        found = self._means(points)
         for i, bins in enumerate(found[:count]):
             if bins is not None:
                 self.surface.slopes[i] = bins - self.surface.mean
@@ -110,6 +110,18 @@ class _Plan:
             if bins is not None:
                 self.surface.add(term, strength, bins, np.zeros(count))
         self._prepare(self._members)
+
+    def _means(self, points: Sequence[Point]) -> list[Array | None]:
+        """Means over several starts, each of its own for every point; None where every run stopped."""
+        starts = [
+            (p, self._size + 1 + i * self._repeats + r) for i, p in enumerate(points) for r in range(self._repeats)
+        ]
+        found = self.model.simulated(starts)
+        means: list[Array | None] = []
+        for first in range(0, len(found), self._repeats):
+            rows = [r for r in found[first : first + self._repeats] if r is not None]
+            means.append(np.mean(rows, axis=0) if rows else None)
+        return means
 
     def _prepare(self, members: Array) -> None:
         model = self.model
@@ -146,14 +158,11 @@ class _Plan:
             for term in explanation.terms:
                 if term in laws and self._is_far(term, explanation) and len(wanted) < HOPEFUL:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
-        self._enter("hopeful effects where they were fitted", HOPEFUL * SHARPENED)
-        starts = [1 + s for s in range(SHARPENED)]
-        points = {t: self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()}
-        found = self.model.simulated([(points[t], s) for t in wanted for s in starts])
-        for i, (term, (point, strength)) in enumerate(wanted.items()):
-            rows = [r for r in found[i * SHARPENED : (i + 1) * SHARPENED] if r is not None]
-            if rows:
-                self.surface.add(term, strength, np.mean(rows, axis=0), self.model.own_point(point).base)
+        self._enter("hopeful effects where they were fitted", HOPEFUL * self._repeats)
+        found = self._means([self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()])
+        for bins, (term, (point, strength)) in zip(found, wanted.items()):
+            if bins is not None:
+                self.surface.add(term, strength, bins, self.model.own_point(point).base)
         return bool(wanted)
 
     def _is_far(self, term: Term, explanation: Explanation) -> bool:
@@ -166,9 +175,10 @@ class _Plan:
         model = self.model
         point = model.own_point(outcome.best.fit.point)
         self._bank_point = model.bank_point(outcome.best.fit.point)
-        self._enter("the explanation found, from several starts", CONFIRMED)
+        self._enter("the explanation found, from several starts", self._confirmed)
         whole = self._point(point.base, dict(point.terms))
-        found = [m for m in model.simulated([(whole, MEMBERS + 1 + s) for s in range(CONFIRMED)]) if m is not None]
+        starts = [(whole, self._size + 1 + s) for s in range(self._confirmed)]
+        found = [m for m in model.simulated(starts) if m is not None]
         if not found:
             return
         members = np.array(found)
