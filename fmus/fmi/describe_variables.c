@@ -184,6 +184,9 @@ static void write_scalar(size_t i, size_t element, size_t rank)
 /* One section of ModelStructure. An element depends on the same element of other arrays, and on scalars. */
 static void write_unknowns(const char *section, bool outputs, bool derivatives, bool is_initial)
 {
+    if (!outputs && role_count(ROLE_DERIVATIVE) == 0) {
+        return; /* the schema wants at least one */
+    }
     printf("    <%s>\n", section);
     for (size_t i = 0; i < VARIABLE_COUNT; i++) {
         const Variable *v = &model_variables[i];

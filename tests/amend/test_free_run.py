@@ -1,0 +1,162 @@
+"""A fitted point, written out and run by the co-simulation, against what the bank predicts at the sensors."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from cosim.run import run
+from cosim.scenario import load_scenario
+from diagnosis.amend.amend import AmendedModel, amend, amend_like
+from diagnosis.amend.changes import CannotAmend, changes_of
+from diagnosis.amend.free_run import free_run, free_run_of
+from diagnosis.candidates.registry import catalogue
+from diagnosis.judge.held_out import TOLERANCE
+from diagnosis.recording.readings import read_results
+from diagnosis.recording.recording import Recording, load_recording
+from diagnosis.recording.sensor import SensorFile
+from diagnosis.recording.write import Notes, write_recording
+from diagnosis.search.problem import Point
+from diagnosis.simulator.bank_model import BankModel
+from tests.amend import bench
+
+_SENSORS = SensorFile.model_validate(
+    {
+        "default": {"rate": "7 Hz"},
+        "channels": {
+            "coil.temperature": {"unit": "K", "rate": "7 Hz", "noise": "0.2 K", "offset_bound": "0.2 s"},
+            "coil.extension": {"rate": "5 Hz", "noise": "0.05 mm"},
+            "string.current": {"rate": "9 Hz", "noise": "3 mA"},
+            "supply.current": {"rate": "9 Hz", "noise": "5 mA"},
+        },
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    """The scenario's own run, read with noise."""
+    folder = tmp_path_factory.mktemp("recording") / "first"
+    given = bench.scenario()
+    wanted = ["coil[*].temperature", "coil[*].extension", "string[*].current", "supply.current"]
+    read = read_results(run(given), wanted, _SENSORS, 1, Path("sensors.yaml"))
+    write_recording(folder, read, Notes("first", "", {"time": {"stop": "15 s"}}))
+    return load_recording(folder)
+
+
+@pytest.fixture(scope="module")
+def model(recording: Recording) -> BankModel:
+    return BankModel(bench.scenario(), [recording], catalogue())
+
+
+def _point(model: BankModel, *wanted: str) -> Point:
+    """Every parameter off by half a deviation one way or the other, days left alone, and terms at typical strength."""
+    z = [0.0 if " of recording " in p.name else 0.5 * (-1.0) ** i for i, p in enumerate(model.parameters)]
+    point = Point(np.array(z))
+    for name in wanted:
+        identifier, _, place = name.partition("@")
+        term = next(t for t in model.terms() if t.identifier == identifier and place in ("", t.place))
+        values = [
+            bench.INSTANT if p.name == "instant" else p.starts[min(1, len(p.starts) - 1)] for p in term.parameters
+        ]
+        point = point.plus(term, values)
+    return point
+
+
+def _largest(model: BankModel, point: Point, free: dict[str, Any]) -> float:
+    """Largest root mean square difference of a channel from the bank's prediction, in deviations.
+
+    Within a step of the bank (at most 0.4 s) around the instant of a term a flow is the mean over that step, in the
+    co-simulation over a shorter one: those samples are left out.
+    """
+    sizes = []
+    has_instant = any(p.name == "instant" for t in point.terms for p in t.parameters)
+    for series, predicted in zip(model.runs[0].series, model.predict(point, 0)):
+        difference = free[series.quantity][series.samples, series.element] - predicted
+        used = series.used & ~(has_instant & (np.abs(series.times - bench.INSTANT) < 0.45))
+        sizes.append(np.sqrt(np.mean(difference[used] ** 2)) / series.channel.deviation)
+    return float(max(sizes))
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        (),
+        ("second_mass@all coils",),
+        ("temperature_dependent_resistance@all coils", "supply_source_resistance"),
+        ("open_coil@coil[1,2]",),
+        ("slide_friction@all coils", "sensor_gain@coil[1,1].temperature", "sensor_lag@every extension"),
+        ("wrong_identity",),
+    ],
+    ids=lambda w: ", ".join(w) or "recalibrated",
+)
+def test_a_free_run_gives_what_the_bank_predicts(
+    wanted: tuple[str, ...], model: BankModel, recording: Recording, tmp_path: Path
+) -> None:
+    point = _point(model, *wanted)
+    amended = amend(bench.scenario(), model, point, tmp_path)
+    # Macro-steps of 50 ms against the bank's second-order steps: the tolerance that the report states.
+    assert _largest(model, point, free_run(amended, recording, model.runs[0].times)) < TOLERANCE
+    before = free_run_of(bench.scenario(), recording, model.runs[0].times)
+    assert _largest(model, point, before) > 10 * TOLERANCE
+
+
+def _under(recording: Recording, components: dict[str, Any]) -> Recording:
+    return replace(recording, overrides={**recording.overrides, "components": components})
+
+
+@pytest.mark.parametrize(
+    "components",
+    [
+        {"supply": {"outputs": {"voltage": {"points": [["0 s", "0 V"], ["2 s", "1.8 V"]]}}}},
+        {"room": {"outputs": {"temperature": {"constant": "30 degC"}}},
+         "actuator": {"parameters": {"initial_temperature": "30 degC"}}},
+        {"load": {"mass": "150 g"}, "actuator": {"parameters": {"heat_transfer_coefficient": "120 W/(m^2*K)"}}},
+    ],
+    ids=["programme", "ambient", "what was recalibrated"],
+)  # fmt: skip
+def test_the_conditions_of_another_recording_hold_in_the_amended_scenario(
+    components: dict[str, Any], model: BankModel, recording: Recording, tmp_path: Path
+) -> None:
+    amended = amend(bench.scenario(), model, _point(model, "radiation@all coils", "tilt@all coils"), tmp_path)
+    other = _under(recording, components)
+    there = BankModel(bench.scenario(), [other], catalogue())
+    point = _point(there, "radiation@all coils", "tilt@all coils")
+    free = free_run(amended, other, there.runs[0].times)
+    assert _largest(there, point, free) < TOLERANCE
+    assert _largest(model, _point(model, "radiation@all coils", "tilt@all coils"), free) > 10 * TOLERANCE
+
+
+def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(model: BankModel, tmp_path: Path) -> None:
+    point = _point(model, "radiation@coil[2,1]", "sensor_bias@coil[1,1].temperature", "loose_contact@string[2]")
+    amend(bench.scenario(), model, point, tmp_path)
+    written = yaml.safe_load((tmp_path / "scenario.yaml").read_text())["components"]
+    assert written["actuator"]["parameters"]["radiation_emissivity_area"] == ["0 m^2", "0 m^2", "0.0001 m^2", "0 m^2"]
+    assert written["circuit"]["elements"] == [
+        {"kind": "contact", "string": 2, "resistance": "1 ohm", "instant": f"{bench.INSTANT:g} s"}
+    ]
+    sensors = yaml.safe_load((tmp_path / "sensors.yaml").read_text())["sensors"]
+    assert [(s["channel"], s["effect"]) for s in sensors if "channel" in s] == [
+        ("coil[1,1].temperature", "sensor_bias")
+    ]
+    assert len(written["actuator"]["parameters"]["reference_resistance"]) == 4
+    assert load_scenario(tmp_path / "scenario.yaml").title.endswith("(amended)")
+
+
+def _written(model: BankModel, point: Point, folder: Path) -> AmendedModel:
+    return amend(bench.scenario(), model, point, folder)
+
+
+def test_fmus_are_taken_for_the_stage_without_terms(model: BankModel, tmp_path: Path) -> None:
+    after = _written(model, _point(model, "second_mass@all coils"), tmp_path / "after")
+    changes = changes_of(bench.scenario(), model, _point(model))
+    without = amend_like(after, changes, tmp_path / "without")
+    assert not list((tmp_path / "without").glob("*.fmu"))
+    assert without.scenario.components["actuator"].fmu == "../after/amended_actuator_fmi3.fmu"  # type: ignore[union-attr]
+    with pytest.raises(CannotAmend, match="radiation is not in the FMUs"):
+        amend_like(after, changes_of(bench.scenario(), model, _point(model, "radiation@all coils")), tmp_path / "x")
