@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.location import Location, Remainder, Waveform
+from diagnosis.judge.location import Location, Proposal, Remainder, Waveform
 from diagnosis.judge.next_experiment import NextExperiment
 
 
@@ -231,6 +231,7 @@ class Diagnosis:
         left: What is left at the end, the largest first; only what noise does not explain.
         locations: Where residuals of units that were driven alone have structure, the strongest first.
         waveforms: Unknown inputs at the located equations.
+        proposals: Laws without a name for these inputs, by sparse regression, the best first.
         next_experiment: What would decide between explanations that are left open, or None.
         held_out_by: What the fits of held-out recordings come from; empty if none was held out.
         differences: Held-out channels on which the fast simulation and the free run differ by more than a tenth of the
@@ -258,6 +259,7 @@ class Diagnosis:
     left: tuple[Remainder, ...] = ()
     locations: tuple[Location, ...] = ()
     waveforms: tuple[Waveform, ...] = ()
+    proposals: tuple[Proposal, ...] = ()
     next_experiment: NextExperiment | None = None
     held_out_by: str = ""
     differences: tuple[Difference, ...] = ()

@@ -82,6 +82,33 @@ class Waveform:
 
 
 @dataclass(frozen=True)
+class Proposal:
+    """A law without a name for an unknown input, by sparse regression.
+
+    Args:
+        formula: The law with its numbers; `delay(x, tau)` is x through a first-order delay of tau seconds.
+        unit: Of the amplitudes.
+        equation_unit: electrical, thermal, stiffness or mechanical.
+        place: Where it acts.
+        terms: Identifiers of the unnamed terms that it is made of; empty where there is none in the catalogue.
+        amplitudes: Factor of each term.
+        depends_on: What each term depends on, in words.
+        gain: Fall of -2 log posterior by it, linearised.
+        share: Of what the unknown input explains, from 0 to 1.
+    """
+
+    formula: str
+    unit: str
+    equation_unit: str
+    place: str
+    terms: tuple[str, ...]
+    amplitudes: tuple[float, ...]
+    depends_on: tuple[str, ...]
+    gain: float
+    share: float
+
+
+@dataclass(frozen=True)
 class Remainder:
     """What is left in one channel or group of channels at the end.
 

@@ -37,6 +37,7 @@ class Course:
         resistance: Of each coil [ohm], shape (coils,).
         string_resistance: Of each string with its coils [ohm], shape (strings,).
         load: [N], shape (coils,).
+        string_of_coil: String of each coil, from 0, shape (coils,).
         since_switch: Time since the supply last jumped [s], shape (steps,).
     """
 
@@ -55,6 +56,7 @@ class Course:
     resistance: Array
     string_resistance: Array
     load: Array
+    string_of_coil: AnyArray
     since_switch: Array
 
     @property
@@ -106,7 +108,8 @@ def course(model: Fitted, number: int) -> Course:
         capacity=base["capacity"], resistance=resistance,
         string_resistance=in_series + np.bincount(model.coils.string_of_coil, resistance, minlength=len(strings))
         if strings else np.zeros(0),
-        load=base["load"], since_switch=_since_switch(run.inputs.is_switch, fine, 0.5 * (time[1:] + time[:-1])),
+        load=base["load"], string_of_coil=model.coils.string_of_coil,
+        since_switch=_since_switch(run.inputs.is_switch, fine, 0.5 * (time[1:] + time[:-1])),
     )  # fmt: skip
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cosim.unit import Array
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.search.fit import Fit
+from diagnosis.search.fit import Columns, Fit
 from diagnosis.search.problem import Model, Parameter, Point
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.tempered import TemperedModel
@@ -22,12 +22,14 @@ class Fitted:
     """A coil bank at its recalibrated point.
 
     Args:
+        outer: The model that was fitted: the bank, also with biases or tempered.
         bank: The model that simulates.
         parameters: All that were fitted; those of the bank first, then biases of sensors.
         fit: Recalibrated, without terms.
         inflation: Of the variance of every channel, shape (channels,).
     """
 
+    outer: Model
     bank: BankModel
     parameters: Sequence[Parameter]
     fit: Fit
@@ -47,6 +49,20 @@ class Fitted:
         """Parameters of the bank for one recording."""
         return self.bank.bank_parameters(self.point, recording)
 
+    def moved(self, change: Array) -> Fitted | None:
+        """The same at another point; None where the model cannot be simulated there.
+
+        Args:
+            change: Of the parameters, in prior deviations, shape (parameters,).
+        """
+        bounds = np.array([p.bounds for p in self.parameters])
+        point = Point(np.clip(self.fit.point.base + change, -bounds, bounds))
+        residuals = self.outer.residuals([point])[0]
+        if not np.isfinite(residuals).all():
+            return None
+        columns = Columns.of(self.outer.base_jacobian(point), point.base, residuals)
+        return replace(self, fit=replace(self.fit, point=point, residuals=residuals, columns=columns))
+
 
 def fitted(model: Model, fit: Fit) -> Fitted | None:
     """The coil bank inside a model, or None where there is none.
@@ -61,4 +77,4 @@ def fitted(model: Model, fit: Fit) -> Fitted | None:
         if isinstance(inner, TemperedModel):
             inflation = inner.inflation
         inner = inner.inner
-    return Fitted(inner, model.parameters, fit, inflation) if isinstance(inner, BankModel) else None
+    return Fitted(model, inner, model.parameters, fit, inflation) if isinstance(inner, BankModel) else None

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from cosim.unit import Array
 from diagnosis.bank.places import coil_label
-from diagnosis.judge.location import Location, Waveform
+from diagnosis.judge.location import Location, Proposal, Waveform
 from diagnosis.locate.course import Course, course
 from diagnosis.locate.fitted import Fitted, fitted
+from diagnosis.locate.investigate import investigate
 from diagnosis.locate.panel import Panel, panels
 from diagnosis.locate.replay import ELECTRICAL, THERMAL, Replay, electrical, field_of, mechanical, thermal
 from diagnosis.locate.statistic import Tested, tested
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model
 from diagnosis.search.structure import structure
+
+Unit = Callable[[Fitted, Sequence[Course], Sequence[Panel]], list[Replay]]
+#: Times that a unit is linearised, at most, and how far its parameters must have moved for it [prior deviations].
+LINEARISED, FAR = 3, 1.5
 
 
 @dataclass(frozen=True)
@@ -27,10 +33,12 @@ class Located:
     Args:
         locations: One line for each unit, the strongest departure first.
         waveforms: Unknown input at the equations of units that depart by more than noise.
+        proposals: Laws for these inputs, the best first.
     """
 
     locations: tuple[Location, ...]
     waveforms: tuple[Waveform, ...] = ()
+    proposals: tuple[Proposal, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -41,11 +49,13 @@ class UnitTest:
         replay: The unit.
         tested: What was found.
         location: The line of the table.
+        courses: Of every recording, at the point where it was tested.
     """
 
     replay: Replay
     tested: Tested
     location: Location
+    courses: Sequence[Course]
 
 
 def locate(model: Model, fit: Fit, titles: Sequence[str], seed: int = 0) -> Located:
@@ -60,9 +70,19 @@ def locate(model: Model, fit: Fit, titles: Sequence[str], seed: int = 0) -> Loca
     own = fitted(model, fit)
     if own is None:
         return Located(closed(model, fit))
-    tests, _ = unit_tests(own, titles, seed)
-    lines = sorted((t.location for t in tests), key=lambda found: -abs(found.z) / found.limit)
-    return Located(tuple(lines))
+    tests = unit_tests(own, titles, seed)
+    lines: list[Location] = []
+    waveforms: list[Waveform] = []
+    proposals: list[Proposal] = []
+    for unit in sorted(tests, key=lambda t: -abs(t.location.z) / t.location.limit):
+        if unit.location.is_noise:
+            lines.append(unit.location)
+            continue
+        found = investigate(unit.replay, unit.tested, unit.location, unit.courses, titles)
+        lines.append(found.location)
+        waveforms += found.waveforms
+        proposals += found.proposals
+    return Located(tuple(lines), tuple(waveforms), tuple(sorted(proposals, key=lambda p: -p.gain)))
 
 
 def closed(model: Model, fit: Fit) -> tuple[Location, ...]:
@@ -76,7 +96,7 @@ def closed(model: Model, fit: Fit) -> tuple[Location, ...]:
     return tuple(sorted(found, key=lambda location: -abs(location.z) / location.limit))
 
 
-def unit_tests(model: Fitted, titles: Sequence[str], seed: int = 0) -> tuple[list[UnitTest], list[Course]]:
+def unit_tests(model: Fitted, titles: Sequence[str], seed: int = 0) -> list[UnitTest]:
     """Drive every unit alone with the recorded inputs and test what is left.
 
     Args:
@@ -84,17 +104,57 @@ def unit_tests(model: Fitted, titles: Sequence[str], seed: int = 0) -> tuple[lis
         titles: Of the recordings.
         seed: Of the simulated noise.
     """
-    courses = [course(model, n) for n in range(len(model.bank.runs))]
-    found = [p for q in model.bank.measured for p in panels(model, q)]
-    replays = [electrical(model, courses, found), thermal(model, courses, found)]
-    replays += mechanical(model, courses, found)
-    tests = []
-    for replay in replays:
-        if replay is not None:
+    tests = _unit_test(model, electrical, titles, seed)
+    is_electrical = any(not t.location.is_noise for t in tests)
+    heated = _unit_test(model, thermal, titles, seed)
+    if is_electrical and heated and not heated[0].location.is_noise:
+        # Power that a string takes beyond I^2 R may heat its coils, all of them or one.
+        for shares in _shares(model, heated[0]):
+            other = _unit_test(model, partial(thermal, shares=shares), titles, seed)
+            heated = min(heated, other, key=lambda t: abs(t[0].location.z))
+    return [*tests, *heated, *_unit_test(model, mechanical, titles, seed)]
+
+
+def _shares(model: Fitted, heated: UnitTest) -> list[Array]:
+    """All coils of each string alike, or all of it in the coil that departs most of each string."""
+    strings = model.coils.string_of_coil
+    even = 1.0 / np.bincount(strings)[strings]
+    single = even.copy()
+    worst = np.zeros(model.coils.coils)
+    for (number, k), z in heated.tested.by_element.items():
+        coil = int(heated.tested.panels[number].elements[k])
+        worst[coil] = max(worst[coil], abs(z))
+    for string in np.unique(strings):
+        members = np.flatnonzero(strings == string)
+        first = members[np.argmax(worst[members])]
+        if worst[first] > heated.location.limit:
+            single[members] = 0.0
+            single[first] = 1.0
+    return [even, single]
+
+
+def _unit_test(model: Fitted, unit: Unit, titles: Sequence[str], seed: int) -> list[UnitTest]:
+    """A unit's tests, at the point that its own channels want: linearised again while its parameters move far."""
+    for attempt in range(LINEARISED):
+        courses = [course(model, n) for n in range(len(model.bank.runs))]
+        found = [p for q in model.bank.measured for p in panels(model, q)]
+        replays = unit(model, courses, found)
+        tests = []
+        for replay in replays:
             groups = [summed(model, p) for p in replay.panels]
             outcome = tested(replay.panels, groups, _prior(model, replay), seed)
-            tests.append(UnitTest(replay, outcome, _location(model, replay, outcome, titles)))
-    return tests, courses
+            tests.append(UnitTest(replay, outcome, _location(model, replay, outcome, titles), courses))
+        change = np.zeros(len(model.parameters))
+        for one in tests:
+            own = one.tested.change[: len(change)] * is_own(model, one.replay)
+            change = np.where(np.abs(own) > np.abs(change), own, change)
+        if attempt + 1 == LINEARISED or np.abs(change).max(initial=0.0) < FAR:
+            return tests
+        other = model.moved(change)
+        if other is None:
+            return tests
+        model = other
+    return []
 
 
 def summed(model: Fitted, panel: Panel) -> list[Array]:
@@ -107,14 +167,18 @@ def summed(model: Fitted, panel: Panel) -> list[Array]:
     return groups + ([np.arange(count)] if count > 1 else [])
 
 
+def is_own(model: Fitted, replay: Replay) -> Array:
+    """1 for each parameter that is one of the unit's own, else 0, shape (parameters,)."""
+    touched = np.any([np.any(p.columns, axis=(0, 1))[: len(model.parameters)] for p in replay.panels], axis=0)
+    if replay.unit in ("electrical", "thermal"):
+        return np.asarray(touched, dtype=np.float64)
+    return np.array([float(t and field_of(p) not in THERMAL | ELECTRICAL) for t, p in zip(touched, model.parameters)])
+
+
 def _prior(model: Fitted, replay: Replay) -> Array:
     """What brings the unit's own parameters back to their nominal values; others are taken as they were found."""
-    is_mechanical = replay.unit not in ("electrical", "thermal")
-    size = replay.panels[0].columns.shape[2]
-    prior = np.zeros(size)
-    for n, (parameter, z) in enumerate(zip(model.parameters, model.fit.point.base)):
-        if not (is_mechanical and field_of(parameter) in THERMAL | ELECTRICAL):
-            prior[n] = -z
+    prior = np.zeros(replay.panels[0].columns.shape[2])
+    prior[: len(model.parameters)] = -model.fit.point.base * is_own(model, replay)
     return prior
 
 

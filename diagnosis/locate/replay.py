@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -48,7 +48,7 @@ def field_of(parameter: Parameter) -> str:
     return parameter.name.split(" of ")[0].rpartition(".")[2]
 
 
-def electrical(model: Fitted, courses: Sequence[Course], found: Sequence[Panel]) -> Replay | None:
+def electrical(model: Fitted, courses: Sequence[Course], found: Sequence[Panel]) -> list[Replay]:
     """Circuit driven by its programme, with the resistances at the recorded temperatures.
 
     Args:
@@ -58,7 +58,7 @@ def electrical(model: Fitted, courses: Sequence[Course], found: Sequence[Panel])
     """
     chosen = [p for p in found if p.quantity in ("current", "supply_current", "resistance", "power")]
     if not chosen or not model.coils.strings:
-        return None
+        return []
     slope = np.any(np.asarray(model.values(0).base.get("resistance_temperature_coefficient", 0.0)))
     by = "the supply's programme" + ("; resistances at simulated temperatures" if slope else "")
     keep = np.ones(chosen[0].columns.shape[2], dtype=bool)
@@ -68,7 +68,7 @@ def electrical(model: Fitted, courses: Sequence[Course], found: Sequence[Panel])
         gain = partial(_current_response, model, courses[panel.recording], panel)
         respond = gain if panel.quantity in ("current", "supply_current") else None
         panels.append(replace(panel, columns=panel.columns * keep, respond=respond))
-    return Replay("electrical", "Ohm's law of a string: V + u = I * sum(R)", "V", by, tuple(panels))
+    return [Replay("electrical", "Ohm's law of a string: V + u = I * sum(R)", "V", by, tuple(panels))]
 
 
 def _current_response(model: Fitted, course: Course, panel: Panel, element: int) -> Array:
@@ -78,39 +78,52 @@ def _current_response(model: Fitted, course: Course, panel: Panel, element: int)
     return instant_response(np.full(len(course.size), gain), course, panel.times)
 
 
-def thermal(model: Fitted, courses: Sequence[Course], found: Sequence[Panel]) -> Replay | None:
-    """Coils heated by the power of the recorded currents, I^2 R."""
+def thermal(
+    model: Fitted, courses: Sequence[Course], found: Sequence[Panel], shares: Array | None = None
+) -> list[Replay]:
+    """Coils heated by the power of the recorded currents, I^2 R.
+
+    Args:
+        model: Recalibrated.
+        courses: Of every recording.
+        found: Panels of all quantities, of the closed simulation.
+        shares: Where a string takes more power V I than its coils' I^2 R, each coil's share of the difference, shape
+            (coils,); None: it is turned into heat outside the coils.
+    """
     chosen = [p for p in found if p.quantity == "temperature"]
     if not chosen:
-        return None
+        return []
     by: list[str] = []
     panels = []
     for panel in chosen:
         course = courses[panel.recording]
         current = [p for p in found if p.recording == panel.recording and p.quantity == "current"]
         supply = [p for p in found if p.recording == panel.recording and p.quantity == "supply_current"]
-        panel = replace(panel, respond=partial(_heat_response, course, panel.times))
+        panel = replace(panel, respond=cache(partial(_heat_response, course, panel.times)))
         if current:
-            panels.append(_heated_by(model, course, panel, current[0]))
+            panels.append(_heated_by(model, course, (panel, current[0]), shares))
             by.append("recorded currents of the strings")
         elif supply and len(model.coils.strings) == 1:
-            panels.append(_heated_by(model, course, panel, supply[0]))
+            panels.append(_heated_by(model, course, (panel, supply[0]), shares))
             by.append("recorded current of the supply")
         else:
             panels.append(panel)
             by.append("simulated currents" if model.coils.strings else "the programme's power")
-    return Replay(
+    return [Replay(
         "thermal", "heat balance of a coil: C * dT/dt = P - hA * (T - T_ambient) + u", "W",
         ", ".join(dict.fromkeys(by)), tuple(panels),
-    )  # fmt: skip
+    )]  # fmt: skip
 
 
 def _heat_response(course: Course, times: Array, coil: int) -> Array:
     return heat_response(course, coil, times)
 
 
-def _heated_by(model: Fitted, course: Course, panel: Panel, current: Panel) -> Panel:
-    """Temperatures with the recorded instead of the simulated currents."""
+def _heated_by(model: Fitted, course: Course, seen_by: tuple[Panel, Panel], shares: Array | None) -> Panel:
+    """Temperatures with the recorded instead of the simulated currents; `seen_by`: temperatures and currents."""
+    panel, current = seen_by
+    answer = panel.respond
+    assert answer is not None
     change = np.zeros_like(panel.residual)
     columns = panel.columns.copy()
     noise: dict[int, list[tuple[int, Array]]] = {}
@@ -121,7 +134,7 @@ def _heated_by(model: Fitted, course: Course, panel: Panel, current: Panel) -> P
     for k, coil in enumerate(panel.elements):
         string = int(model.coils.string_of_coil[coil])
         at = current.place(string if current.quantity == "current" else 0)
-        respond = heat_response(course, int(coil), panel.times)
+        respond = answer(int(coil))
         squared = course.current[:, coil] ** 2
         if at is not None:
             seen = current.used[:, at]
@@ -132,9 +145,12 @@ def _heated_by(model: Fitted, course: Course, panel: Panel, current: Panel) -> P
             departure = weights @ (current.residual[seen, at] * deviation)
             resistance = course.resistance[coil]
             extra = resistance * (2.0 * course.current[:, coil] * departure + departure**2)
+            # A string of too large a resistance takes V I, of which V I - I^2 sum(R) = -I R_string (I - I_simulated).
+            share = 0.0 if shares is None else float(shares[coil]) * course.string_resistance[string]
+            extra = extra - share * (course.current[:, coil] + departure) * departure
             squared = (course.current[:, coil] + departure) ** 2
             change[:, k] = respond @ extra
-            factor = (respond * (2.0 * resistance * course.current[:, coil])) @ weights * deviation
+            factor = (respond * ((2.0 * resistance - share) * course.current[:, coil])) @ weights * deviation
             noise.setdefault(string if current.quantity == "current" else 0, []).append(
                 (k, np.where(panel.used[:, k], 1.0 / panel.deviation[:, k], 0.0)[:, None] * factor)
             )

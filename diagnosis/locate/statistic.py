@@ -54,6 +54,7 @@ class Tested:
         limit: Size that noise alone passes in one of a hundred recordings.
         by_element: Largest sum of every single channel: (panel, channel) to z.
         change: Of the parameters by the fit, in prior deviations.
+        pull: Of the prior at that point: how far each parameter is from where the prior has it, in its deviations.
     """
 
     panels: tuple[Panel, ...]
@@ -61,6 +62,7 @@ class Tested:
     limit: float
     by_element: dict[tuple[int, int], float]
     change: Array
+    pull: Array
 
 
 class Refit:
@@ -74,7 +76,7 @@ class Refit:
     def __init__(self, panels: Sequence[Panel], prior: Array) -> None:
         self._panels, self._prior = panels, prior
         self._columns = [p.columns[p.used] for p in panels]
-        weights = [_weight(p)[p.used] for p in panels]
+        weights = [weight(p)[p.used] for p in panels]
         self._weighted = [w[:, None] * c for w, c in zip(weights, self._columns)]
         normal = sum((c.T @ w for c, w in zip(self._columns, self._weighted)), start=np.eye(len(prior)))
         self._inverse = np.linalg.inv(normal)
@@ -136,7 +138,8 @@ def propagated(panel: Panel) -> Array:
     return found
 
 
-def _weight(panel: Panel) -> Array:
+def weight(panel: Panel) -> Array:
+    """What each reading counts: by its noise, less where it stands out (Huber), shape (samples, elements)."""
     deviation = np.sqrt(1.0 + propagated(panel))
     size = np.abs(panel.residual) / deviation
     return np.asarray(np.where(size > HUBER, HUBER / np.maximum(size, HUBER), 1.0) / deviation**2)
@@ -179,7 +182,7 @@ def tested(panels: Sequence[Panel], groups: Sequence[Sequence[Array]], prior: Ar
                 by_element[key] = max(by_element.get(key, 0.0), value, key=abs)
             if abs(value) > abs(best.z):
                 best = Peak(value, number, members, at, at + window - 1)
-    return Tested(tuple(after), best, _limit(whole, sums, refit, len(prior), seed), by_element, change)
+    return Tested(tuple(after), best, _limit(whole, sums, refit, len(prior), seed), by_element, change, change - prior)
 
 
 def _limit(panels: Sequence[Panel], sums: Sequence[_Sums], refit: Refit, count: int, seed: int) -> float:
