@@ -133,6 +133,7 @@ def diagnose(
         seed=settings.seed,
         locations=located.locations,
         waveforms=located.waveforms,
+        proposals=located.proposals,
         scenario=str(scenario.path or scenario.title),
         recordings=used(training, held_out),
         spread=spread_over_recordings(fits),
