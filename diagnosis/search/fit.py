@@ -14,6 +14,8 @@ from diagnosis.search.problem import Model, Point, Term
 
 #: Residuals beyond this many deviations count linearly (Huber): one wild reading must not look like physics.
 HUBER = 4.0
+#: Deviations beyond which residuals are all the same.
+RUNAWAY = 1e6
 #: Relative step of the differences by which a term's parameters are varied.
 STEP = 1e-3
 #: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
@@ -136,7 +138,8 @@ class _Objective:
 
     def residuals(self, x: Array) -> Array:
         found = self.model.residuals([self.point(x)])[0]
-        return np.where(np.isfinite(found), found, 1e6)  # a model that cannot be simulated is a bad one
+        # A model that cannot be simulated, or runs away, is a bad one; its square must still be a number.
+        return np.clip(np.where(np.isfinite(found), found, RUNAWAY), -RUNAWAY, RUNAWAY)
 
     def cost(self, x: Array, residuals: Array) -> float:
         return cost(residuals, x[: self.count], self.widths)
@@ -144,7 +147,8 @@ class _Objective:
     def base_columns(self, x: Array) -> Array:
         """Derivatives by z, shape (residuals, parameters)."""
         found = self.model.base_jacobian(self.point(x))
-        return found if np.isfinite(found).all() else np.where(np.isfinite(found), found, 0.0)
+        is_sane = np.abs(found) < RUNAWAY * RUNAWAY
+        return found if is_sane.all() else np.where(is_sane, found, 0.0)
 
     def term_columns(self, x: Array, here: Array) -> Array:
         """Derivatives by the terms' scaled parameters, shape (residuals, term parameters)."""

@@ -185,7 +185,7 @@ def search(
         if structure(best.fit.residuals, model.layout, groups).is_noise and level + 1 >= settings.most_terms - 1:
             break
     on_progress("removing what is not needed")
-    best = _shrink(model, best, margin)
+    best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried)
 
@@ -249,7 +249,7 @@ def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
     return fit_best(model, [here, other], TRIAL, before)
 
 
-def _shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
+def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
     """Take away terms whose absence costs less than the margin, the least needed first."""
     while True:
         without = {t: fit(model, explanation.fit.point.without(t), near=explanation.fit) for t in explanation.terms}

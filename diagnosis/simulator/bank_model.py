@@ -233,13 +233,17 @@ class BankModel:
                     for direction, weight in directions(free, parameters):
                         along.append(direction)
                         columns.append((i, weight))
-            _, _, slopes = flat_sensitivities(
-                self.bank, parameters, run.inputs, run.times, along, self._threads, run.plan
-            )
             self.simulations += len(along)
-            for (i, weight), row in zip(columns, run.slopes(slopes)):
-                jacobian[i, begin : begin + run.count] += weight * row
+            own = slice(begin, begin + run.count)
             begin += run.count
+            try:
+                _, _, slopes = flat_sensitivities(
+                    self.bank, parameters, run.inputs, run.times, along, self._threads, run.plan
+                )
+            except BankError:  # on the verge of what can be simulated: there is no way on from here
+                continue
+            for (i, weight), row in zip(columns, run.slopes(slopes)):
+                jacobian[i, own] += weight * row
         return jacobian.T
 
 
