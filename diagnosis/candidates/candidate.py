@@ -36,6 +36,7 @@ class Parameter:
         starts: Sensible values to start a fit from, within the bounds, smallest effect first.
         is_amplitude: Whether 0 switches the effect off (at that coil, string or channel); the first one, and it alone.
         is_fixed: Given with the place, never fitted (the scale of a channel).
+        is_switch: An amplitude that is wholly there (its upper bound) or not at all.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Parameter:
     starts: tuple[float, ...]
     is_amplitude: bool = False
     is_fixed: bool = False
+    is_switch: bool = False
 
     @property
     def is_instant(self) -> bool:

@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="P. Horowitz and W. Hill, The Art of Electronics, 3rd ed., Cambridge 2015, section 9.13",
     parameters=(
         Parameter(
-            "share", "1", 0.0, 1.0, "1: the limit holds; less: a limit that gives way", (1.0,), is_amplitude=True
+            "share",
+            "1",
+            0.0,
+            1.0,
+            "1: the limit holds; less: a limit that gives way",
+            (1.0,),
+            is_amplitude=True,
+            is_switch=True,
         ),
         Parameter("limit", "A", 0.01, 1000.0, "a limit is positive", (2.0, 0.3, 0.7, 1.2, 3.0, 5.0)),
     ),

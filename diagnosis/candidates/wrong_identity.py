@@ -9,7 +9,7 @@ CANDIDATE = CandidateTerm(
     law="value = truth + exchange * (truth_of_other - truth)",
     source="Permutation of channels",
     parameters=(
-        Parameter("exchange", "1", 0.0, 1.0, "1: exchanged", (1.0,), is_amplitude=True),
+        Parameter("exchange", "1", 0.0, 1.0, "1: exchanged", (1.0,), is_amplitude=True, is_switch=True),
         Parameter("other", "1", 0.0, 1000000.0, "the other element; given", (0.0,), is_fixed=True),
     ),
     places=("swap",),

@@ -117,7 +117,8 @@ class _Objective:
         free = [p for t in terms for p in t.parameters]
         self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
         bound = np.array([p.bounds for p in model.parameters]) * widths
-        self.lower = np.concatenate([-bound, [p.lower / s for p, s in zip(free, self.scale)]])
+        least = [p.upper if p.is_switch else p.lower for p in free]
+        self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
         self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
 
     def point(self, x: Array) -> Point:

@@ -52,6 +52,9 @@ class TermParameter:
         lower: Smallest value (sign or passivity).
         upper: Largest value.
         starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
+        is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
+            along it.
+        is_instant: An instant of the recording.
     """
 
     name: str
@@ -59,6 +62,8 @@ class TermParameter:
     lower: float
     upper: float
     starts: tuple[float, ...]
+    is_switch: bool = False
+    is_instant: bool = False
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,8 +23,10 @@ STRAINED = 4.0
 UNNAMED = 6.0
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
-#: Elements of a kind from which their scatter is told, and how many stated deviations it may grow to.
-FEWEST, WIDEST = 6, 4.0
+#: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
+FEWEST, WIDEST = 6, 2.5
+#: Instants from which a fit may begin.
+INSTANTS = 40
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96
 #: Most steps of a fit in the competition.
@@ -128,17 +131,20 @@ def recalibrate(model: Model) -> Fit:
 def spread(parameters: Sequence[Parameter], base: Array) -> Array:
     """Widths of the priors: those of many elements of a kind grow where most of them lie farther than was stated.
 
-    The median of |z| tells how far, so that one faulty element does not (empirical Bayes; Efron, Large-Scale Inference,
-    Cambridge 2010, chapter 1).
+    The median of the differences between elements of one string tells, so that neither one faulty element does nor a
+    whole string (empirical Bayes; Efron, Large-Scale Inference, Cambridge 2010, chapter 1).
     """
     widths = np.ones(len(base))
-    kinds: dict[str, list[int]] = {}
+    kinds: dict[str, dict[str, list[int]]] = {}
     for i, parameter in enumerate(parameters):
         if "]." in parameter.name:
-            kinds.setdefault(parameter.name.split("].", 1)[1], []).append(i)
-    for members in kinds.values():
-        if len(members) >= FEWEST:
-            typical = float(np.median(np.abs(base[members]))) / 0.6745  # of a normal law the median of |z| is 0.6745
+            element, kind = parameter.name.split("].", 1)
+            kinds.setdefault(kind, {}).setdefault(element.split(",")[0], []).append(i)
+    for strings in kinds.values():
+        members = [i for string in strings.values() for i in string]
+        apart = [base[a] - base[b] for string in strings.values() for a, b in itertools.combinations(string, 2)]
+        if len(apart) >= FEWEST:
+            typical = float(np.median(np.abs(apart))) / (0.6745 * np.sqrt(2.0))  # the median of |z| is 0.6745
             widths[members] = float(np.clip(typical, 1.0, WIDEST))
     return widths
 
@@ -235,18 +241,38 @@ def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
 
 
 def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
-    """Fit all again with a term more, from the recalibrated and from the nominal point and from each start."""
-    term = candidate.term
-    here = before.point.plus(term, candidate.values)
-    if np.max(np.abs(before.point.base / before.widths), initial=0.0) < STRAINED:
+    """Fit all again with a term more, from what the straight line says and from the best of other starts."""
+    here = before.point.plus(candidate.term, candidate.values)
+    points = list(_starts(before, candidate))
+    if not points:
         return fit(model, here, TRIAL, before)
-    nominal = Point(np.zeros_like(before.point.base), before.point.terms)
-    starts = [candidate.values[0], *term.parameters[0].starts[:3]]
-    points = [here, *(nominal.plus(term, (start, *candidate.values[1:])) for start in starts)]
-    values = model.residuals(points)
-    costs = [cost(v, p.base, before.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
-    other = points[1 + int(np.argmin(costs[1:]))]
-    return fit_best(model, [here, other], TRIAL, before)
+    values = model.residuals([here, *points])
+    costs = [
+        cost(v, p.base, before.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, [here, *points])
+    ]
+    other = int(np.argmin(costs[1:]))
+    if costs[1 + other] > costs[0] and not candidate.term.parameters[0].is_switch:
+        return fit(model, here, TRIAL, before)
+    return fit_best(model, [here, points[other]], TRIAL, before)
+
+
+def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
+    """Where else a fit may begin: other instants and switches, and the nominal point where the base is strained."""
+    term, (strength, *shape) = candidate.term, candidate.values
+    first, *others = term.parameters
+    sizes = (first.upper,) if first.is_switch else (strength, *first.starts[:3])
+    if first.is_switch or any(p.is_instant for p in others):
+        for i, parameter in enumerate(others):
+            span = np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1] if parameter.is_instant else ()
+            for value in (*parameter.starts, *(float(v) for v in span)):
+                for size in sizes:
+                    yield before.point.plus(term, (size, *shape[:i], value, *shape[i + 1 :]))
+        if not others:
+            yield before.point.plus(term, (sizes[0],))
+    if np.max(np.abs(before.point.base / before.widths), initial=0.0) > STRAINED:
+        nominal = Point(np.zeros_like(before.point.base), before.point.terms)
+        for size in sizes:
+            yield nominal.plus(term, (size, *shape))
 
 
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:

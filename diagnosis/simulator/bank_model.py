@@ -11,7 +11,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank, BankError
 from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.bank.places import Place, merge, places
+from diagnosis.bank.places import SCALES, Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
@@ -128,8 +128,22 @@ class BankModel:
             if p.is_instant:
                 lower, upper = begin, end
                 starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
-            free.append(TermParameter(p.name, p.unit, lower, upper, starts))
+            elif p.name in ("limit", "ceiling"):
+                starts = self._ceilings(candidate, place, p.name) or starts
+            free.append(TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant))
         return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+
+    def _ceilings(self, candidate: CandidateTerm, place: Place, name: str) -> tuple[float, ...]:
+        """Where a limit may lie, from the most that was read: of what is cut off nothing is seen above it."""
+        elements = np.flatnonzero(place.mask).tolist()
+        most = 0.0
+        for s in (s for run in self.runs for s in run.series):
+            if name == "limit" and s.quantity in ("supply_current", "current"):
+                most = max(most, float(np.quantile(s.measured, 0.999)))
+            elif name == "ceiling" and self.coils.channel(s.quantity) + s.element in elements:
+                scale, pivot = SCALES[s.quantity]
+                most = max(most, (float(np.quantile(s.measured, 0.999)) - pivot) / scale)
+        return tuple(most * share for share in (0.99, 0.9, 0.75, 0.6, 0.45)) if most > 0.0 else ()
 
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""
