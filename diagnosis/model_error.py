@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.problem import Layout
-from diagnosis.search.search import Outcome, Settings, search
-from diagnosis.search.validation import Validation
+from diagnosis.search.problem import Layout, Term
+from diagnosis.search.search import Explanation, Outcome, Settings, search, shrink
+from diagnosis.search.structure import structure
+from diagnosis.search.validation import Foretold, Validation, chosen
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 
 #: Searches with a tempered likelihood, each with the errors that the one before left.
 TEMPERINGS = 2
+#: A search stands if the errors that it leaves are not larger than it was told by this factor of the variance.
+FAR = 2.0
+#: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
+BEAM, REFITS, MOST_TERMS = 3, 8, 4
 
 
 def search_with_model_error(
@@ -36,18 +42,49 @@ def search_with_model_error(
     Returns:
         The outcome, and the model that it belongs to.
     """
-    terms, groups = model.terms(), model.groups()
-    outcome = search(model, terms, settings, groups, on_progress)
+    outcome = search(model, model.terms(), settings, model.groups(), on_progress)
     factor = _pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     found = model
     for _ in range(TEMPERINGS if factor.max() > BELIEVED else 0):
         on_progress("searching again: no model meets the readings within their noise")
-        tempered = TemperedModel(model, factor)
-        validation = Validation(tempered, partial(MaskedModel, tempered), on_progress)
-        outcome, found = search(tempered, terms, settings, groups, on_progress, validation.select), tempered
+        found = TemperedModel(model, factor)
+        outcome = _validated(found, settings, on_progress)
         raw = model.residuals([outcome.best.fit.point])[0]
-        factor = np.maximum(factor, _pooled(inflation(raw, model.layout), model.layout))
+        larger = _pooled(inflation(raw, model.layout), model.layout)
+        if np.all(larger < FAR * factor):
+            break
+        factor = np.maximum(factor, larger)
     return outcome, found
+
+
+def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
+    """Search named laws, then all, and take what foretells best; a name goes before an equal without one."""
+    wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
+    known: list[Foretold] = []
+    outcomes = []
+    every = model.terms()
+    named = [t for t in every if t.is_named]
+    for terms in (named, every) if len(named) < len(every) else (every,):
+        validation = Validation(model, partial(MaskedModel, model), on_progress)
+        outcomes.append(search(model, terms, wide, model.groups(), on_progress, validation.select))
+        known += validation.all
+    outcome = outcomes[-1]
+    if not known:
+        return outcome
+    best = chosen(known)
+    explanation = shrink(model, best.explanation, outcome.margin)
+    near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
+    rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
+    left = structure(explanation.fit.residuals, model.layout, model.groups())
+    return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+
+
+def _once(explanations: Sequence[Explanation]) -> list[Explanation]:
+    """Explanations with different terms, the first of each."""
+    found: dict[frozenset[Term], Explanation] = {}
+    for explanation in explanations:
+        found.setdefault(frozenset(explanation.terms), explanation)
+    return list(found.values())
 
 
 def _pooled(found: Array, layout: Layout) -> Array:

@@ -117,8 +117,7 @@ class _Objective:
         free = [p for t in terms for p in t.parameters]
         self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
         bound = np.array([p.bounds for p in model.parameters]) * widths
-        least = [p.upper if p.is_switch else p.lower for p in free]
-        self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
+        self.lower = np.concatenate([-bound, [p.lower / s for p, s in zip(free, self.scale)]])
         self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
 
     def point(self, x: Array) -> Point:
@@ -164,7 +163,7 @@ class _Objective:
         if not moved:
             return np.zeros((len(here), 0))
         found = ((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T
-        return np.where(np.isfinite(found), found, 0.0)
+        return np.where(np.abs(found) < RUNAWAY * RUNAWAY, found, 0.0)
 
 
 def _scale(starts: Sequence[float], width: float) -> float:

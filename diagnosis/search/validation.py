@@ -17,13 +17,15 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Layout, Model, Point
+from diagnosis.search.problem import Layout, Model
 from diagnosis.search.search import Explanation
 
 #: Stretches of time that a recording is cut into.
 BLOCKS = 5
 #: Explanations that are validated, the best fits first.
 VALIDATED = 10
+#: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
+PATIENCE = 2
 #: Most Jacobians of a fit to a part; it starts from the fit to the whole.
 ITERATIONS = 8
 
@@ -74,8 +76,9 @@ class Validation:
         self._model, self._on_progress = model, on_progress
         self._stretches = blocks(model.layout)
         self._parts = [hiding(~stretch) for stretch in self._stretches]
-        self._known: dict[Point, Foretold] = {}
-        self.best: Foretold | None = None
+        #: Everything that was validated.
+        self.all: list[Foretold] = []
+        self._losses: list[float] = []
 
     def foretold(self, explanation: Explanation) -> Foretold:
         """How well an explanation foretells each stretch from the others."""
@@ -89,22 +92,29 @@ class Validation:
         return Foretold(explanation, residuals, np.array(losses))
 
     def select(self, before: Explanation, grown: Sequence[Explanation]) -> list[Explanation]:
-        """Explanations that foretell better than the one before, the best first; none if none does.
-
-        One that has no unnamed term goes before those that foretell better by less than a standard error.
-        """
-        if self.best is None:
-            self.best = self.foretold(before)
+        """Explanations by how well they foretell, the best first; none once two more terms have not helped."""
+        if not self._losses:
+            self.all.append(self.foretold(before))
+            self._losses.append(self.all[0].loss)
         found = []
         for number, explanation in enumerate(grown[:VALIDATED]):
             self._on_progress(f"validating explanation {number + 1} of {min(len(grown), VALIDATED)}")
             found.append(self.foretold(explanation))
-        found.sort(key=lambda f: f.loss)
-        if not found or found[0].loss >= self.best.loss:
+        self.all += found
+        self._losses.append(min((f.loss for f in found), default=np.inf))
+        if not found or min(self._losses[-PATIENCE:]) >= min(self._losses[:-PATIENCE], default=np.inf):
             return []
-        chosen = min(found, key=lambda f: (not _within(f, found[0]), _unnamed(f), f.loss))
-        self.best = chosen
-        return [chosen.explanation, *(f.explanation for f in found if f is not chosen)]
+        return [f.explanation for f in sorted(found, key=lambda f: f.loss)]
+
+
+def chosen(found: Sequence[Foretold]) -> Foretold:
+    """The explanation with the fewest unnamed terms, then the fewest terms, of those that foretell as well as the best.
+
+    Args:
+        found: At least one.
+    """
+    best = min(found, key=lambda f: f.loss)
+    return min((f for f in found if _within(f, best)), key=lambda f: (_unnamed(f), len(f.explanation.terms), f.loss))
 
 
 def _within(one: Foretold, best: Foretold) -> bool:
