@@ -25,6 +25,8 @@ from diagnosis.search.problem import Point
 from diagnosis.simulator.bank_model import BankModel
 from tests.amend import bench
 
+#: On the end of a step of bank and co-simulation: what comes within a step is spread over it, and the steps differ.
+INSTANT = 4.0
 _SENSORS = SensorFile.model_validate(
     {
         "default": {"rate": "7 Hz"},
@@ -61,9 +63,7 @@ def _point(model: BankModel, *wanted: str) -> Point:
     for name in wanted:
         identifier, _, place = name.partition("@")
         term = next(t for t in model.terms() if t.identifier == identifier and place in ("", t.place))
-        values = [
-            bench.INSTANT if p.name == "instant" else p.starts[min(1, len(p.starts) - 1)] for p in term.parameters
-        ]
+        values = [INSTANT if p.name == "instant" else p.starts[min(1, len(p.starts) - 1)] for p in term.parameters]
         point = point.plus(term, values)
     return point
 
@@ -78,7 +78,7 @@ def _largest(model: BankModel, point: Point, free: dict[str, Any]) -> float:
     has_instant = any(p.name == "instant" for t in point.terms for p in t.parameters)
     for series, predicted in zip(model.runs[0].series, model.predict(point, 0)):
         difference = free[series.quantity][series.samples, series.element] - predicted
-        used = series.used & ~(has_instant & (np.abs(series.times - bench.INSTANT) < 0.45))
+        used = series.used & ~(has_instant & (np.abs(series.times - INSTANT) < 0.45))
         sizes.append(np.sqrt(np.mean(difference[used] ** 2)) / series.channel.deviation)
     return float(max(sizes))
 
@@ -138,7 +138,7 @@ def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(model:
     written = yaml.safe_load((tmp_path / "scenario.yaml").read_text())["components"]
     assert written["actuator"]["parameters"]["radiation_emissivity_area"] == ["0 m^2", "0 m^2", "0.0001 m^2", "0 m^2"]
     assert written["circuit"]["elements"] == [
-        {"kind": "contact", "string": 2, "resistance": "1 ohm", "instant": f"{bench.INSTANT:g} s"}
+        {"kind": "contact", "string": 2, "resistance": "1 ohm", "instant": f"{INSTANT:g} s"}
     ]
     sensors = yaml.safe_load((tmp_path / "sensors.yaml").read_text())["sensors"]
     assert [(s["channel"], s["effect"]) for s in sensors if "channel" in s] == [
