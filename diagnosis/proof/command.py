@@ -6,6 +6,7 @@ import csv
 import os
 import sys
 from collections.abc import Sequence
+from datetime import date
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -65,7 +66,7 @@ def prove(
     except KeyboardInterrupt:
         print(f"interrupted; what is done is kept: go on with the same command, `--out {out}`", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
-    about = {"cases": cases, "seed": seed, "kinds": kinds, "setups": setups}
+    about = {"cases": cases, "seed": seed, "kinds": kinds, "setups": setups, "date": date.today().isoformat()}
     write_all(results, about, out, page)
 
 

@@ -75,8 +75,7 @@ def _about(about: Sequence[dict[str, Any]], results: Sequence[CaseResult]) -> st
     for given in about:
         only = [f"only {given[k]}" for k in ("kinds", "setups") if given.get(k)]
         command = f"`cosim prove --cases {given['cases']} --seed {given['seed']}`"
-        version = f", version {given['version']}" if given.get("version") else ""
-        lines.append(f"- {command}{version}{'; ' + '; '.join(only) if only else ''}")
+        lines.append(f"- {'; '.join([command, *only, *([given['date']] if 'date' in given else [])])}")
     refused = len(results) - len(counted(results))
     apart = f" {refused} of them were refused in words and are counted apart." if refused else ""
     return "\n".join([*lines, "", f"{len(results)} cases.{apart}", ""])
