@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ from diagnosis.experiment.bench import Bench, Conditions, Contrast
 from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
+from diagnosis.experiment.separation import DECISIVE
 from diagnosis.judge.judge import UNSEPARATED, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.recording.conditions import scenario_of
@@ -22,6 +24,8 @@ from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.translate import GRAVITY
 
+#: Odds beyond which an explanation is no longer open.
+ODDS = math.exp(DECISIVE)
 #: Explanations that are weighed against each other.
 MOST = 4
 #: A programme that decides with this probability is enough: then the shortest such is taken.
@@ -71,9 +75,10 @@ def open_explanations(outcome: Outcome) -> Open | None:
         return _unearned(outcome)
     size = len(outcome.best.terms)
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
-    near = [e for e in others if e.fit.cost < outcome.best.fit.cost + UNSEPARATED]
-    found = (outcome.best, *sorted(near, key=lambda e: e.fit.cost))[:MOST]
-    return Open(found, probabilities(found)) if len(found) > 1 else None
+    chances = probabilities((outcome.best, *others))
+    near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1]][: MOST - 1]
+    found = (outcome.best, *(others[i] for i in near))
+    return Open(found, probabilities(found)) if near else None
 
 
 def _unearned(outcome: Outcome) -> Open | None:

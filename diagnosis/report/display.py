@@ -101,7 +101,9 @@ def percent(probability: float) -> str:
 
 
 def span(begin: float, end: float) -> str:
-    """An interval of time."""
+    """An interval of time, or an instant."""
+    if begin == end:
+        return f"at {number(begin)} s"
     return f"{number(begin)} to {number(end)} s"
 
 
