@@ -21,6 +21,13 @@ def diagnose(
     level: Annotated[float, typer.Option(min=0.001, max=0.5, help="Rate of false alarms that is allowed.")] = 0.05,
     seed: Annotated[int, typer.Option(min=0, help="Of all random numbers.")] = 0,
     jobs: Annotated[int, typer.Option(min=1, help="Simulations at the same time.")] = 2,
+    cluster: Annotated[
+        str | None,
+        typer.Option(help="Address of a Dask scheduler that makes them; default: processes of this machine."),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on from the simulations that an interrupted diagnosis left in --out.")
+    ] = False,
     without: Annotated[
         list[str] | None, typer.Option(help="Effect of the catalogue to do without; may be given several times.")
     ] = None,
@@ -34,7 +41,11 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.diagnose import Means  # late: `--help` must not load Bullet
+    from diagnosis.compute.batch import Batches  # late: `--help` must not load Bullet
+    from diagnosis.compute.cache import Cache
+    from diagnosis.compute.cluster import choose_place
+    from diagnosis.compute.display import Display
+    from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits
     from diagnosis.hand_over import hand_over
@@ -43,17 +54,26 @@ def diagnose(
     from diagnosis.search.search import Settings
 
     _check(recording, held_out, out)
-    console = Console(stderr=True)
+    kept = Cache(out / "simulations")
+    if kept.count() and not resume:
+        raise InputError(out, "", "an interrupted diagnosis left its simulations here",
+                         "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip
+    display = Display(Console(stderr=True))
     try:
-        with console.status("reading") as status:
+        with display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
             base = load_scenario(scenario)
-            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base))
+            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches)
             training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
-            found = find(base, training, judges, Settings(level=level, seed=seed), status.update, means)
-            status.update("writing")
+            found = find(base, training, judges, Settings(level=level, seed=seed), display.stage, means)
+            display.stage("writing")
             diagnosis = hand_over(found, base, out)
     except KeyboardInterrupt:
-        print(f"interrupted: there is no diagnosis in {out}; the same command starts afresh", file=sys.stderr)
+        rest = (
+            f"`--resume` goes on from its {kept.count()} simulations"
+            if kept.count()
+            else "the same command starts afresh"
+        )
+        print(f"interrupted: there is no diagnosis in {out}; {rest}", file=sys.stderr)
         raise typer.Exit(130) from None
     print_summary(diagnosis, Console())
     print(out / "report.html")

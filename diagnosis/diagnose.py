@@ -12,8 +12,12 @@ from cosim.errors import InputError
 from cosim.scenario import Scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
+from diagnosis.compute.batch import Batches
 from diagnosis.experiment.design import next_experiment
+from diagnosis.fabric.model import FabricModel
+from diagnosis.fabric.search import search_fabric
 from diagnosis.isolability.isolability import isolability
+from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
@@ -37,12 +41,14 @@ class Means:
     Args:
         without: Identifiers of candidates that it must not know, for a proof that hides them.
         threads: Threads of one simulation.
+        batches: Makes simulations that take seconds: in processes, kept on disk; closed by whoever made it.
         limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
     """
 
     without: tuple[str, ...] = ()
     threads: int = 2
     limits: Mapping[str, float] = field(default_factory=dict)
+    batches: Batches = field(default_factory=Batches)
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -95,9 +101,15 @@ def diagnose(
     """
     begin = clock.perf_counter()
     known = means.catalogue()
-    model = with_biases(model_of(scenario, training, known, means.threads, means.without))
-    judge = with_biases(model_of(scenario, held_out, known, means.threads, means.without)) if held_out else None
-    outcome, model = search_with_model_error(model, settings, on_progress)
+    model = model_of(scenario, training, known, means.threads, means.without, means.batches)
+    judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
+    if isinstance(model, FabricModel):
+        outcome = search_fabric(model, settings, on_progress)
+        if isinstance(judge, FabricModel):
+            judge.take_scatter(model)
+    else:
+        outcome, model = search_with_model_error(with_biases(model), settings, on_progress)
+        judge = with_biases(judge) if judge is not None else None
     word = verdict(outcome, nominal_cost(model))
     points = {
         "before": Point(np.zeros(len(model.parameters))),
@@ -109,6 +121,7 @@ def diagnose(
     carried: dict[str, Point] = {}
     if judge is not None:
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
+        judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = findings(model, outcome)
     told_apart = isolability(model, outcome.base, model.terms())

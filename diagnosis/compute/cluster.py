@@ -114,7 +114,7 @@ class DaskPlace:
         # One thread each: ngspice and Bullet are not made for two threads, and a fabric keeps a core busy by itself.
         cluster = dask.LocalCluster(
             n_workers=self._jobs, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
-            silence_logs=logging.ERROR,
+            silence_logs=logging.CRITICAL,
         )  # fmt: skip
         self._open.callback(cluster.close)
         return dask.Client(cluster)  # type: ignore[no-any-return]

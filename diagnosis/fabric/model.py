@@ -125,9 +125,9 @@ class FabricModel:
         return found
 
     @property
-    def micro_steps(self) -> int:
-        """Micro-steps of one simulation of every recording."""
-        return self.fabric_runs.micro_steps
+    def effort(self) -> float:
+        """Of one simulation of every recording: links times micro-steps, and more for many iterations."""
+        return self.fabric_runs.effort
 
     def bank_point(self, point: Point) -> Point:
         """What of a point belongs to the coil bank."""

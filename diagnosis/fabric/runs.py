@@ -58,8 +58,8 @@ class FabricRuns(Protocol):
         ...
 
     @property
-    def micro_steps(self) -> int:
-        """Micro-steps of one simulation of every recording."""
+    def effort(self) -> float:
+        """Of one simulation of every recording: links times micro-steps, and more for many iterations."""
         ...
 
     @property
@@ -83,7 +83,7 @@ class ClosedRuns:
     ) -> None:  # fmt: skip
         self._component, self._batches = component, batches
         self._settings: list[Setting] = [setting(scenario_of(scenario, r), r) for r in recordings]
-        self.micro_steps = _micro_steps([s.scenario for s in self._settings], component)
+        self.effort = _effort([s.scenario for s in self._settings], component)
         self.reasons: list[str] = []
 
     def make(self, wanted: Sequence[tuple[int, Mapping[str, PhysicalValue], Point]]) -> list[list[Array] | None]:
@@ -116,7 +116,7 @@ class BulletRuns:
         self._component, self._bank, self._batches = component, bank, batches
         self._recordings = list(recordings)
         self._scenarios = [_resolved(scenario_of(scenario, r)) for r in recordings]
-        self.micro_steps = _micro_steps(self._scenarios, component)
+        self.effort = _effort(self._scenarios, component)
         circuits = [c for c in scenario.components.values() if isinstance(c, CircuitComponent)]
         self._strings = tuple(circuits[0].strings) if circuits else ()
         self.reasons: list[str] = []
@@ -162,13 +162,15 @@ class BulletRuns:
         return Courses(found["stiffness"], rest)
 
 
-def _micro_steps(scenarios: Sequence[Scenario], component: str) -> int:
-    found = 0
+def _effort(scenarios: Sequence[Scenario], component: str) -> float:
+    """What links and contacts cost beside the iterations is worth about 50 of them (benchmarks/results/units.md)."""
+    found = 0.0
     for scenario in scenarios:
         fabric = scenario.components[component]
         assert isinstance(fabric, FabricComponent)
         length = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
-        found += length // nanoseconds(fabric.solver.micro_step)
+        links = fabric.rows * (2 * fabric.columns - 1)
+        found += links * (length / nanoseconds(fabric.solver.micro_step)) * (fabric.solver.iterations + 50) / 250
     return found
 
 

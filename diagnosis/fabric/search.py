@@ -16,12 +16,13 @@ from diagnosis.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
 
-#: Most micro-steps of all recordings together, with what such a fabric is worth: random starts of the ensemble at the
-#: nominal point, from which scatter is known; starts of every effect; starts at the point found. The number of
-#: micro-steps stands for the time of a simulation, so that a result does not depend on the machine.
-EFFORTS = ((6_000, 8, 3, 6), (15_000, 6, 2, 5), (10**12, 6, 1, 4))
+#: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth: random
+#: starts of the ensemble at the nominal point, from which scatter is known; starts of every effect; starts at the
+#: point found. An effort of 10,000 takes about a second of one core. It stands for the time, so that a result does
+#: not depend on the machine.
+EFFORTS = ((45e3, 8, 3, 6), (110e3, 6, 2, 5), (float("inf"), 6, 1, 4))
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
-HOPEFUL, BEHIND = 3, 12.0
+HOPEFUL, BEHIND = 4, 40.0
 #: A strength this close to one that was simulated needs no other simulation.
 NEAR = 0.15
 
@@ -65,9 +66,10 @@ class _Plan:
         self.model, self.settings, self._tell = model, settings, on_progress
         self._count = len(model.mechanical_recordings)
         self._bank_point = Point(np.zeros(model.banked))
-        _, self._size, self._repeats, self._confirmed = next(e for e in EFFORTS if model.micro_steps <= e[0])
+        _, self._size, self._repeats, self._confirmed = next(e for e in EFFORTS if model.effort <= e[0])
         effects = len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
-        once = self._size + self._repeats * (effects + HOPEFUL) + self._confirmed
+        self._sharpened = self._confirmed if self._repeats > 1 else 1
+        once = self._size + self._repeats * effects + HOPEFUL * self._sharpened + self._confirmed
         self._left = self._count * once
 
     def _enter(self, stage: str, simulations: int) -> None:
@@ -102,7 +104,7 @@ class _Plan:
         self._enter("mechanical effects", self._repeats * (count + len(tasks)))
         points = [self._point(np.eye(count)[i]) for i in range(count)]
         points += [self._point(np.zeros(count), {t: (s,)}) for t, s in tasks]
-        found = self._means(points)
+        found = self._means(points, self._repeats)
         for i, bins in enumerate(found[:count]):
             if bins is not None:
                 self.surface.slopes[i] = bins - self.surface.mean
@@ -111,15 +113,14 @@ class _Plan:
                 self.surface.add(term, strength, bins, np.zeros(count))
         self._prepare(self._members)
 
-    def _means(self, points: Sequence[Point]) -> list[Array | None]:
+    def _means(self, points: Sequence[Point], count: int) -> list[Array | None]:
         """Means over several starts, each of its own for every point; None where every run stopped."""
-        starts = [
-            (p, self._size + 1 + i * self._repeats + r) for i, p in enumerate(points) for r in range(self._repeats)
-        ]
-        found = self.model.simulated(starts)
+        found = self.model.simulated(
+            [(p, self._size + 1 + i * count + r) for i, p in enumerate(points) for r in range(count)]
+        )
         means: list[Array | None] = []
-        for first in range(0, len(found), self._repeats):
-            rows = [r for r in found[first : first + self._repeats] if r is not None]
+        for first in range(0, len(found), count):
+            rows = [r for r in found[first : first + count] if r is not None]
             means.append(np.mean(rows, axis=0) if rows else None)
         return means
 
@@ -158,8 +159,9 @@ class _Plan:
             for term in explanation.terms:
                 if term in laws and self._is_far(term, explanation) and len(wanted) < HOPEFUL:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
-        self._enter("hopeful effects where they were fitted", HOPEFUL * self._repeats)
-        found = self._means([self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()])
+        self._enter("hopeful effects where they were fitted", HOPEFUL * self._sharpened)
+        points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
+        found = self._means(points, self._sharpened)
         for bins, (term, (point, strength)) in zip(found, wanted.items()):
             if bins is not None:
                 self.surface.add(term, strength, bins, self.model.own_point(point).base)
