@@ -41,6 +41,8 @@ def _part(kind: str, number: int, times: Array, values: Array) -> Part:
     columns = {"time": np.round(times, 3)[::EVERY], "angle": values[0, ::EVERY], "angular_velocity": values[1, ::EVERY]}
     sidecar: dict[str, Any] = {
         "time": {"column": "time", "unit": "s"},
+        # Just over one swing: from it the start of a piece is estimated where that is held out.
+        "beginning": "1 s",
         "overrides": {
             # Phase and speed are second order in the micro-step: 1e-5 of the phase at 2 ms (docs/mechanics.md).
             "time": {"macro_step": "10 ms", "output_step": "10 ms"},

@@ -93,6 +93,7 @@ class Recording:
         switch_margin: Samples this close to a switch are not used to judge [s].
         source: Who measured it.
         uncertain: What it does not know exactly itself, `component.parameter` to a standard deviation.
+        beginning: Length of its first stretch, from which that is estimated where it is held out [s].
     """
 
     path: Path
@@ -104,6 +105,7 @@ class Recording:
     switch_margin: float
     source: str = ""
     uncertain: Mapping[str, PhysicalValue] = field(default_factory=dict)
+    beginning: float = 0.0
 
 
 def load_recording(path: str | Path) -> Recording:
@@ -140,6 +142,7 @@ class _Reader:
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
             sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain,
+            0.0 if sidecar.beginning is None else sidecar.beginning.to("s"),
         )  # fmt: skip
 
     def _table(self, name: str | None) -> Table:

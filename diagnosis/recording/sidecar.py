@@ -71,6 +71,11 @@ class Sidecar(Strict):
     time: Clock = Clock()
     begin: Time | None = Field(default=None, description="Only what was measured from this time on is used.")
     end: Time | None = Field(default=None, description="Only what was measured up to this time is used.")
+    beginning: Time | None = Field(
+        default=None,
+        description="Where it is held out: what it does not know exactly itself is estimated from this "
+        "first stretch of time, which then does not judge.",
+    )
     switch_margin: Duration = Field(
         default=PhysicalValue(0.3, "s"), description="Samples this close to a switch are not used to judge."
     )
