@@ -59,38 +59,69 @@ class Contrast:
     time: float
 
 
+@dataclass(frozen=True)
+class Belief:
+    """What is known of an explanation after the recordings.
+
+    Args:
+        point: Values of the coil bank's parameters and of the terms.
+        covariance: Of these, shape (parameters + term parameters,) twice.
+    """
+
+    point: Point
+    covariance: Array
+
+    @staticmethod
+    def of(fit: Fit, parameters: int) -> Belief:
+        """From a fit; parameters beyond the first so many (zeros of sensors) are left out, as uncertain as they are.
+
+        Args:
+            fit: Of the recordings.
+            parameters: Of the coil bank.
+        """
+        kept = np.r_[0:parameters, len(fit.point.base) : len(fit.covariance)]
+        return Belief(Point(fit.point.base[:parameters], fit.point.terms), fit.covariance[np.ix_(kept, kept)])
+
+
 class Bench:
     """Simulates explanations under conditions that nobody has tried yet.
 
     Args:
         model: Model of the recordings.
         recordings: These, in order.
-        fits: Explanations, the most probable first.
+        beliefs: Explanations, the most probable first.
+        inflation: Of the variance, of every channel of every recording in order, where no model meets the noise.
     """
 
-    def __init__(self, model: BankModel, recordings: Sequence[Recording], fits: Sequence[Fit]) -> None:
-        self.model, self.recordings, self.fits = model, recordings, fits
+    def __init__(
+        self, model: BankModel, recordings: Sequence[Recording], beliefs: Sequence[Belief],
+        inflation: Array | None = None,
+    ) -> None:  # fmt: skip
+        self.model, self.recordings, self.beliefs = model, recordings, beliefs
+        counts = np.cumsum([len(r.series) for r in model.runs])
+        every = np.ones(int(counts[-1])) if inflation is None else inflation
+        self._inflation = np.split(every, counts[:-1])
         self._daily = np.array([" of recording " in p.name for p in model.parameters])
-        self._points = [self._restarted(f.point) for f in fits]
-        has_sensor = any(t.unit == "measurement" for f in fits for t in f.point.terms)
+        self._points = [self._restarted(b.point) for b in beliefs]
+        has_sensor = any(t.unit == "measurement" for b in beliefs for t in b.point.terms)
         finest = float(min(np.max(np.diff(run.inputs.time)) for run in model.runs))
         self._step = min(COARSE, finest) if has_sensor else COARSE
-        self._roots = [root(self._spread(f)) for f in fits]
+        self._roots = [root(self._spread(b)) for b in beliefs]
 
     def repeat(self) -> BankModel:
         """The model of one more set of the same recordings."""
         return self._with([
-            self._run(r, one, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])))
-            for r, one in zip(self.model.runs, self.recordings)
+            self._run(n, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])))
+            for n, r in enumerate(self.model.runs)
         ])  # fmt: skip
 
     def under(self, conditions: Conditions) -> BankModel:
         """The model of an experiment."""
-        return self._with([self._run(self.model.runs[0], self.recordings[0], conditions)])
+        return self._with([self._run(0, conditions)])
 
     def temperatures(self, conditions: Conditions, count: int = 200) -> Array:
         """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time."""
-        run = self._run(self.model.runs[0], self.recordings[0], conditions)
+        run = self._run(0, conditions)
         times = np.linspace(run.inputs.time[0], run.inputs.time[-1], count)
         parameters = self._with([run]).bank_parameters(self._points[0], 0)
         return np.asarray(self.model.bank.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
@@ -109,7 +140,7 @@ class Bench:
         inner = base.T @ base
         bordered = [Bordered(base, inner, _term_slopes(experiment, p, v)) for p, v in zip(self._points, values)]
         found = []
-        for other in range(1, len(self.fits)):
+        for other in range(1, len(self.beliefs)):
             difference = values[0] - values[other]
             first = distance(difference, bordered[other], self._roots[other])
             second = distance(difference, bordered[0], self._roots[0])
@@ -125,8 +156,9 @@ class Bench:
         moment = float(layout.time[own][np.argmax(np.abs(difference[own]))])
         return Contrast(parted, layout.names[best], moment)
 
-    def _run(self, like: Run, recording: Recording, conditions: Conditions) -> Run:
+    def _run(self, number: int, conditions: Conditions) -> Run:
         """A run with other inputs, and samples that stand for all that the sensors would take."""
+        like, recording = self.model.runs[number], self.recordings[number]
         translation = like.translation
         base = dict(translation.parameters.base)
         if conditions.load is not None:
@@ -137,10 +169,10 @@ class Bench:
         start, stop = translation.start, translation.start + conditions.duration
         corners = np.array(conditions.drive.switches())
         channels, weights = {}, []
-        for series in like.series:
+        for series, inflation in zip(like.series, self._inflation[number]):
             channel, weight = _sampled(series.channel, (start, stop), corners)
             channels[channel.name] = channel
-            weights.append(weight)
+            weights.append(weight / np.sqrt(inflation))
         run = Run(moved, replace(recording, channels=channels, end=stop), self.model.bank, self._step)
         run.weight = run.weight * np.concatenate(weights)
         return run
@@ -162,13 +194,15 @@ class Bench:
                  for t, values in point.terms.items()}  # fmt: skip
         return Point(np.where(self._daily, 0.0, point.base), terms)
 
-    def _spread(self, fit: Fit) -> Array:
+    def _spread(self, belief: Belief) -> Array:
         """Covariance of the parameters before another experiment: those of a day are as uncertain as ever."""
-        covariance = fit.covariance.copy()
+        covariance = belief.covariance.copy()
         fresh = np.flatnonzero(self._daily)
         covariance[fresh] = covariance[:, fresh] = 0.0
         covariance[fresh, fresh] = 1.0
-        known = [len(self._daily) + i for i, name in enumerate(_term_parameters(fit.point.terms)) if name == "instant"]
+        known = [
+            len(self._daily) + i for i, name in enumerate(_term_parameters(belief.point.terms)) if name == "instant"
+        ]
         covariance[known] = covariance[:, known] = 0.0
         return covariance
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.experiment.bench import Bench, Conditions, Contrast
+from diagnosis.experiment.bench import Belief, Bench, Conditions, Contrast
 from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
@@ -22,7 +22,9 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.tempered import TemperedModel
 from diagnosis.simulator.translate import GRAVITY
+from diagnosis.simulator.wrapped import WrappedModel
 
 #: Odds beyond which an explanation is no longer open.
 ODDS = math.exp(DECISIVE)
@@ -98,15 +100,33 @@ def next_experiment(
 ) -> NextExperiment | None:  # fmt: skip
     """What would decide about explanations that are left open, where the coil bank can simulate it; see `design`."""
     question = open_explanations(outcome)
+    inflation = None
+    while isinstance(model, WrappedModel):
+        inflation = model.inflation if isinstance(model, TemperedModel) else inflation
+        model = model.inner
     if question is None or not isinstance(model, BankModel):
         return None
-    return design(scenario, model, recordings, question, limits)
+    return design(scenario, SoFar(model, recordings, inflation), question, limits)
+
+
+@dataclass(frozen=True)
+class SoFar:
+    """Recordings so far.
+
+    Args:
+        model: Their model.
+        recordings: Themselves, in order.
+        inflation: Of the variance, of every channel, where no model meets their noise.
+    """
+
+    model: BankModel
+    recordings: Sequence[Recording]
+    inflation: Array | None = None
 
 
 def design(
-    scenario: Scenario, model: BankModel, recordings: Sequence[Recording], question: Open,
-    limits: Mapping[str, float] | None = None,
-) -> NextExperiment | None:  # fmt: skip
+    scenario: Scenario, so_far: SoFar, question: Open, limits: Mapping[str, float] | None = None
+) -> NextExperiment | None:
     """The experiment that parts explanations best, or None where nothing can be driven.
 
     Of families of programmes within the limits of the rig it takes the one with the largest predicted odds; where
@@ -115,19 +135,19 @@ def design(
 
     Args:
         scenario: The model as it is.
-        model: Model of the recordings.
-        recordings: These, in order.
+        so_far: Recordings so far.
         question: What is open; see `open_explanations`.
         limits: `component.output` to its greatest value, in the unit of that output.
 
     Raises:
         InputError: A limit names nothing that can be driven.
     """
-    longest = max(float(run.inputs.time[-1] - run.inputs.time[0]) for run in model.runs)
-    driven = rig(scenario, [scenario_of(scenario, r) for r in recordings], longest, limits or {})
+    longest = max(float(run.inputs.time[-1] - run.inputs.time[0]) for run in so_far.model.runs)
+    driven = rig(scenario, [scenario_of(scenario, r) for r in so_far.recordings], longest, limits or {})
     if driven is None:
         return None
-    bench = Bench(model, recordings, [e.fit for e in question.explanations])
+    beliefs = [Belief.of(e.fit, len(so_far.model.parameters)) for e in question.explanations]
+    bench = Bench(so_far.model, so_far.recordings, beliefs, so_far.inflation)
     tried = _tried(driven, bench, question)
     if not tried:
         return None

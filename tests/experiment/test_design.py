@@ -11,8 +11,8 @@ import yaml
 
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.candidates.registry import catalogue
-from diagnosis.experiment.bench import Bench, Conditions
-from diagnosis.experiment.design import Open, design, open_explanations
+from diagnosis.experiment.bench import Belief, Bench, Conditions
+from diagnosis.experiment.design import Open, SoFar, design, open_explanations
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.judge import probabilities
 from diagnosis.recording.recording import Recording
@@ -76,7 +76,7 @@ def count(pair: tuple[Effect, Effect], seeds: range, folder: Path) -> Count:
             if abs(fits[0].cost - fits[1].cost) > 2.0 * DECISIVE:
                 continue
             found.open += 1
-            planned = design(made, model, [first], as_open(fits))
+            planned = design(made, SoFar(model, [first]), as_open(fits))
             assert planned is not None
             written = write_experiment(made, planned, folder / f"{seed}_{true}")
             assert written.scenario is not None
@@ -114,7 +114,7 @@ def test_a_bench_predicts_what_a_model_of_the_new_recording_gives(tmp_path: Path
     empty = perfect(made)
     channels = {n: replace(c, values=v) for (n, c), v in zip(empty.channels.items(), values)}
     model, fits = rivals(made, [replace(empty, channels=channels)], STRESS)
-    bench = Bench(model, [empty], fits)
+    bench = Bench(model, [empty], [Belief.of(f, len(model.parameters)) for f in fits])
     run = model.runs[0]
     same = bench.under(Conditions(run.translation.drive, 60.0))
     zero = Point(np.zeros(len(model.parameters)))
