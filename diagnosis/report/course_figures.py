@@ -36,7 +36,7 @@ def _paint_waveform(axes: Axes, waveform: Waveform) -> None:
     if waveform.predicted:
         law = factor * np.array(waveform.predicted)
         axes.plot(times[keep], law[keep], color="black", lw=1.0, ls="--", label="by the law that was found")
-    axes.set(xlabel="time [s]", ylabel=f"{clean(waveform.equation)} [{unit}]")
+    axes.set(xlabel="time [s]", ylabel=f"missing input [{unit}]")
     if len(times) > 1:
         axes.set_xlim(float(times[0]), float(times[-1]))
     axes.legend(frameon=False, fontsize=8, ncols=3, loc="upper left", bbox_to_anchor=(0.0, 1.18))

@@ -6,7 +6,7 @@ from diagnosis.judge.isolability import FaultClass, Isolability
 from diagnosis.judge.next_experiment import NextExperiment
 from diagnosis.report.course_figures import experiment_figure
 from diagnosis.report.display import clean, listed, number, percent
-from diagnosis.report.markup import Html, element, folded, image, listing, table
+from diagnosis.report.markup import Html, element, folded, image, listing, table, wrapped
 
 _CHANNELS = 5
 
@@ -51,7 +51,7 @@ def isolability_section(told: Isolability) -> Html:
     """Statements, classes of faults, and channels that would help."""
     parts: list[str] = [listing(told.statements) if told.statements else element("p", "No statement was made.")]
     if told.extra_channels:
-        rows = [(clean(c.channel), str(c.classes), c.statement) for c in told.extra_channels[:_CHANNELS]]
+        rows = [(clean(c.channel), str(c.classes), wrapped(c.statement)) for c in told.extra_channels[:_CHANNELS]]
         parts += [element("p", "Channels that would help, the best first:"),
                   table(("channel", "classes told apart", ""), rows)]  # fmt: skip
     if told.classes:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from diagnosis.judge.location import Location, Remainder, Waveform
 from diagnosis.report.course_figures import waveform_figure
 from diagnosis.report.display import UNKNOWN, clean, listed, number, span
-from diagnosis.report.markup import Html, element, image, table
+from diagnosis.report.markup import Html, element, image, table, wrapped
 
 #: Lines of the table and waveforms that are shown; the rest is in diagnosis.json.
 _LINES, _WAVEFORMS = 10, 4
@@ -32,8 +32,8 @@ def location_section(locations: Sequence[Location]) -> Html:
 def _line(one: Location) -> list[str]:
     goes = listed([f"{d.variable} ({d.correlation:+.2f})" for d in one.depends_on], 2) or UNKNOWN
     z = element("td", number(abs(one.z)), class_="met" if one.is_noise else "missed")
-    return [one.unit, clean(one.equation), clean(one.element), clean(one.channel), span(one.begin, one.end), z,
-            number(one.limit), goes]  # fmt: skip
+    return [one.unit, wrapped(clean(one.equation)), clean(one.element), wrapped(clean(one.channel)),
+            span(one.begin, one.end), z, number(one.limit), wrapped(goes)]  # fmt: skip
 
 
 def waveform_section(waveforms: Sequence[Waveform]) -> Html:
@@ -43,7 +43,7 @@ def waveform_section(waveforms: Sequence[Waveform]) -> Html:
     drawn = []
     for one in waveforms[:_WAVEFORMS]:
         whose = f" (finding {one.finding})" if one.finding else ""
-        caption = f"{clean(one.equation)}, {clean(one.element)}{whose}"
+        caption = f"{clean(one.element)}: {clean(one.equation)}{whose}"
         drawn.append(element("figure", element("figcaption", caption),
                              image(waveform_figure(one), f"{caption}: estimate with 95 % band")))  # fmt: skip
     note = "The input that would have to be added for the unit to give what was measured, without any law assumed."

@@ -53,6 +53,11 @@ def _cell(content: str) -> Html:
     return content if isinstance(content, Html) and content.startswith("<td") else element("td", content)
 
 
+def wrapped(text: str) -> Html:
+    """A cell of running text, which may take several lines."""
+    return element("td", text, class_="text")
+
+
 def listing(items: Iterable[str]) -> Html:
     """A bulleted list."""
     return element("ul", *(element("li", i) for i in items))
