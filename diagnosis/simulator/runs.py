@@ -174,8 +174,7 @@ def bank_quantity(target: Target, layout: BankLayout, recording: Recording) -> t
         coil = _coil(target.element, layout)
         if coil is not None:
             return target.quantity, coil
-    name = f"{target.kind}{list(target.element) or ''}.{target.quantity}"
-    raise InputError(source, f"channels.{name}", "the scenario has no such quantity",
+    raise InputError(source, f"channels.{target}", "the scenario has no such quantity",
                      f"it has {layout.coils} coils in {len(layout.strings)} strings")  # fmt: skip
 
 
