@@ -24,6 +24,8 @@ TOLERANCE = 1e-6
 TRUSTED = 0.6
 #: ... or where a parameter moved by more than this since [prior deviations]; less where they disappoint.
 MOVED, NEAR = 1.5, 0.2
+#: Most times that a fit near another takes them anew: it is a trial, and what is good is fitted to the end.
+REFRESHES = 3
 
 
 def huber_weights(residuals: Array) -> Array:
@@ -117,7 +119,8 @@ class _Objective:
         free = [p for t in terms for p in t.parameters]
         self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
         bound = np.array([p.bounds for p in model.parameters]) * widths
-        self.lower = np.concatenate([-bound, [p.lower / s for p, s in zip(free, self.scale)]])
+        least = [p.upper if p.is_switch else p.lower for p in free]
+        self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
         self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
 
     def point(self, x: Array) -> Point:
@@ -205,21 +208,23 @@ def fit(
         columns = Columns.of(objective.base_columns(x), x[:count], here)
     else:
         columns = near.columns
-    is_fresh, poor = near is None, 0
+    is_fresh, poor, refreshes = near is None, 0, 0
+    most = iterations if near is None else REFRESHES
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
     terms = objective.term_columns(x, here)
     for _ in range(iterations):
         other, there, gained, promised, damping = _descend(objective, (x, here, value), (columns, terms), damping)
         x, here, value = other, there, value - gained
         moved = float(np.max(np.abs(x[:count] - columns.at), initial=0.0))
-        if promised <= TOLERANCE * (1.0 + value) and moved <= MOVED:
+        if promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or refreshes >= most):
             is_converged = True
             break
-        if gained == 0.0 and is_fresh:
+        if gained == 0.0 and (is_fresh or refreshes >= most):
             break
         poor = poor + 1 if gained < TRUSTED * promised else 0
         is_fresh = moved > MOVED or gained == 0.0 or (poor > 0 and moved > NEAR) or poor > 1
-        if is_fresh:
+        if is_fresh and refreshes < most:
+            refreshes += 1
             columns, poor = Columns.of(objective.base_columns(x), x[:count], here), 0
         terms = objective.term_columns(x, here)
     return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths)

@@ -23,8 +23,12 @@ STRAINED = 4.0
 UNNAMED = 6.0
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
+#: ... or within this share of what was gained, for the first fits are rough.
+ROUGH = 0.03
 #: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
+#: A term is not refitted any more once another gained so many times what its straight line promises.
+OUTDONE = 1.8
 #: Instants from which a fit may begin.
 INSTANTS = 40
 #: Nulls that say what chance gives to the best of all terms.
@@ -206,16 +210,19 @@ def _grow(
         scoring = _scored(model, explanation.fit, terms, settings, DRAWS if not explanation.terms else 0)
         scorings.append(scoring)
         hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
+        most = 0.0
         for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
-            if key not in grown:
+            if key not in grown and candidate.gain * OUTDONE > most:
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
-    return _polished(model, sorted(grown.values(), key=lambda e: e.demerit)), scorings[0]
+                most = max(most, explanation.fit.cost - grown[key].fit.cost)
+    return _polished(model, sorted(grown.values(), key=lambda e: e.demerit), current[0].demerit), scorings[0]
 
 
-def _polished(model: Model, grown: list[Explanation]) -> list[Explanation]:
+def _polished(model: Model, grown: list[Explanation], before: float) -> list[Explanation]:
     """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
-    near = [e for e in grown if e.demerit < grown[0].demerit + CLOSE][:MOST_POLISHED]
+    gained = before - grown[0].demerit if grown else 0.0
+    near = [e for e in grown if e.demerit < grown[0].demerit + max(CLOSE, ROUGH * gained)][:MOST_POLISHED]
     done = [Explanation(fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
     return sorted([*done, *grown[len(near) :]], key=lambda e: e.demerit)
 
@@ -230,12 +237,20 @@ def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, 
 
 
 def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
-    """The best scores, and the best of every effect that comes near them: places compete, and so do effects."""
-    chosen = list(ranked[:count])
-    for candidate in ranked[count : 6 * count]:
-        if candidate.gain > 0.3 * ranked[0].gain and all(
-            c.term.identifier != candidate.term.identifier for c in chosen
-        ):
+    """The best scores, and the best of other effects that come near them: places compete, and so do effects.
+
+    Of the many generic laws only the best few of each unit are among the others.
+    """
+    chosen: list[Score] = []
+    generic = count if ranked and not ranked[0].term.is_named else count // 2
+    for candidate in ranked[:count]:
+        generic -= not candidate.term.is_named
+        chosen += [candidate] if candidate.term.is_named or generic >= 0 else []
+    others = {True: 0, False: 0}
+    for candidate in ranked[count : 12 * count]:
+        is_new = all(c.term.identifier != candidate.term.identifier for c in chosen)
+        if candidate.gain > 0.3 * ranked[0].gain and is_new and others[candidate.term.is_named] < count:
+            others[candidate.term.is_named] += 1
             chosen.append(candidate)
     return chosen
 

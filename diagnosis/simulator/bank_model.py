@@ -93,9 +93,13 @@ class BankModel:
 
     def terms(self) -> list[Term]:
         """Every candidate at every place, as the search sees them."""
-        for candidate in self._candidates.values():
-            for place in places(candidate, self.coils, self.measured):
-                self._places.setdefault(self._term(candidate, place), (candidate, place))
+        if not self._places:
+            for candidate in self._candidates.values():
+                known: set[bytes] = set()  # one coil is all coils, one source all sources
+                for place in places(candidate, self.coils, self.measured):
+                    if place.kind == "swap" or place.mask.tobytes() not in known:
+                        self._places[self._term(candidate, place)] = (candidate, place)
+                        known.add(place.mask.tobytes())
         return list(self._places)
 
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:
