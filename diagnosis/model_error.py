@@ -58,25 +58,46 @@ def search_with_model_error(
 
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
-    """Search named laws, then all, and take what foretells best; a name goes before an equal without one."""
+    """Search plain laws, then all, and take what foretells best; a plain law goes before an equal that is none."""
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
     known: list[Foretold] = []
     outcomes = []
     every = model.terms()
-    named = [t for t in every if t.is_named]
-    for terms in (named, every) if len(named) < len(every) else (every,):
+    plain = plain_terms(model, every)
+    for terms in (plain, every) if len(plain) < len(every) else (every,):
         validation = Validation(model, partial(MaskedModel, model), on_progress)
         outcomes.append(search(model, terms, wide, model.groups(), on_progress, validation.select))
         known += validation.all
     outcome = outcomes[-1]
     if not known:
         return outcome
-    best = chosen(known)
+    best = chosen(known, set(plain))
     explanation = shrink(model, best.explanation, outcome.margin)
     near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
     rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
     left = structure(explanation.fit.residuals, model.layout, model.groups())
     return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+
+
+def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
+    """Laws with a name that hold at any time, and faults of sensors that a recording itself says may be there.
+
+    Where much is left unexplained, an event at some instant, a term without a name or a sensor under suspicion without
+    a reason fills any gap; none of them says anything about another recording.
+    """
+    channels = [s.channel for run in model.runs for s in run.series]
+    stated = {
+        "sensor_lag": any(c.lag_bound > 0 for c in channels),
+        "sensor_clock_offset": any(c.offset_bound > 0 for c in channels),
+        "sensor_bias": any(c.bias_bound > 0 for c in channels),
+    }
+    return [
+        t
+        for t in terms
+        if t.is_named
+        and all(p.name != "instant" for p in t.parameters)
+        and (t.unit != "measurement" or stated.get(t.identifier, False))
+    ]
 
 
 def _once(explanations: Sequence[Explanation]) -> list[Explanation]:

@@ -10,20 +10,22 @@ Springer 2009, section 7.10.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Layout, Model
+from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.search import Explanation
 
 #: Stretches of time that a recording is cut into.
 BLOCKS = 5
 #: Explanations that are validated, the best fits first.
 VALIDATED = 10
+#: Share of the largest gain that an explanation must have to be validated.
+WORTH = 0.3
 #: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
 PATIENCE = 2
 #: Most Jacobians of a fit to a part; it starts from the fit to the whole.
@@ -97,8 +99,10 @@ class Validation:
             self.all.append(self.foretold(before))
             self._losses.append(self.all[0].loss)
         found = []
-        for number, explanation in enumerate(grown[:VALIDATED]):
-            self._on_progress(f"validating explanation {number + 1} of {min(len(grown), VALIDATED)}")
+        most = before.fit.cost - grown[0].fit.cost if grown else 0.0
+        hopeful = [e for e in grown[:VALIDATED] if before.fit.cost - e.fit.cost >= WORTH * most]
+        for number, explanation in enumerate(hopeful):
+            self._on_progress(f"validating explanation {number + 1} of {len(hopeful)}")
             found.append(self.foretold(explanation))
         self.all += found
         self._losses.append(min((f.loss for f in found), default=np.inf))
@@ -107,21 +111,23 @@ class Validation:
         return [f.explanation for f in sorted(found, key=lambda f: f.loss)]
 
 
-def chosen(found: Sequence[Foretold]) -> Foretold:
-    """The explanation with the fewest unnamed terms, then the fewest terms, of those that foretell as well as the best.
+def chosen(found: Sequence[Foretold], plain: Collection[Term]) -> Foretold:
+    """Of those that foretell as well as the best: the one with the fewest terms that are not plain, then the fewest.
 
     Args:
         found: At least one.
+        plain: Terms that need no special reason.
     """
     best = min(found, key=lambda f: f.loss)
-    return min((f for f in found if _within(f, best)), key=lambda f: (_unnamed(f), len(f.explanation.terms), f.loss))
+
+    def simplicity(one: Foretold) -> tuple[int, int, float]:
+        terms = one.explanation.terms
+        return sum(t not in plain for t in terms), len(terms), one.loss
+
+    return min((f for f in found if _within(f, best)), key=simplicity)
 
 
 def _within(one: Foretold, best: Foretold) -> bool:
     """Whether an explanation foretells as well as the best, within the standard error of the difference."""
     difference = one.losses - best.losses
     return bool(np.mean(difference) <= np.std(difference, ddof=1) / np.sqrt(len(difference)))
-
-
-def _unnamed(one: Foretold) -> int:
-    return sum(not t.is_named for t in one.explanation.terms)
