@@ -1,0 +1,48 @@
+"""Recordings of small fabrics, made by the closed co-simulation with other numbers than the scenario says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cosim.quantity import PhysicalValue
+from cosim.run import run
+from cosim.scenario import Scenario, load_scenario
+from diagnosis.recording.readings import read_results
+from diagnosis.recording.recording import Recording, load_recording
+from diagnosis.recording.sensor import SensorFile
+from diagnosis.recording.write import Notes, write_recording
+
+SMALL, DRAPE = Path(__file__).with_name("small.yaml"), Path(__file__).with_name("drape.yaml")
+SENSORS = SensorFile.model_validate({
+    "default": {"rate": "20 Hz", "noise": "0.2 mm", "unit": "m"},
+    "channels": {"coil.temperature": {"rate": "10 Hz", "noise": "0.3 K"},
+                 "supply.current": {"rate": "20 Hz", "noise": "3 mA", "unit": "A"}},
+})  # fmt: skip
+ELECTRICAL = ["supply.current", "coil[1,1].temperature", "coil[3,2].temperature"]
+MARKERS = [f"marker[{i}].{axis}" for i in range(5, 11) for axis in "xyz"] + ["link[15].length", "link[12].length"]
+
+
+def with_fabric(scenario: Scenario, **numbers: str) -> Scenario:
+    """The scenario with other parameters of its fabric."""
+    fabric = scenario.components["fabric"]
+    given = {name: PhysicalValue.parse(text) for name, text in numbers.items()}
+    own = fabric.model_copy(update={"parameters": {**fabric.parameters, **given}})
+    return scenario.model_copy(update={"components": {**scenario.components, "fabric": own}})
+
+
+def shortened(scenario: Scenario, stop: float) -> Scenario:
+    """The scenario up to a time [s]."""
+    return scenario.model_copy(update={"time": scenario.time.model_copy(update={"stop": PhysicalValue(stop, "s")})})
+
+
+def made(folder: Path, seed: int, channels: list[str], scenario: Scenario, **truth: str) -> Recording:
+    """A recording of a fabric that starts by itself, with a random start of its own and other numbers."""
+    start = {"start_speed": "1 mm/s", "start_number": str(1000 + seed)}
+    results = run(with_fabric(scenario, **start, **truth))
+    write_recording(folder, read_results(results, channels, SENSORS, seed, folder), Notes("fabric"))
+    return load_recording(folder)
+
+
+def small() -> Scenario:
+    """5 x 2 links for a second."""
+    return load_scenario(SMALL)

@@ -1,0 +1,122 @@
+"""Coil bank and Bullet together: the same as the closed co-simulation, and clear refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from cosim.assemble import assemble
+from cosim.errors import InputError
+from cosim.run import run
+from cosim.scenario import load_scenario
+from diagnosis.candidates.registry import catalogue
+from diagnosis.fabric.laws import fabric_laws
+from diagnosis.fabric.model import START_SPEED, FabricModel
+from diagnosis.fabric.search import search_fabric
+from diagnosis.judge.diagnosis import Verdict
+from diagnosis.judge.judge import nominal_cost, verdict
+from diagnosis.search.cosim_run import predicted
+from diagnosis.search.problem import Point
+from diagnosis.search.search import Settings
+from diagnosis.simulator.models import model_of
+from tests.fabric_diagnosis.fabrics import DRAPE, ELECTRICAL, MARKERS, made, shortened, small, with_fabric
+
+SHORT = 0.1
+
+
+@pytest.fixture(scope="module")
+def short(tmp_path_factory):
+    return made(tmp_path_factory.mktemp("s") / "r", 1, [*ELECTRICAL[:1], *MARKERS], shortened(small(), 0.5))
+
+
+@pytest.fixture(scope="module")
+def found(short):
+    return model_of(small(), [short], catalogue())
+
+
+def test_a_scenario_with_a_fabric_is_diagnosed_by_bank_and_bullet(found):
+    assert isinstance(found, FabricModel)
+    assert found.banked > 20
+    assert [p.name for p in found.parameters[found.banked :]] == [
+        "fabric.link_mass", "fabric.friction", "fabric.steel_stiffness",
+    ]  # fmt: skip
+    assert {t.identifier for t in found.laws()} >= {"tilt", "slide_friction", "hinge_friction", "payload", "backlash"}
+
+
+def test_bullet_driven_by_the_bank_moves_like_the_closed_co_simulation(found, short):
+    closed = run(shortened(small(), 0.5))
+    values = found.predict(Point(np.zeros(len(found.parameters))), 0)
+    names = list(short.channels)
+    worst = 0.0
+    for name in MARKERS:
+        channel = short.channels[name]
+        early = channel.times <= SHORT
+        own = values[names.index(name)][early]
+        same = predicted(closed, channel.target, channel.times, short.path)[early]
+        worst = max(worst, float(np.abs(own - same).max()))
+    # stiffness agrees to 1e-9; contacts amplify it, by less than a micrometre within a tenth of a second
+    assert worst < 1e-6
+
+
+def test_every_effect_is_a_parameter_that_the_scenario_takes(found):
+    for term in found.laws():
+        point = Point(np.zeros(len(found.parameters)), {term: (term.parameters[0].starts[0],)})
+        numbers = found.fabric_parameters(point, 0)
+        assert list(numbers) == [term.parameters[0].name]
+        amended = with_fabric(small(), **{n: f"{v.number!r} {v.unit}" for n, v in numbers.items()})
+        assemble(amended).system.terminate()
+
+
+def test_random_starts_are_parameters_too(found):
+    nominal = Point(np.zeros(len(found.parameters)))
+    assert found.fabric_parameters(nominal, 0) == {}
+    numbers = found.fabric_parameters(nominal, 0, start=3)
+    assert numbers["start_speed"].number == START_SPEED
+    assert numbers["start_number"].number == 3
+
+
+def test_a_recording_without_the_fabric_is_refused(tmp_path):
+    recording = made(tmp_path / "r", 1, ELECTRICAL, shortened(small(), 0.8))
+    with pytest.raises(InputError, match="no channel measures the fabric"):
+        model_of(small(), [recording], catalogue())
+
+
+def test_a_drape_without_circuit_is_diagnosed_by_the_closed_co_simulation(tmp_path):
+    scenario = load_scenario(DRAPE)
+    channels = [f"marker[{i}].z" for i in (6, 7, 8)]
+    recording = made(tmp_path / "r", 1, channels, scenario)
+    model = model_of(scenario, [recording], catalogue())
+    assert isinstance(model, FabricModel)
+    assert model.bank is None
+    values = model.predict(Point(np.zeros(len(model.parameters))), 0)
+    assert [len(v) for v in values] == [len(recording.channels[n].times) for n in channels]
+    assert np.abs(values[0] - recording.channels["marker[6].z"].values).max() < 2e-3  # scatter and noise
+
+
+def test_all_laws_take_energy_or_have_a_sign():
+    for law in fabric_laws("fabric"):
+        lower = law.place.term.parameters[0].lower
+        assert lower == 0.0 or law.place.term.identifier in ("tilt", "roll")
+
+
+@pytest.mark.slow
+def test_a_tilt_is_found_and_another_start_is_not(tmp_path):
+    """About a hundred simulations of a second each."""
+    tilted = made(tmp_path / "tilted", 1, [*ELECTRICAL, *MARKERS], small(), tilt="0.07 rad")
+    model = model_of(small(), [tilted], catalogue())
+    assert isinstance(model, FabricModel)
+    outcome = search_fabric(model, Settings(seed=1))
+    assert verdict(outcome, nominal_cost(model)) is Verdict.MISSING_PHYSICS
+    assert [t.identifier for t in outcome.best.terms] == ["tilt"]
+    (values,) = outcome.best.fit.point.terms.values()
+    assert values[0] == pytest.approx(0.07, abs=0.02)  # twice the half width of its interval
+
+
+@pytest.mark.slow
+def test_scatter_of_a_fabric_is_never_called_physics(tmp_path):
+    same = made(tmp_path / "same", 1, [*ELECTRICAL, *MARKERS], small())
+    model = model_of(small(), [same], catalogue())
+    assert isinstance(model, FabricModel)
+    outcome = search_fabric(model, Settings(seed=1))
+    assert not outcome.best.terms
+    assert verdict(outcome, nominal_cost(model)) in (Verdict.CONSISTENT, Verdict.RECALIBRATED)

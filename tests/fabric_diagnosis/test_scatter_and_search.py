@@ -1,0 +1,130 @@
+"""Contact scatter as uncertainty, and the search on what few simulations gave; truths are drawn, not simulated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diagnosis.fabric.mechanical import MechanicalModel
+from diagnosis.fabric.scatter import FEWEST, Bins, Whitening, calibrated_scatter, scatter_covariance
+from diagnosis.fabric.surface import Surface
+from diagnosis.search.problem import Parameter, Point, Term, TermParameter
+from diagnosis.search.search import Settings, search
+
+CHANNELS, TIMES = 10, 12
+CHANNEL = np.tile(np.arange(CHANNELS), TIMES)
+TIME = np.repeat(np.linspace(0.0, 1.0, TIMES), CHANNELS)
+BINS = Bins(CHANNEL, TIME, np.zeros(len(TIME), dtype=int), np.zeros(len(TIME), dtype=int),
+            np.full(len(TIME), 2e-5), np.full(len(TIME), 1e-2))  # fmt: skip
+SCATTER = 3e-4  # m
+
+
+def members(count: int, seed: int) -> np.ndarray:
+    """Fabrics whose channels are off by amounts that stay for most of the run, as links that stick are."""
+    random = np.random.default_rng(seed)
+    stays = random.standard_normal((count, 1, CHANNELS)) * np.ones((1, TIMES, 1))
+    moves = random.standard_normal((count, TIMES, CHANNELS))
+    return 0.05 + SCATTER * (0.9 * stays + 0.4 * moves).reshape(count, -1)
+
+
+def effect(kind: int, size: float) -> np.ndarray:
+    """A pattern over channels that grows in time, of a size in metres."""
+    pattern = np.random.default_rng(100 + kind).standard_normal(CHANNELS)
+    return size * (TIME * pattern[CHANNEL])
+
+
+def term(name: str) -> Term:
+    return Term(name, "fabric", "mechanical", (TermParameter("size", "1", -10.0, 10.0, (1.0,)),))
+
+
+TERMS = [term(name) for name in ("tilt", "payload", "wires", "friction")]
+
+
+def model(measured: np.ndarray, ensemble: np.ndarray) -> MechanicalModel:
+    surface = Surface(ensemble.mean(axis=0), np.zeros(1))
+    surface.slopes[0] = effect(9, 1e-4)
+    for kind, one in enumerate(TERMS):
+        surface.add(one, 1.0, ensemble.mean(axis=0) + effect(kind, 1e-3), np.zeros(1))
+    parameters = [Parameter("fabric.friction", "1", 0.5, 0.05)]
+    return MechanicalModel(parameters, surface, measured, BINS, ensemble, [f"marker[{i}].z" for i in range(CHANNELS)])
+
+
+def test_one_more_fabric_is_foretold_within_the_covariance_of_eight():
+    squares = []
+    for seed in range(20):
+        drawn = members(9, seed)
+        whiten = Whitening(calibrated_scatter(drawn[:8], BINS), BINS.noise)
+        squares.append(np.mean(whiten(drawn[8] - drawn[:8].mean(axis=0)) ** 2))
+    # a prediction from eight members is widened by (1 + 1/8) 7/5 = 1.6, so the mean lies below 1
+    assert 0.5 < np.mean(squares) < 1.1
+
+
+def test_scatter_that_stays_does_not_average_out_over_time():
+    covariance = scatter_covariance(members(8, 1), BINS)
+    first = CHANNEL == 0
+    mean_variance = covariance[np.ix_(first, first)].mean()
+    # true variance of a channel's mean over the run: (0.9^2 + 0.4^2 / 12) of SCATTER^2; white noise would give 1 / 12
+    assert mean_variance > 0.4 * SCATTER**2
+
+
+def test_members_farther_apart_than_the_covariance_says_widen_it():
+    drawn = members(8, 2)
+    drawn[3] += 20 * SCATTER * np.sin(40 * TIME)
+    plain, wide = scatter_covariance(drawn, BINS), calibrated_scatter(drawn, BINS)
+    assert np.trace(wide) > 1.5 * np.trace(plain)
+
+
+def test_too_few_members_are_refused():
+    with pytest.raises(ValueError, match="too few"):
+        scatter_covariance(members(FEWEST - 1, 1), BINS)
+
+
+def test_a_surface_is_exact_at_its_simulations_and_straight_between_them():
+    surface = Surface(np.array([1.0, 2.0]), np.zeros(1))
+    surface.slopes[0] = [0.5, 0.0]
+    surface.add(TERMS[0], 1.0, np.array([1.2, 2.0]), np.zeros(1))
+    surface.add(TERMS[0], 3.0, np.array([2.5, 2.0]), np.array([2.0]))  # 1.0 of it is the parameter's
+    for strength, change in ((0.5, 0.1), (1.0, 0.2), (2.0, 0.35), (3.0, 0.5), (5.0, 0.8), (-1.0, -0.2)):
+        assert surface.effect(TERMS[0], strength)[0] == pytest.approx(change)
+    found = surface.bins([Point(np.zeros(1), {TERMS[0]: (2.0,)})], [np.array([1.0])])
+    np.testing.assert_allclose(found, [[1.85, 2.0]])
+
+
+def test_an_effect_beyond_the_scatter_is_named_with_its_size():
+    drawn = members(9, 5)
+    own = model(drawn[8] + effect(1, 3e-3), drawn[:8])
+    outcome = search(own, TERMS, Settings())
+    assert [t.identifier for t in outcome.best.terms] == ["payload"]
+    strength = outcome.best.fit.point.terms[TERMS[1]][0]
+    deviation = np.sqrt(outcome.best.fit.covariance[1, 1])
+    assert strength == pytest.approx(3.0, abs=4 * deviation)
+    assert deviation < 0.5
+
+
+def test_scatter_alone_is_never_called_physics():
+    found = 0
+    for seed in range(20):
+        drawn = members(9, 40 + seed)
+        found += bool(search(model(drawn[8], drawn[:8]), TERMS, Settings()).best.terms)
+    assert found == 0  # 5 % of 20 would be one; the widening makes it rarer
+
+
+def test_without_the_covariance_scatter_would_be_called_physics():
+    found = 0
+    for seed in range(10):
+        drawn = members(9, 40 + seed)
+        own = model(drawn[8], drawn[:8])
+        own._whiten = Whitening(1e-4 * own.scatter, replace(BINS, noise=BINS.noise).noise)
+        found += bool(search(own, TERMS, Settings()).best.terms)
+    assert found >= 5
+
+
+def test_a_member_left_out_is_a_null():
+    drawn = members(8, 7)
+    null = model(drawn[0], drawn).without_member(3, seed=0)
+    assert len(null.members) == 7
+    np.testing.assert_allclose(null.measured, drawn[3], atol=6 * 2e-5)
+    np.testing.assert_allclose(null.surface.mean, np.delete(drawn, 3, axis=0).mean(axis=0))
+    assert not search(null, TERMS, Settings()).best.terms
