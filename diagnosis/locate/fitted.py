@@ -55,8 +55,8 @@ class Fitted:
         Args:
             change: Of the parameters, in prior deviations, shape (parameters,).
         """
-        bounds = np.array([p.bounds for p in self.parameters])
-        point = Point(np.clip(self.fit.point.base + change, -bounds, bounds))
+        bounds = np.array([p.bounds for p in self.parameters]) * self.fit.widths
+        point = Point(np.clip(self.fit.point.base + change * self.fit.widths, -bounds, bounds))
         residuals = self.outer.residuals([point])[0]
         if not np.isfinite(residuals).all():
             return None

@@ -178,7 +178,7 @@ def is_own(model: Fitted, replay: Replay) -> Array:
 def _prior(model: Fitted, replay: Replay) -> Array:
     """What brings the unit's own parameters back to their nominal values; others are taken as they were found."""
     prior = np.zeros(replay.panels[0].columns.shape[2])
-    prior[: len(model.parameters)] = -model.fit.point.base * is_own(model, replay)
+    prior[: len(model.parameters)] = -model.fit.point.base / model.fit.widths * is_own(model, replay)
     return prior
 
 

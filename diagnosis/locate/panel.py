@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES
 from diagnosis.locate.fitted import Fitted
-from diagnosis.simulator.runs import Series, deviation
+from diagnosis.simulator.runs import ZERO, Series, deviation
 
 #: Lags after which a sensor has followed a jump (to 5 %).
 SETTLED = 3.0
@@ -100,15 +100,37 @@ def panels(model: Fitted, quantity: str) -> list[Panel]:
         for k, (series, span, channel) in enumerate(members):
             counted = series.used & _is_settled(series, run.inputs)
             used[series.samples, k] = counted
-            residual[series.samples, k] = np.where(counted, fit.residuals[span], 0.0)
-            columns[series.samples, k] = np.where(counted[:, None], rows[span], 0.0)
+            own = _with_zero(rows[span], series) * fit.widths
+            residual[series.samples, k] = np.where(counted, _with_zero(fit.residuals[span], series), 0.0)
+            columns[series.samples, k] = np.where(counted[:, None], own, 0.0)
             sizes[:, k] = deviation(series.channel) * np.sqrt(model.inflation[channel])
         elements = np.array([s.element for s, _, _ in members])
         channels = np.array([n for _, _, n in members])
+        noise = (_zeros(recording, quantity, used, [series for series, _, _ in members]),)
         found.append(
-            Panel(recording, quantity, run.times[quantity], channels, elements, sizes, residual, used, columns)
+            Panel(recording, quantity, run.times[quantity], channels, elements, sizes, residual, used, columns, noise)
         )
     return found
+
+
+def _with_zero(values: Array, series: Series) -> Array:
+    """Residuals or columns, shape (samples, ...), as they are where a channel's unknown zero is not whitened away.
+
+    See `diagnosis.simulator.runs.Run`: it takes a share of the mean away, by which the mean shrinks to
+    1 / sqrt(1 + n ZERO^2) of itself.
+    """
+    count = max(int(np.count_nonzero(series.used)), 1)
+    grown = np.sqrt(1.0 + count * ZERO**2) - 1.0 if series.channel.bias_bound == 0.0 else 0.0
+    mean = values[series.used].sum(axis=0) / count
+    used = series.used.reshape((-1, *(1,) * (values.ndim - 1)))
+    return np.asarray(values + used * mean * grown, dtype=np.float64)
+
+
+def _zeros(recording: int, quantity: str, used: AnyArray, members: Sequence[Series]) -> Noise:
+    """The unknown zero of each channel as noise that is the same at all times."""
+    sizes = np.array([ZERO if s.channel.bias_bound == 0.0 else 0.0 for s in members])
+    count = len(members)
+    return Noise(("zero", recording, quantity), np.arange(count), used[:, :, None] * np.diag(sizes))
 
 
 def _is_settled(series: Series, inputs: BankInputs) -> Array:

@@ -157,13 +157,13 @@ def _heated_by(model: Fitted, course: Course, seen_by: tuple[Panel, Panel], shar
         by_resistance = respond @ (squared * course.resistance[coil]) / panel.deviation[:, k]
         for n, (field, parameter) in own.items():
             if field == "reference_resistance" and is_at(model, parameter, int(coil)):
-                columns[:, k, n] = -by_resistance * parameter.deviation
+                columns[:, k, n] = -by_resistance * parameter.deviation * model.fit.widths[n]
     columns *= panel.used[:, :, None]
     carried = tuple(
         Noise(("current", panel.recording, s), np.array([k for k, _ in own]), np.stack([f for _, f in own], axis=1))
         for s, own in noise.items()
     )
-    return replace(panel.less(change), columns=columns, noise=carried)
+    return replace(panel.less(change), columns=columns, noise=(*panel.noise, *carried))
 
 
 def is_at(model: Fitted, parameter: Parameter, coil: int) -> bool:
@@ -220,7 +220,7 @@ def _at_recorded_temperature(
         if own.size:
             gain = np.where(panel.used, slope / panel.deviation, 0.0)[:, own]
             noise.append(Noise(("temperature", panel.recording, number), own, gain[:, :, None] * factor[:, None, :]))
-    return replace(panel.less(change), noise=tuple(noise))
+    return replace(panel.less(change), noise=(*panel.noise, *noise))
 
 
 def _groups(model: Fitted, panel: Panel) -> list[Array]:
@@ -240,7 +240,7 @@ def _with_uncertain_temperature(model: Fitted, panel: Panel) -> Panel:
     values, vectors = np.linalg.eigh(covariance)
     root = vectors * np.sqrt(np.maximum(values, 0.0))
     columns = panel.columns.copy()
-    columns[:, :, others] = columns[:, :, others] @ root  # whitened: each has again a deviation of 1 and a mean of 0
+    columns[:, :, others] = (columns[:, :, others] / model.fit.widths[others]) @ root
     return replace(panel, columns=columns)
 
 
