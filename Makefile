@@ -12,7 +12,7 @@ JOBS ?= 2
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: help run prove test test-slow check lint types imports fmus setup dev bench lock clean distclean
+.PHONY: help run prove real test test-slow check lint types imports fmus setup dev bench lock clean distclean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -24,6 +24,12 @@ PROOF ?= runs/prove
 prove: dev fmus  ## the diagnosis on 460 cases with concealed effects (hours); what is done is kept in runs/prove
 	$(BIN)/cosim prove --cases 460 --seed 1 --out $(PROOF) --jobs $(JOBS)
 	$(BIN)/cosim prove --table $(PROOF) --page docs/proving-results.md
+
+REAL ?= runs/real
+real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=folder of their raw files (docs/real-recordings.md)
+	test -d $(REAL)/recordings || $(BIN)/python -m diagnosis.real --recordings "$(RECORDINGS)" --out $(REAL)/recordings
+	test -d $(REAL)/recordings/paper_cooling || $(BIN)/python -m diagnosis.real.paper_cooling --out $(REAL)/recordings
+	$(BIN)/python -m diagnosis.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
 
 test: dev fmus  ## the test suite (about ten minutes on two cores)
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m "not slow"

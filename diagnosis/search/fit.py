@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.unit import Array
 from diagnosis.search.problem import Model, Point, Term
@@ -247,7 +247,11 @@ def _descend(
         free = np.flatnonzero(~is_held)
         damped = normal[np.ix_(free, free)] + np.diag(damping * size[free])
         step = np.zeros_like(x)
-        step[free] = -cho_solve(cho_factor(damped), slope[free])
+        try:
+            step[free] = -cho_solve(cho_factor(damped), slope[free])
+        except LinAlgError:  # single precision made it indefinite
+            damping *= 6.0
+            continue
         other = np.clip(x + step, objective.lower, objective.upper)
         moved = other - x
         promised = float(-2.0 * slope @ moved - moved @ normal @ moved)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.unit import Array
 from diagnosis.search.fit import Fit, huber_weights
@@ -57,7 +57,7 @@ class Projection:
         self._widths = base.widths
         kind = base.jacobian.dtype
         self._jacobian = base.jacobian * self.weights.astype(kind)[:, None]
-        self._factor = cho_factor(_steady(base.information))
+        self._factor = _factored(base.information)
         slope = np.asarray(self._jacobian.T @ self.residuals.astype(kind), dtype=np.float64) + self._prior
         self._pull = cho_solve(self._factor, slope)
 
@@ -107,9 +107,20 @@ class Seen:
     across: Array
 
 
-def _steady(normal: Array) -> Array:
-    """The same with a hair more on its diagonal: single precision must not make it indefinite."""
-    return np.asarray(normal + np.diag(1e-7 * np.diag(normal)))
+def _factored(normal: Array) -> tuple[Array, bool]:
+    """Cholesky factor of a normal matrix with a hair more on its diagonal.
+
+    Single precision, or a term that does nothing where it stands, must not make it indefinite.
+    """
+    size = np.diag(normal) + 1e-12 * np.max(np.diag(normal), initial=1e-300)
+    for share in (1e-7, 1e-5, 1e-3):
+        try:
+            factor, is_lower = cho_factor(normal + np.diag(share * size))
+        except LinAlgError:
+            continue
+        return factor, bool(is_lower)
+    factor, is_lower = cho_factor(np.diag(size))
+    return factor, bool(is_lower)
 
 
 def shapes(term: Term) -> Iterator[tuple[float, ...]]:

@@ -1,0 +1,96 @@
+"""What a search does where no model meets the readings within their noise, and what the first stretch is for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from diagnosis.search.fit import fit
+from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
+from diagnosis.search.search import Explanation
+from diagnosis.search.validation import BLOCKS, Foretold, Validation, blocks, chosen
+from diagnosis.simulator.tempered import correlation_time, inflation
+
+TIMES = np.linspace(0.0, 10.0, 200)
+LAYOUT = Layout(np.zeros(200, dtype=int), TIMES, ("bath.temperature",), ("thermal",))
+
+
+def term(name: str) -> Term:
+    return Term(name, "bath", "thermal", (TermParameter("a", "1", -10.0, 10.0, (0.1,)),))
+
+
+class Curves:
+    """A straight line, with terms that add a curve each; readings are given."""
+
+    parameters = (Parameter("level", "1", 0.0, 10.0, False), Parameter("slope", "1", 0.0, 10.0, False))
+    layout = LAYOUT
+    curves = {"bend": np.sin(TIMES), "gap": np.where(TIMES > 8.0, TIMES - 8.0, 0.0)}
+
+    def __init__(self, readings: np.ndarray, seen: np.ndarray | None = None) -> None:
+        self.readings = readings
+        self.seen = np.ones(200, dtype=bool) if seen is None else seen
+
+    def residuals(self, points: Sequence[Point]) -> np.ndarray:
+        found = []
+        for p in points:
+            curve = 10.0 * p.base[0] + p.base[1] * TIMES
+            for t, values in p.terms.items():
+                curve = curve + values[0] * self.curves[t.identifier]
+            found.append(np.where(self.seen, self.readings - curve, 0.0))
+        return np.array(found)
+
+    def base_jacobian(self, point: Point) -> np.ndarray:
+        return -np.stack([np.full(200, 10.0), TIMES], axis=1) * self.seen[:, None]
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 0.9])
+def test_the_correlation_time_is_that_of_an_autoregressive_process(share):
+    rng, values = np.random.default_rng(3), np.zeros(4000)
+    noise = rng.standard_normal(4000)
+    for i in range(1, 4000):
+        values[i] = share * values[i - 1] + noise[i]
+    expected = (1 + share) / (1 - share)
+    assert correlation_time(values) == pytest.approx(expected, rel=0.35)  # 4000 samples of 19 each and a window of 5 x 19: 30 %
+
+
+def test_noise_that_is_as_stated_is_not_inflated_and_twice_as_much_fourfold():
+    noise = np.random.default_rng(1).standard_normal(200)
+    assert inflation(noise, LAYOUT)[0] < 2.0
+    assert inflation(2.0 * noise, LAYOUT)[0] / inflation(noise, LAYOUT)[0] == pytest.approx(4.0, rel=0.3)
+
+
+def test_a_slow_error_of_one_deviation_counts_as_few_samples():
+    assert inflation(np.sqrt(2.0) * np.sin(2 * np.pi * TIMES / 10.0), LAYOUT)[0] > 20.0
+
+
+def test_stretches_are_equal_shares_of_time_and_hold_every_sample_once():
+    found = blocks(LAYOUT)
+    assert [int(b.sum()) for b in found] == [200 // BLOCKS] * BLOCKS
+    assert np.array_equal(sum(b.astype(int) for b in found), np.ones(200))
+
+
+def test_a_law_that_holds_foretells_and_a_gap_filler_does_not():
+    """A sine of three periods is foretold from the rest; a bend at the end alone helps nowhere else."""
+    readings = 4.0 * np.sin(TIMES) + np.random.default_rng(2).standard_normal(200)
+    model = Curves(readings)
+    validation = Validation(model, lambda seen: Curves(readings, seen))
+    start = fit(model, Point(np.zeros(2)))
+    grown = [Explanation(fit(model, start.point.plus(term(n), (0.1,)))) for n in ("bend", "gap")]
+    selected = validation.select(Explanation(start), grown)
+    assert [t.identifier for t in selected[0].terms] == ["bend"]
+    losses = {tuple(t.identifier for t in f.explanation.terms): f.loss for f in validation.all}
+    assert losses[("bend",)] == pytest.approx(1.0, abs=0.35)  # noise of 1; 200 samples: 0.1, and the fit's own errors
+    assert losses[()] > 5.0
+
+
+def test_of_two_that_foretell_alike_the_plain_one_is_taken():
+    readings = np.random.default_rng(2).standard_normal(200)
+    start = Explanation(fit(Curves(readings), Point(np.zeros(2))))
+    other = Explanation(fit(Curves(readings), start.fit.point.plus(term("bend"), (0.1,))))
+    losses = np.array([1.0, 1.2, 0.9, 1.1, 1.0])
+    far = Foretold(start, readings, losses + 1.0)
+    plain, special = Foretold(other, readings, losses + 0.01), Foretold(start, readings, losses * 0.98)
+    assert chosen([far, plain, special], set(other.terms)) is special  # fewer terms, and it foretells better
+    assert chosen([far, plain], set(other.terms)) is plain
