@@ -1,0 +1,31 @@
+"""Effects that look alike at the recalibrated point, and what the recalibration absorbs."""
+
+from diagnosis.isolability.alike import effects, widest
+from diagnosis.isolability.isolability import isolability
+from tests.locate.rig import fit_to, truth
+
+
+def test_known_confusions_are_seen():
+    model, fit = fit_to(truth({}))
+    shown, alike = effects(model, fit, widest(model.terms()))
+    by_name = {(e.term.identifier, e.term.place): e for e in shown}
+    source = by_name["supply_source_resistance", "supply"]
+    assert source.absorbed_by.endswith("reference_resistance")
+    assert source.visibility < 0.1
+    gain = by_name["sensor_gain", "every temperature"]
+    assert gain.visibility < 0.1
+    assert gain.absorbed_by.rpartition(".")[2] in ("conductance", "capacity")
+    step = by_name["incomplete_transformation", "all coils"]
+    assert step.visibility > source.visibility
+    assert all(0.0 <= p.cosine <= 1.0 and p.gain < 6.0 for p in alike)
+    pairs = {frozenset((p.one, p.other)) for p in alike}
+    assert frozenset(("stress_dependent_transformation", "transformation_shift")) in pairs  # one load only
+
+
+def test_statements_name_classes_and_the_best_extra_channel():
+    model, fit = fit_to(truth({}))
+    told = isolability(model, fit, model.terms())
+    assert any("cannot tell apart" in s and "stiffness of a coil" in s for s in told.statements)
+    assert told.extra_channels
+    assert told.extra_channels[0].statement in told.statements
+    assert all(len(c.faults) >= 1 for c in told.classes)

@@ -1,0 +1,68 @@
+"""What channels tell apart by the structure of the equations: the findings of the field notes."""
+
+import pytest
+
+from diagnosis.isolability.isolability import extra_channels
+from diagnosis.isolability.structure import Rig, analyse
+
+STRINGS = {"string[1]": ["coil[1,1]", "coil[1,2]"], "string[2]": ["coil[2,1]", "coil[2,2]"]}
+COILS = [c for coils in STRINGS.values() for c in coils]
+
+
+def rig(*quantities):
+    channels = set()
+    for quantity in quantities:
+        elements = ["supply"] if quantity == "supply_current" else STRINGS if quantity == "current" else COILS
+        channels |= {(quantity, e) for e in elements}
+    return Rig(STRINGS, True, True, frozenset(channels))
+
+
+def apart(analysis, one, other):
+    a, b = analysis.faults.index(one), analysis.faults.index(other)
+    return bool(analysis.is_isolable[a, b] and analysis.is_isolable[b, a])
+
+
+HEAT, PHASE = "heat balance of coil[1,1]", "stiffness of coil[1,1]"
+STRING, LENGTH = "resistance in series with string[1]", "force or extension of coil[1,1]"
+
+
+def test_current_temperature_and_position_tell_the_units_apart():
+    found = analyse(rig("current", "temperature", "extension"))
+    assert found.is_detectable.all()
+    assert apart(found, HEAT, PHASE)
+    assert apart(found, HEAT, STRING)
+    assert apart(found, PHASE, STRING)
+    assert not apart(found, PHASE, LENGTH)  # the extension shows both in one equation
+
+
+def test_without_temperature_heat_and_phase_cannot_be_told_apart():
+    found = analyse(rig("current", "extension"))
+    assert not apart(found, HEAT, PHASE)
+    assert apart(found, HEAT, STRING)
+
+
+def test_without_position_no_channel_shows_the_phase():
+    found = analyse(rig("current", "temperature"))
+    assert PHASE in found.undetectable()
+    assert LENGTH in found.undetectable()
+    assert not apart(found, HEAT, "sensor of coil[1,1].temperature")
+
+
+def test_one_coil_without_current_cannot_tell_electrical_from_thermal():
+    one = Rig({"string[1]": ["coil[1,1]"]}, True, True, frozenset({("temperature", "coil[1,1]")}))
+    found = analyse(one)
+    assert not apart(found, HEAT, STRING)
+    with_current = analyse(Rig(one.strings, True, True, one.channels | {("current", "string[1]")}))
+    assert apart(with_current, HEAT, STRING)
+
+
+@pytest.mark.parametrize(
+    ("quantities", "best"),
+    [(("current", "extension"), "temperature of every coil"),
+     (("current", "temperature", "extension"), "stiffness of every coil")],
+)  # fmt: skip
+def test_the_channel_that_would_help_most(quantities, best):
+    own = rig(*quantities)
+    found = extra_channels(own, analyse(own))
+    assert best in [f.channel for f in found[:2]]
+    assert found[0].classes >= found[-1].classes > 0
