@@ -144,6 +144,14 @@ class Isolation(Strict):
     )
 
 
+class AddedTermEntry(Strict):
+    """A term that the master adds to an FMU."""
+
+    to: StrictStr = Field(description="der(state) of a Model Exchange FMU, or the name of an input or output.")
+    formula: StrictStr = Field(description="In the FMU's variables, `time` and the parameters; units are checked.")
+    parameters: dict[str, AnyQuantity] = {}
+
+
 class FmuComponent(Strict):
     """A functional mock-up unit; an actuator, or anything else."""
 
@@ -166,6 +174,9 @@ class FmuComponent(Strict):
         default={}, description="Start values: of inputs, and of what the FMU declares as initial exact or approx."
     )
     record: list[str] = Field(default=[], description="Local variables that the results keep beside the outputs.")
+    added_terms: list[AddedTermEntry] = Field(
+        default=[], description="What is added to derivatives of its states, to its inputs and outputs."
+    )
 
 
 class ActuatorComponent(FmuComponent):

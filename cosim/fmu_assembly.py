@@ -10,6 +10,7 @@ from pathlib import Path
 
 from cosim.components import FmuComponent, Isolation
 from cosim.errors import InputError
+from cosim.fmu.added_terms import given_terms
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
@@ -46,7 +47,7 @@ def build_fmu(
         tolerance = component.tolerance.to("1") if component.tolerance is not None else None
         settings = FmuSettings(
             component.structure, parameters.values, component.start, tuple(component.record), tolerance,
-            report_early_return=reports_events,
+            report_early_return=reports_events, added_terms=given_terms(component.added_terms),
         )  # fmt: skip
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         build = partial(kind, name, archive, settings)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cosim.algorithms.algorithm import Algorithm, Plain
+from cosim.fmu.unit import FmuUnit
 from cosim.native import plan as native
 from cosim.native.compiled import LibraryAbsent, tell_once
 from cosim.native.plan import Grid
@@ -138,8 +139,10 @@ class NativeLoop(Loop):
 
 def choose_loop(watched: Watched, algorithm: Algorithm, kind: str) -> Loop:
     """The loop in C where there is one for this system and algorithm; else that in Python, and why, said once."""
+    # What the master adds to an FMU it adds in Python.
     is_parallel = kind == "jacobi" and watched.system.has_parallel_units
-    if isinstance(algorithm, Plain) and not is_parallel:
+    has_terms = any(isinstance(u, FmuUnit) and not u.added.is_empty for u in watched.system.units.values())
+    if isinstance(algorithm, Plain) and not is_parallel and not has_terms:
         try:
             return NativeLoop(watched, kind)
         except LibraryAbsent as reason:

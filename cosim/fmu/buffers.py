@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,8 @@ class Buffers:
         self._blocks: list[AnyArray] = []
         self._scalars: list[AnyArray] = []
         self._checked: list[tuple[AnyArray, AnyArray]] = []
+        #: What is done to outputs that were read, before anybody sees them.
+        self.added: Callable[[], None] | None = None
         read: dict[VariableType, dict[str, FmuVariable]] = {}
         for name, v in variables.items():
             if v.variable.type is VariableType.CLOCK:  # in Event Mode alone: cosim.fmu.clocks
@@ -85,6 +87,8 @@ class Buffers:
             # Infinity and NaN times zero are NaN: one product finds them all, four times as fast as isfinite().all().
             if zeros.dot(block) != 0.0:
                 raise self._not_finite(time)
+        if self.added is not None:
+            self.added()
 
     def _not_finite(self, time: int | None) -> UnitError:
         names = (n for n, v in self.values.items() if n not in self.writers and v.dtype.kind == "f")

@@ -142,6 +142,8 @@ class CoSimulationUnit(FmuUnit):
                 self._leave_event_mode()
             self._now = begin
             self.clocks.silence()
+            self.added.write_inputs(begin)
+            self.added.time = end
             status = self._advance(begin, end, length)
         except UnitError as error:
             raise UnitError(self.name, error.what, self._reached, error.remedy) from error

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.binding import DISCARD, WARNING, Binding
 from cosim.unit import Array, UnitError
 
@@ -20,9 +21,11 @@ class ContinuousModel:
 
     Args:
         binding: An initialised FMU.
+        added: What the master adds to it, or None.
     """
 
-    def __init__(self, binding: Binding) -> None:
+    def __init__(self, binding: Binding, added: AddedTerms | None = None) -> None:
+        self._added = None if added is None or added.is_empty else added
         description = binding.archive.description
         is_fmi3 = binding.prefix == "fmi3"
         self._binding = binding
@@ -75,12 +78,16 @@ class ContinuousModel:
             status = self._set_states(self._binding.fmu.component, self._addresses[0], self.states)
             if status > WARNING:
                 self._binding.check(f"{self._binding.prefix}SetContinuousStates", status)
+        if self._added is not None:
+            self._added.place(time, states)
 
     def derivatives(self, time: float, states: Array, rates: Array) -> None:
         """Fill `rates`; with NaN where the FMU discards the point, so that the integrator takes a smaller step."""
         rates[self.states :] = 0.0
         if self.states:
             rates[: self.states] = self._evaluate(self._get_derivatives, 1, "Derivatives", time, states)
+            if self._added is not None:
+                self._added.add_rates(time, states, rates)
 
     def event_indicators(self, time: float, states: Array, result: Array) -> None:
         """Fill `result`, shape (indicators,)."""
@@ -93,6 +100,8 @@ class ContinuousModel:
         if self.states:
             self._scratch[0][:] = states[: self.states]
             status = self._set_states(component, self._addresses[0], self.states)
+        if status <= WARNING and self._added is not None:
+            self._added.place(time, states)
         if status <= WARNING:
             status = function(component, self._addresses[slot], result.size)
         if status > WARNING:

@@ -45,7 +45,7 @@ class ModelExchangeUnit(FmuUnit):
         """From Initialization Mode through Event Mode to Continuous-Time Mode."""
         binding = self.binding
         self._mode = Mode.EVENT
-        self._model = ContinuousModel(binding)
+        self._model = ContinuousModel(binding, self.added)
         reports = bool(binding.capabilities.needsCompletedIntegratorStep)
         self._integrator = Integrator(self._model, self.settings.tolerance or RELATIVE_TOLERANCE, reports)
         self._enter_continuous = binding.checked("EnterContinuousTimeMode")
@@ -82,6 +82,7 @@ class ModelExchangeUnit(FmuUnit):
             raise UnitError(self.name, error.what, when, error.remedy) from error
         self._is_stale = False
         rounded = math.ceil((reached - INSTANT) * NANOSECONDS)
+        self.added.time = reached
         if rounded < time + size:
             self.buffers.read(rounded)
             return StepOutcome(StepStatus.EARLY_RETURN, rounded, f"{self.name} had an event")

@@ -14,7 +14,23 @@ from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
 from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array, start_value
+from cosim.quantity import PhysicalValue
 from cosim.unit import AnyArray, Causality
+
+
+@dataclass(frozen=True)
+class AddedTerm:
+    """A term that the master adds.
+
+    Args:
+        to: `der(state)`, or the name of an input or output.
+        formula: In the names of the FMU's variables, `time` and the parameters.
+        parameters: Numbers with units.
+    """
+
+    to: str
+    formula: str
+    parameters: Mapping[str, PhysicalValue] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -29,6 +45,7 @@ class FmuSettings:
         tolerance: Relative tolerance of the integrator; None: the FMU's own, or 1e-8 in Model Exchange.
         stop_time: End of the simulation [s], told to the FMU where it is known.
         report_early_return: Whether a step of a Co-Simulation FMU ends at its first event.
+        added_terms: What the master adds to derivatives, inputs and outputs.
     """
 
     structure: Mapping[str, int] = field(default_factory=dict)
@@ -38,6 +55,7 @@ class FmuSettings:
     tolerance: float | None = None
     stop_time: float | None = None
     report_early_return: bool = False
+    added_terms: Sequence[AddedTerm] = ()
 
 
 class Table:

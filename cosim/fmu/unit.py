@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from cosim.fmu.access import Access
+from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding, DiscreteStates, Interface
 from cosim.fmu.buffers import Buffers, Saved, element_text
 from cosim.fmu.dependencies import dependencies
+from cosim.fmu.plain import plain, unplain
 from cosim.fmu.settings import FmuSettings, Table
 from cosim.fmu.versions import bind
 from cosim.unit import (
@@ -24,7 +26,6 @@ from cosim.unit import (
     Unit,
     UnitError,
     Variable,
-    VariableType,
     are_equal,
     is_finite,
     seconds,
@@ -102,6 +103,9 @@ class FmuUnit(Unit):
             self.table.configure(self.binding)
             self.table.set_parameters(self.binding, settings.parameters)
             self.buffers = Buffers(self.binding, self.table.exposed)
+            self.added = AddedTerms(name, self.table, interface == "model_exchange")
+            if not self.added.is_empty:
+                self._take_terms()
             #: Input to the call that sets it.
             self.writers: Mapping[str, Access] = self.buffers.writers
             #: One call for each variable that is read after a step.
@@ -118,6 +122,15 @@ class FmuUnit(Unit):
         except BaseException:
             self.binding.free()
             raise
+
+    def _take_terms(self) -> None:
+        """What the master adds acts from here on; outputs then depend on what their terms use."""
+        self.added.bind(self.binding, self.buffers.values)
+        self.buffers.added = self.added.add_outputs
+        for name, inputs in self.added.feedthrough().items():
+            self.feedthrough = {**self.feedthrough, name: self.feedthrough.get(name, frozenset()) | inputs}
+            initial = self.initial_feedthrough.get(name, frozenset()) | inputs
+            self.initial_feedthrough = {**self.initial_feedthrough, name: initial}
 
     def set_parameters(self, parameters: Mapping[str, Any]) -> None:
         """Set parameters before initialisation; a scalar fills an array.
@@ -158,6 +171,7 @@ class FmuUnit(Unit):
                 write()
             elif self.variables[name].start is None:
                 self.buffers.input_readers[name]()  # not every FMU lets its inputs be read, so only where it must be
+        self.added.time = seconds(time)
         self.buffers.read(time)
         self._start_time = time
 
@@ -251,7 +265,7 @@ class FmuUnit(Unit):
             raise UnitError(self.name, f"the FMU {has}, so the run cannot be resumed from here",
                             remedy="leave out checkpoints, or export the FMU with canSerializeFMUState")  # fmt: skip
         self.exit_initialisation()
-        inputs = {f"input.{n}": _plain(self.buffers.values[n]) for n in self.writers}
+        inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self.writers}
         extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}
         return {"state": self.binding.serialise(), **inputs, **extra}
 
@@ -264,33 +278,17 @@ class FmuUnit(Unit):
     def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
         """Initialise, then restore the serialised state."""
         for name in self.writers:
-            self.buffers.values[name][...] = _unplain(state[f"input.{name}"], self.variables[name].type)
+            self.buffers.values[name][...] = unplain(state[f"input.{name}"], self.variables[name].type)
             self._given.add(name)
         self.initialise(time)
         self.exit_initialisation()
         self.binding.deserialise(state["state"])
         extra = {k.removeprefix("extra."): v for k, v in state.items() if k.startswith("extra.")}
         self._resume_extra(extra, time)
+        self.added.time = seconds(time)
         self.buffers.read(time)
 
     def terminate(self) -> None:
         """Free the instance and the extracted files; safe to call twice."""
         self.binding.free()
         self.archive.remove()
-
-
-def _plain(values: AnyArray) -> AnyArray:
-    """A copy that a file of arrays can hold: text as fixed-width text, binary data as hexadecimal text."""
-    if values.dtype != object:
-        return values.copy()
-    texts = [v.hex() if isinstance(v, bytes) else v for v in values.flat]
-    return np.array(texts, dtype=np.str_).reshape(values.shape)
-
-
-def _unplain(values: AnyArray, vtype: VariableType) -> AnyArray:
-    if vtype is not VariableType.BINARY:
-        return values
-    result: AnyArray = np.empty(values.shape, dtype=object)
-    for i, text in enumerate(values.flat):
-        result.flat[i] = bytes.fromhex(str(text))
-    return result

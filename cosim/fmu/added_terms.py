@@ -1,0 +1,250 @@
+"""Terms that the master adds to an FMU of somebody else: to derivatives of states, to inputs, to outputs."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from cosim.errors import InputError
+from cosim.fmu.access import Access
+from cosim.fmu.binding import Binding
+from cosim.fmu.settings import AddedTerm, Table
+from cosim.fmu.units import is_known
+from cosim.formula import Formula, FormulaError, to_base
+from cosim.quantity import PhysicalValue
+from cosim.unit import AnyArray, Array, Causality, UnitError
+
+_DERIVATIVE = re.compile(r"^der\((?P<state>.+)\)$")
+_TIME = "time"
+
+
+@dataclass
+class _Term:
+    """One term, ready to be evaluated.
+
+    Args:
+        target: Name of the state, input or output.
+        formula: Its formula.
+        parameters: In SI base units.
+        factor: From SI base units to those of the target.
+    """
+
+    target: str
+    formula: Formula
+    parameters: Mapping[str, AnyArray]
+    factor: float
+
+    def amount(self, values: Mapping[str, AnyArray]) -> Any:
+        """What is added, in the unit of the target."""
+        return self.factor * np.asarray(self.formula.value({**self.parameters, **values}))
+
+
+@dataclass
+class AddedTerms:
+    """The terms of one FMU, by what they are added to.
+
+    Args:
+        name: Name of the unit.
+        table: Its variables.
+        is_model_exchange: Whether the master integrates it.
+
+    Raises:
+        InputError: A target or a name does not exist, units do not agree, or a derivative is not the master's.
+    """
+
+    name: str
+    table: Table
+    is_model_exchange: bool
+    derivatives: list[_Term] = field(default_factory=list)
+    inputs: list[_Term] = field(default_factory=list)
+    outputs: list[_Term] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        #: State to the places of its elements among the continuous states, shape of the variable.
+        self.states: dict[str, AnyArray] = {}
+        self._units = {_TIME: "s"}
+        #: Time that outputs belong to [s].
+        self.time = 0.0
+        if not self.table.settings.added_terms:
+            return
+        if self.is_model_exchange:
+            self.states = self._states()
+        self._units |= {
+            n: v.variable.unit
+            for n, v in self.table.all.items()
+            if v.variable.type.is_float and (n in self.table.exposed or n in self.states) and is_known(v.variable.unit)
+        }
+        self._bases = {n: to_base(u) for n, u in self._units.items()}
+        for number, given in enumerate(self.table.settings.added_terms):
+            self._add(given, f"{self.name}.added_terms[{number}]")
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is none."""
+        return not (self.derivatives or self.inputs or self.outputs)
+
+    def _states(self) -> dict[str, AnyArray]:
+        places: dict[str, dict[int, int]] = {}
+        arrays: dict[str, AnyArray] = {}
+        begin = 0
+        owner = {id(d): (n, i) for n, v in self.table.all.items() for i, d in enumerate(v.declared)}
+        for unknown in self.table.archive.description.derivatives:
+            name, element = owner.get(id(unknown.variable.derivative), ("", 0))
+            if not name:
+                return {}  # the description does not say whose derivative it is
+            variable = self.table.all[name]
+            if len(variable.declared) == 1:
+                arrays[name] = np.arange(begin, begin + variable.variable.size).reshape(variable.variable.shape)
+                begin += variable.variable.size
+            else:
+                places.setdefault(name, {})[element] = begin
+                begin += 1
+        for name, by_element in places.items():
+            shape = self.table.all[name].variable.shape
+            if len(by_element) == math.prod(shape):
+                arrays[name] = np.array([by_element[i] for i in sorted(by_element)]).reshape(shape)
+        return arrays
+
+    def _add(self, given: AddedTerm, key: str) -> None:
+        match = _DERIVATIVE.match(given.to)
+        target = match["state"] if match else given.to
+        unit = self._target_unit(given, target, bool(match), key)
+        units = dict(self._units)
+        parameters = {}
+        for name, value in given.parameters.items():
+            if name in units:
+                raise InputError(self.table.archive.path, f"{key}.parameters.{name}",
+                                 "a variable of the FMU has this name", "choose another one")  # fmt: skip
+            units[name] = value.unit or "1"
+            factor, offset = to_base(units[name])
+            parameters[name] = np.asarray(factor * value.number + offset)
+        try:
+            formula = Formula(given.formula, units, f"({unit})/s" if match else unit)
+        except FormulaError as error:
+            raise InputError(self.table.archive.path, f"{key}.formula", str(error), "correct the formula") from error
+        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0])
+        if match:
+            self.derivatives.append(term)
+        elif self.table.all[target].variable.causality is Causality.INPUT:
+            self.inputs.append(term)
+        else:
+            self.outputs.append(term)
+
+    def _target_unit(self, given: AddedTerm, target: str, is_derivative: bool, key: str) -> str:
+        """Unit of the state, input or output that a term is added to."""
+        where = self.table.archive.path, f"{key}.to"
+        if is_derivative:
+            if not self.is_model_exchange:
+                raise InputError(*where, "its own solver integrates this FMU, nobody else sees its derivatives",
+                                 "use `integrator: cvode`, or add to an input or output")  # fmt: skip
+            if target not in self.states:
+                raise InputError(*where, f"the FMU has no continuous state `{target}`",
+                                 f"it has: {', '.join(self.states) or 'none'}")  # fmt: skip
+            return self._units[target]
+        ports = [n for n in self._units if n in self.table.exposed]
+        if target not in ports:
+            raise InputError(*where, f"the FMU has no floating-point input or output `{target}`",
+                             f"it has: {', '.join(ports)}; a derivative is written der(state)")  # fmt: skip
+        return self._units[target]
+
+    def bind(self, binding: Binding, values: Mapping[str, AnyArray]) -> None:
+        """Connect to an instance; `values` are its inputs (as given from outside) and outputs."""
+        self._outside = values
+        used = {n for t in (*self.derivatives, *self.inputs) for n in t.formula.names}
+        self._inner: dict[str, AnyArray] = {}
+        self._readers: list[Access] = []
+        self._writers: dict[str, tuple[Access, AnyArray]] = {}
+        for name in used & set(self._units) - set(self.states) - {_TIME}:
+            variable = self.table.all[name]
+            if variable.variable.causality is not Causality.INPUT and self.is_model_exchange:
+                self._inner[name] = np.zeros(variable.variable.shape)
+                self._readers.append(binding.reader(variable, self._inner[name]))
+        for term in self.inputs:
+            own = np.zeros(self.table.all[term.target].variable.shape)
+            self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
+
+    def _environment(self, time: float, states: Array | None) -> dict[str, AnyArray]:
+        """Every quantity in SI base units at a point of the integration; without states at a communication point."""
+        found: dict[str, AnyArray] = {_TIME: np.asarray(time)}
+        inside = states is not None
+        for name in {n for t in (*self.derivatives, *self.inputs, *self.outputs) for n in t.formula.names}:
+            if name not in self._units or name == _TIME:
+                continue
+            if inside and name in self.states:
+                values = np.asarray(states)[self.states[name]]
+            elif inside and name in self._inner:
+                values = self._inner[name]
+            elif name in self._outside:
+                values = self._outside[name]
+            else:
+                continue
+            factor, offset = self._bases[name]
+            found[name] = factor * values + offset
+        return found
+
+    def place(self, time: float, states: Array) -> None:
+        """The FMU stands at a point of the integration: its inputs get what is added to them there."""
+        if self.inputs:
+            self._read()
+            self._write_inputs(self._environment(time, states))
+
+    def _read(self) -> None:
+        for read in self._readers:
+            read()
+
+    def _write_inputs(self, environment: Mapping[str, AnyArray]) -> None:
+        for own in self._writers:
+            self._writers[own][1][...] = self._outside[own]
+        for term in self.inputs:
+            self._writers[term.target][1][...] += self._amount(term, environment)
+        for write, _ in self._writers.values():
+            write()
+
+    def write_inputs(self, time: float) -> None:
+        """At a communication point: inputs get what was given from outside and what is added."""
+        if self.inputs:
+            self._write_inputs(self._environment(time, None))
+
+    def add_rates(self, time: float, states: Array, rates: Array) -> None:
+        """Add to derivatives, shape (states,)."""
+        if self.derivatives:
+            self._read()
+            environment = self._environment(time, states)
+            for term in self.derivatives:
+                places = self.states[term.target]
+                rates[places] += np.broadcast_to(self._amount(term, environment), places.shape)
+
+    def add_outputs(self) -> None:
+        """Add to outputs that were just read."""
+        if self.outputs:
+            environment = self._environment(self.time, None)
+            amounts = [(t.target, self._amount(t, environment)) for t in self.outputs]
+            for target, amount in amounts:
+                self._outside[target][...] += amount
+
+    def _amount(self, term: _Term, environment: Mapping[str, AnyArray]) -> Any:
+        amount = term.amount(environment)
+        if not np.isfinite(amount).all():
+            raise UnitError(self.name, f"the term added to {term.target} is not a finite number",
+                            remedy=f"check `{term.formula.text}`")  # fmt: skip
+        return amount
+
+    def feedthrough(self) -> dict[str, frozenset[str]]:
+        """Output to the inputs that its terms use."""
+        inputs = {n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT}
+        found: dict[str, frozenset[str]] = {}
+        for term in self.outputs:
+            found[term.target] = found.get(term.target, frozenset()) | (term.formula.names & inputs)
+        return found
+
+
+def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
+    """Terms as a scenario gives them."""
+    return tuple(
+        AddedTerm(t.to, t.formula, {n: PhysicalValue.parse(v) for n, v in t.parameters.items()}) for t in given
+    )
