@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 
 from cosim.errors import InputError
+from cosim.run_folder import writing
 from cosim.scenario import load_scenario
 
 
@@ -85,6 +86,13 @@ def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
         raise InputError(out, "", "this folder already holds a diagnosis", "give another folder with `--out`")
     if out.exists() and not out.is_dir():
         raise InputError(out, "", "this is a file, not a folder", "give another folder with `--out`")
+    is_new = not out.exists()
+    with writing(out):  # a folder that cannot be written must not cost a diagnosis
+        out.mkdir(parents=True, exist_ok=True)
+        (out / ".writable").touch()
+        (out / ".writable").unlink()
+    if is_new:
+        out.rmdir()
     same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
     if same:
         raise InputError(sorted(same)[0], "", "this recording is fitted and held out at once",
