@@ -157,4 +157,21 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
         yield _term(equation, f"delayed_{variable}", formula, f"{words}, delayed", tau)
 
 
-CANDIDATES = tuple(term for equation in TARGETS for term in _terms(equation))
+def _between_neighbours() -> CandidateTerm:
+    """Heat that goes from coil to coil: what one loses the other gains."""
+    amplitude = Parameter("a", "W", -2.0, 2.0, _REASON, (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
+    return CandidateTerm(
+        identifier="unnamed_heat_neighbour",
+        name="unnamed term in heat: difference of temperature to coils that touch",
+        unit="thermal",
+        law="heat_a = -0.5 * (a_a + a_b) * (T_a - T_b) / 30.0; heat_b = -heat_a",
+        source=_SOURCE,
+        parameters=(amplitude,),
+        places=("all", "string"),
+        lines={"pairs": "flow = 0.5 * (a_a + a_b) * (T_a - T_b) / 30.0;"},
+        signature="What is missing in heat follows the difference of temperature between coils that touch.",
+        is_named=False,
+    )
+
+
+CANDIDATES = (*(term for equation in TARGETS for term in _terms(equation)), _between_neighbours())

@@ -6,7 +6,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
-from diagnosis.search.fit import Fit, cost
+from diagnosis.search.fit import HUBER, Fit, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.simulator.models import DiagnosisModel
@@ -73,7 +73,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
         is_named=term.is_named,
         statement=f"{candidate.name}, {place.label}",
         law=candidate.law,
-        parameters=estimates(fit, term),
+        parameters=estimates(fit, term, _doubt(outcome)),
         gain=outcome.best.gains.get(term, 0.0),
         probability=probability,
         ambiguous_with=tuple(sorted({a.effect for a in near if a.effect != term.identifier})),
@@ -100,8 +100,22 @@ def _alternatives(outcome: Outcome, term: Term) -> tuple[list[Alternative], floa
     return found, own
 
 
-def estimates(fit: Fit, term: Term) -> tuple[Estimate, ...]:
-    """Parameters of a term with 95 % intervals from the curvature of the posterior, cut at their bounds."""
+def _doubt(outcome: Outcome) -> float:
+    """Factor on intervals where more than noise is left: errors of the model count as those of the sensors do."""
+    residuals = outcome.best.fit.residuals
+    used = max(int(np.count_nonzero(residuals)), 1)
+    spread = np.sqrt(float(np.sum(np.clip(residuals, -HUBER, HUBER) ** 2)) / used)
+    return max(1.0, float(spread), abs(outcome.left.z) / outcome.left.limit)
+
+
+def estimates(fit: Fit, term: Term, doubt: float = 1.0) -> tuple[Estimate, ...]:
+    """Parameters of a term with 95 % intervals, cut at their bounds.
+
+    Args:
+        fit: The fit; the curvature of its posterior gives the intervals.
+        term: One of its terms.
+        doubt: Factor on the intervals.
+    """
     covariance = fit.covariance
     begin = len(fit.point.base)
     for other, values in fit.point.terms.items():
@@ -110,7 +124,7 @@ def estimates(fit: Fit, term: Term) -> tuple[Estimate, ...]:
         begin += len(values)
     found = []
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
-        half = NORMAL_95 * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
+        half = doubt * NORMAL_95 * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
         found.append(Estimate(p.name, p.unit, value, max(value - half, p.lower), min(value + half, p.upper)))
     return tuple(found)
 

@@ -53,7 +53,7 @@ class Settings:
     """
 
     level: float = 0.05
-    floor: float = 12.0
+    floor: float = 20.0
     beam: int = 2
     refits: int = 6
     most_terms: int = 3
