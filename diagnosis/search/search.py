@@ -28,7 +28,7 @@ ROUGH = 0.03
 #: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
 #: A term is not refitted any more once another gained so many times what its straight line promises.
-OUTDONE = 1.8
+OUTDONE = 3.0
 #: Instants from which a fit may begin.
 INSTANTS = 40
 #: Nulls that say what chance gives to the best of all terms.

@@ -96,7 +96,8 @@ class BankModel:
         if not self._places:
             for candidate in self._candidates.values():
                 known: set[bytes] = set()  # one coil is all coils, one source all sources
-                for place in places(candidate, self.coils, self.measured):
+                found = sorted(places(candidate, self.coils, self.measured), key=lambda p: p.kind != "all")
+                for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
                         self._places[self._term(candidate, place)] = (candidate, place)
                         known.add(place.mask.tobytes())
