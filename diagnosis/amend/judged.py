@@ -16,6 +16,8 @@ from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.amend.free_run import free_run, free_run_of
+from diagnosis.fabric.amended import BY_BULLET, amend_fabric
+from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import Predictions, channel_fits, differences, predictions
 from diagnosis.judge.spread import spread_over_recordings
@@ -65,6 +67,12 @@ def _judged(
     if isinstance(inner, ClosedLoopModel):
         path = amend_closed_loop(scenario, inner, fitted["after"], folder)
         return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS)
+    if isinstance(inner, FabricModel):
+        try:
+            path = amend_fabric(scenario, inner, fitted["after"], folder)
+        except CannotAmend as reason:
+            return replace(diagnosis, held_out_by=f"{BY_BULLET}; there is no amended scenario: {reason}")
+        return replace(diagnosis, amended_model=str(path), held_out_by=BY_BULLET)
     if not isinstance(inner, BankModel):
         return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
     try:

@@ -10,11 +10,13 @@ from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
+from diagnosis.fabric.amended import amend_fabric
 from diagnosis.fabric.laws import fabric_laws
 from diagnosis.fabric.model import START_SPEED, FabricModel
 from diagnosis.fabric.search import search_fabric
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.judge.judge import nominal_cost, verdict
+from diagnosis.recording.quantity import parse_quantity
 from diagnosis.search.cosim_run import predicted
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
@@ -65,6 +67,28 @@ def test_every_effect_is_a_parameter_that_the_scenario_takes(found):
         assert list(numbers) == [term.parameters[0].name]
         amended = with_fabric(small(), **{n: f"{v.number!r} {v.unit}" for n, v in numbers.items()})
         assemble(amended).system.terminate()
+
+
+def test_what_was_found_is_a_scenario_that_runs(found, tmp_path):
+    laws = {t.identifier: t for t in found.laws()}
+    tilt, slide = laws["tilt"], laws["slide_friction"]
+    base = np.zeros(len(found.parameters))
+    base[found.banked + 1] = 2.0  # friction, by two deviations of 5 %
+    base[[p.name for p in found.parameters].index("conductance")] = 1.0
+    path = amend_fabric(small(), found, Point(base, {tilt: (0.06,), slide: (0.3,)}), tmp_path / "amended")
+    amended = load_scenario(path)
+    numbers = amended.components["fabric"].parameters
+    assert numbers["tilt"].to("rad") == 0.06
+    assert numbers["slide_friction"].to("N") == 0.3
+    assert numbers["friction"].number == pytest.approx(0.5329 * np.exp(0.1))
+    results = run(shortened(amended, 0.1))
+    own = found.predict(Point(base, {tilt: (0.06,), slide: (0.3,)}), 0)
+    first = list(found.mechanical_recordings[0].channels).index("marker[10].z")
+    place = len(own) - len(found.mechanical_recordings[0].channels) + first
+    early = found.mechanical_recordings[0].channels["marker[10].z"].times <= 0.1
+    series = predicted(results, parse_quantity("marker[10].z"), np.array([0.05, 0.1]), path)
+    # daily numbers are at their nominal values here, so both are one model
+    np.testing.assert_allclose(series, own[place][early][1:], atol=2e-6)
 
 
 def test_random_starts_are_parameters_too(found):

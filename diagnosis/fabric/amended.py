@@ -1,0 +1,67 @@
+"""The amended scenario of a fabric: coils as the amended model has them, the fabric with what was found of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from cosim.scenario import Scenario, load_scenario
+from diagnosis.amend.amend import write_amended
+from diagnosis.amend.beside import take_along
+from diagnosis.amend.changes import changes_of
+from diagnosis.fabric.model import FabricModel
+from diagnosis.search.problem import Point
+
+#: What judged the recordings that were held out.
+BY_BULLET = (
+    "free runs of Bullet, driven by the coil bank: the actuator ignores the fabric, so the closed co-simulation gives "
+    "the same until contacts amplify the last digits (docs/fabric-diagnosis.md)"
+)
+
+
+def amend_fabric(scenario: Scenario, model: FabricModel, point: Point, folder: Path) -> Path:
+    """Write the scenario with the fitted parameters and effects of coils and fabric.
+
+    What belongs to one recording alone is left as the scenario has it.
+
+    Args:
+        scenario: What was diagnosed.
+        model: Model of the recordings that were fitted.
+        point: Its fitted values.
+        folder: Where the scenario goes.
+
+    Returns:
+        The file that `cosim run` takes.
+
+    Raises:
+        CannotAmend: Something that was found of the coils has no place in a scenario.
+        InputError: An FMU cannot be compiled.
+    """
+    if model.bank is not None:
+        path = write_amended(scenario, changes_of(scenario, model.bank, model.bank_point(point)), folder).path
+        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    else:
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / "scenario.yaml"
+        data = yaml.safe_load(scenario.to_yaml())
+        take_along(scenario, data, folder)
+    _put(data, model, point)
+    own = model.own_point(point)
+    lines = ["# Amended scenario, written by `cosim diagnose` (docs/fabric-diagnosis.md)."]
+    for term, values in own.terms.items():
+        numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
+        lines.append(f"# {term.place}: {term.law}; {numbers}")
+    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
+    path.write_text("\n".join(lines) + "\n" + text, encoding="utf-8")
+    load_scenario(path)  # what cannot be read back must not be handed over
+    return path
+
+
+def _put(data: dict[str, Any], model: FabricModel, point: Point) -> None:
+    daily = {f.name for f in model.free if f.recording is not None}
+    numbers = model.fabric_parameters(point, 0)
+    lasting = {name: f"{v.number!r} {v.unit}" for name, v in numbers.items() if name not in daily}
+    fabric = data["components"][model.component]
+    fabric["parameters"] = {**fabric.get("parameters", {}), **lasting}
