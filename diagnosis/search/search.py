@@ -27,8 +27,9 @@ CLOSE, MOST_POLISHED = 12.0, 5
 ROUGH = 0.03
 #: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
-#: A term is not refitted any more once another gained so many times what its straight line promises.
-OUTDONE = 3.0
+#: A term is not refitted any more once another gained so many times what its straight line promises (straight lines
+#: promise too little where residuals are large and count linearly: by as much as they did before).
+OUTDONE = 1.6
 #: Instants from which a fit may begin.
 INSTANTS = 40
 #: Nulls that say what chance gives to the best of all terms.
@@ -210,12 +211,13 @@ def _grow(
         scoring = _scored(model, explanation.fit, terms, settings, DRAWS if not explanation.terms else 0)
         scorings.append(scoring)
         hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
-        most = 0.0
+        most, kept = 0.0, 1.0
         for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
-            if key not in grown and candidate.gain * OUTDONE > most:
+            if key not in grown and candidate.gain * kept * OUTDONE > most:
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
-                most = max(most, explanation.fit.cost - grown[key].fit.cost)
+                gained = explanation.fit.cost - grown[key].fit.cost
+                most, kept = max(most, gained), max(kept, gained / candidate.gain)
     return _polished(model, sorted(grown.values(), key=lambda e: e.demerit), current[0].demerit), scorings[0]
 
 
