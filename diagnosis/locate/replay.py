@@ -22,6 +22,8 @@ THERMAL = frozenset(
     {"conductance", "capacity", "cooling_rate", "ambient_offset", "initial_temperature", "power_gain"}
 )  # fmt: skip
 ELECTRICAL = frozenset({"reference_resistance", "resistance_temperature_coefficient"})
+#: Share of its largest value from which on a current flows.
+FLOWS = 0.02
 
 
 @dataclass(frozen=True)
@@ -140,7 +142,8 @@ def _heated_by(model: Fitted, course: Course, seen_by: tuple[Panel, Panel], shar
             seen = current.used[:, at]
             if seen.sum() < 2:
                 continue
-            weights = spread(current.times[seen], course)
+            simulated = interpolation(current.times[seen], course) @ course.current[:, coil]
+            weights = _joined(current.times[seen], simulated, course, int(coil))
             deviation = current.deviation[seen, at]
             departure = weights @ (current.residual[seen, at] * deviation)
             resistance = course.resistance[coil]
@@ -164,6 +167,23 @@ def _heated_by(model: Fitted, course: Course, seen_by: tuple[Panel, Panel], shar
         for s, own in noise.items()
     )
     return replace(panel.less(change), columns=columns, noise=(*panel.noise, *carried))
+
+
+def _joined(times: Array, simulated: Array, course: Course, coil: int) -> Array:
+    """Weights with which departures of a current at samples stand for those in steps, shape (steps, samples).
+
+    While a current flows its departure is joined as a share of it, else as it is: so none is smeared over a jump.
+    """
+    flowing = course.current[:, coil]
+    least = FLOWS * float(np.abs(flowing).max(initial=0.0))
+    weights = np.zeros((len(flowing), len(times)))
+    for is_on in (True, False):
+        samples, steps = (np.abs(simulated) > least) == is_on, (np.abs(flowing) > least) == is_on
+        if not samples.any() or not steps.any():
+            continue
+        scale = flowing[steps, None] / simulated[samples] if is_on else 1.0
+        weights[np.ix_(steps, samples)] = spread(times[samples], course)[steps] * scale
+    return weights
 
 
 def is_at(model: Fitted, parameter: Parameter, coil: int) -> bool:
