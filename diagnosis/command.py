@@ -32,6 +32,9 @@ def diagnose(
     without: Annotated[
         list[str] | None, typer.Option(help="Effect of the catalogue to do without; may be given several times.")
     ] = None,
+    brief: Annotated[
+        bool, typer.Option("--brief", help="Verdict, findings and fit alone, as diagnosis.json: for many in a row.")
+    ] = False,
     limit: Annotated[
         list[str] | None, typer.Option(help="Greatest value in a next experiment: `supply.voltage=12 V`.")
     ] = None,
@@ -51,6 +54,7 @@ def diagnose(
     from diagnosis.experiment.limits import parse_limits
     from diagnosis.hand_over import hand_over
     from diagnosis.recording.recording import load_recording
+    from diagnosis.report.json_file import write_json
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
 
@@ -63,10 +67,15 @@ def diagnose(
     try:
         with display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
             base = load_scenario(scenario)
-            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches)
+            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief)
             training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             found = find(base, training, judges, Settings(level=level, seed=seed), display.stage, means)
             display.stage("writing")
+            if brief:
+                out.mkdir(parents=True, exist_ok=True)
+                write_json(found.diagnosis, out / "diagnosis.json")
+                print_summary(found.diagnosis, Console())
+                return
             diagnosis = hand_over(found, base, out)
     except KeyboardInterrupt:
         rest = (

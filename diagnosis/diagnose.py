@@ -20,11 +20,12 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
+from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.spread import spread_over_recordings
-from diagnosis.locate.locate import locate
+from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
@@ -42,6 +43,7 @@ class Means:
         without: Identifiers of candidates that it must not know, for a proof that hides them.
         threads: Threads of one simulation.
         batches: Makes simulations that take seconds: in processes, kept on disk; closed by whoever made it.
+        is_brief: Verdict, findings and fit alone.
         limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
     """
 
@@ -49,6 +51,7 @@ class Means:
     threads: int = 2
     limits: Mapping[str, float] = field(default_factory=dict)
     batches: Batches = field(default_factory=Batches)
+    is_brief: bool = False
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -124,11 +127,13 @@ def diagnose(
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = findings(model, outcome)
-    told_apart = isolability(model, outcome.base, model.terms())
-    on_progress("driving each unit alone")
-    located = locate(model, outcome.base, [r.title for r in training], settings.seed)
-    on_progress("designing the next experiment")
-    experiment = next_experiment(scenario, model, training, outcome, means.limits)
+    told_apart, located, experiment = Isolability(), Located(()), None
+    if not means.is_brief:
+        told_apart = isolability(model, outcome.base, model.terms())
+        on_progress("driving each unit alone")
+        located = locate(model, outcome.base, [r.title for r in training], settings.seed)
+        on_progress("designing the next experiment")
+        experiment = next_experiment(scenario, model, training, outcome, means.limits)
     diagnosis = Diagnosis(
         verdict=word,
         statement=_statement(word, found),

@@ -15,6 +15,8 @@ from diagnosis.simulator.models import DiagnosisModel
 NORMAL_95 = 1.959963984540054
 #: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
 UNSEPARATED = 6.0
+#: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
+DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 #: A parameter that moved by more prior deviations than this is told.
 MOVED = 2.0
 #: Fall of -2 log posterior per parameter by which a recalibration counts as needed.
@@ -35,11 +37,24 @@ def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
         moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
         fell = nominal_cost - outcome.base.cost
         return Verdict.RECALIBRATED if moved or fell > NEEDED * len(outcome.base.point.base) else Verdict.CONSISTENT
-    if all(t.unit == "measurement" for t in terms):
+    if all(t.unit == "measurement" for t in terms) and is_trusted(outcome):
         return Verdict.MEASUREMENT_FAULT
-    if any(not t.is_named for t in terms):
+    if any(not t.is_named for t in terms) or not is_trusted(outcome):
         return Verdict.UNNAMED_PHYSICS
     return Verdict.MISSING_PHYSICS
+
+
+def is_trusted(outcome: Outcome) -> bool:
+    """Whether the effects found may be called by their names: no name is forced on what still shows structure.
+
+    A name stands where noise is left, or so small a share of the misfit that errors of the model itself explain it.
+    """
+    if abs(outcome.left.z) <= DOUBTFUL * outcome.left.limit:
+        return True
+    used = np.count_nonzero(outcome.base.residuals)
+    before = cost(outcome.base.residuals, np.zeros(0)) - used
+    after = cost(outcome.best.fit.residuals, np.zeros(0)) - used
+    return bool(after < UNEXPLAINED * before)
 
 
 def probabilities(rivals: tuple[Explanation, ...]) -> Array:
@@ -70,7 +85,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
         intervals=_intervals(model, effect),
         channels=_channels(model, effect),
         effect=term.identifier,
-        is_named=term.is_named,
+        is_named=term.is_named and is_trusted(outcome),
         statement=f"{candidate.name}, {place.label}",
         law=candidate.law,
         parameters=estimates(fit, term, _doubt(outcome)),

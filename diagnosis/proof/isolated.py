@@ -18,6 +18,8 @@ from diagnosis.proof.ground import read_task
 Files = Mapping[str, bytes]
 #: Exit code of `cosim diagnose` for a scenario or recording that it cannot work with.
 REFUSED = 2
+#: `cosim` in a process that hears Ctrl-C, though the worker that starts it is deaf to it.
+_PROGRAM = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); from cosim.cli import main; main()"
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def diagnose_apart(case: str, files: Files, limit: float) -> Attempt:
 
 def _command(folder: Path, out: Path) -> list[str]:
     task = read_task(folder)
-    command = [sys.executable, "-m", "cosim.cli", "diagnose", "scenario.yaml", "--out", str(out), "--jobs", "1"]
+    command = [sys.executable, "-c", _PROGRAM, "diagnose", "scenario.yaml", "--out", str(out), "--jobs", "1", "--brief"]
     for option, names in (("--recording", task.training), ("--held-out", task.held_out), ("--without", task.hidden)):
         for name in names:
             command += [option, name]
