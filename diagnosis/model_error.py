@@ -62,7 +62,7 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
     known: list[Foretold] = []
     outcomes = []
-    every = model.terms()
+    every = distinct(model, model.terms())
     plain = plain_terms(model, every)
     for terms in (plain, every) if len(plain) < len(every) else (every,):
         validation = Validation(model, partial(MaskedModel, model), on_progress)
@@ -77,6 +77,17 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
     left = structure(explanation.fit.residuals, model.layout, model.groups())
     return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+
+
+def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
+    """Terms without those that are others by another name: of one coil alone, `all coils` is `coil[1]`."""
+    found: dict[tuple[object, ...], Term] = {}
+    for term in terms:
+        spot = model.where(term)[1]
+        mask = getattr(spot, "mask", None)
+        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes())
+        found.setdefault(key, term)
+    return list(found.values())
 
 
 def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:

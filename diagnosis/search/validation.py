@@ -112,7 +112,7 @@ class Validation:
 
 
 def chosen(found: Sequence[Foretold], plain: Collection[Term]) -> Foretold:
-    """Of those that foretell as well as the best: the one with the fewest terms that are not plain, then the fewest.
+    """Of those that foretell as well as the best: the best of those with the fewest terms that are not plain.
 
     Args:
         found: At least one.
@@ -120,9 +120,8 @@ def chosen(found: Sequence[Foretold], plain: Collection[Term]) -> Foretold:
     """
     best = min(found, key=lambda f: f.loss)
 
-    def simplicity(one: Foretold) -> tuple[int, int, float]:
-        terms = one.explanation.terms
-        return sum(t not in plain for t in terms), len(terms), one.loss
+    def simplicity(one: Foretold) -> tuple[int, float]:
+        return sum(t not in plain for t in one.explanation.terms), one.loss
 
     return min((f for f in found if _within(f, best)), key=simplicity)
 
