@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import logging
+import signal
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -113,11 +115,26 @@ def workers(jobs: int, address: str | None = None) -> Iterator[Workers]:
                 raise _unreachable(address, "it has no workers")
             yield Workers(client, sum(client.nthreads().values()))
         return
-    with dask.LocalCluster(
-        n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
-        silence_logs=logging.CRITICAL,
-    ) as cluster, dask.Client(cluster) as client:  # fmt: skip
+    with _deaf_to_interrupts():
+        cluster = dask.LocalCluster(
+            n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
+            silence_logs=logging.CRITICAL,
+        )  # fmt: skip
+    with cluster, dask.Client(cluster) as client:
         yield Workers(client, jobs)
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Processes that are started here ignore Ctrl-C, which a terminal sends to all: the first process ends them."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    previous = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
 
 
 def _distributed() -> Any:
