@@ -6,8 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
+from diagnosis.judge.diagnosis import (
+    Alternative,
+    ChannelFit,
+    ChannelSpread,
+    Diagnosis,
+    Estimate,
+    Finding,
+    Spread,
+    Used,
+    Verdict,
+)
 from diagnosis.judge.isolability import Isolability
+from diagnosis.judge.location import Dependence, Location, Remainder, Waveform
+from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.report.series import Series
 
 HOSTILE = "<script>alert('x')</script> & \"run\" \x1b[31m$x^2$"
@@ -55,6 +67,15 @@ FINDINGS = {
 }
 
 
+EXPERIMENT = NextExperiment(
+    scenario="out/next_experiment/scenario.yaml", kind="staircase", statement="Staircase for 60 s would decide.",
+    rivals=(Rival(("contact_resistance at string[3]",), 0.6), Rival(("supply_source_resistance at supply",), 0.4)),
+    courses=(Course("supply", "voltage", "V", (0.0, 3.0, 40.0), ((0.0, 0.0), (6.0, 3.0), (0.0, 0.0))),),
+    duration=60.0, limits=("supply.voltage from 0 to 6 V",), log_bayes_factor=8.25, repeat_log_bayes_factor=0.0625,
+    decides=0.875, repeat_decides=0.125, channel="string[3].current", best_time=12.5, tried=17,
+)  # fmt: skip
+
+
 def fit(channel: str, unit: str, size: float, is_held_out: bool, title: str = "steps") -> ChannelFit:
     stages = {"before": 9.0 * size, "recalibrated": 4.0 * size, "after": size}
     return ChannelFit(title, is_held_out, channel, unit, stages, {k: (v / size) ** 2 for k, v in stages.items()},
@@ -80,6 +101,41 @@ def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
         seconds=14.2,
         simulations=5321,
         seed=7,
+        scenario="rig/scenario.yaml",
+        recordings=(Used(title, "rig/monday", False, 0.0, 100.0, ("coil[2,5].temperature",)),),
+        spread=(ChannelSpread("coil[2,5].temperature", "K", True, 2, 400, *({"after": Spread(1.0, 0.9, 1.1)},) * 3),),
+        left=(Remainder("coil[4,4].temperature", 30.0, 42.0, 7.7, 4.9),) if verdict is Verdict.CANNOT_TELL else (),
+        locations=(
+            Location(
+                "thermal",
+                "heat balance",
+                "coil[2,5]",
+                "coil[2,5].temperature",
+                10.0,
+                14.0,
+                -9.25,
+                4.6,
+                title,
+                (Dependence("current", 0.81),),
+            ),
+        ),
+        waveforms=(
+            Waveform(
+                "W",
+                "heat balance",
+                "coil[2,5]",
+                (0.0, 1.0),
+                (0.01, 0.02),
+                (0.0, 0.01),
+                (0.02, 0.03),
+                title,
+                1,
+                (0.01, 0.02),
+            ),
+        )
+        if verdict is Verdict.MISSING_PHYSICS
+        else (),
+        next_experiment=EXPERIMENT if verdict is Verdict.MISSING_PHYSICS else None,
     )
 
 

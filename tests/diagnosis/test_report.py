@@ -137,10 +137,32 @@ def test_the_page_tells_verdict_and_findings_and_loads_nothing(verdict: Verdict,
         assert finding.statement in page.text
         assert finding.law in page.text
     assert all(a.startswith("data:image/svg+xml;base64,") for a in page.addresses)
-    # Two channels, and with findings the network and the time line.
-    assert len(page.addresses) == (4 if told.findings else 2)
+    # Two channels, with findings the network and the time line, where there are any waveform and next experiment.
+    expected = 2 + (2 if told.findings else 0) + len(told.waveforms) + (told.next_experiment is not None)
+    assert len(page.addresses) == expected
     for address in page.addresses:
         ElementTree.fromstring(base64.b64decode(address.partition(",")[2]))
+
+
+def test_the_page_says_where_units_depart_what_is_left_and_what_would_decide(tmp_path: Path) -> None:
+    told = replace(diagnosis(Verdict.MISSING_PHYSICS), left=diagnosis(Verdict.CANNOT_TELL).left)
+    write_html(told, [], tmp_path / "report.html")
+    text = Page(read_page(tmp_path / "report.html")).text
+    for part in ("heat balance", "9.25", "current (+0.81)", "coil[4,4].temperature", "30.0 to 42.0 s", "7.70",
+                 "Staircase for 60 s would decide.", "contact resistance at string[3]", "60 %", "8.25", "0.0625",
+                 "cosim run out/next_experiment/scenario.yaml", "supply.voltage from 0 to 6 V", "rig/monday",
+                 "1.00 (0.900 to 1.10)"):  # fmt: skip
+        assert part in text, part
+
+
+def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
+    console = Console(file=io.StringIO(), width=100)
+    print_summary(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=()), console)
+    print_summary(diagnosis(Verdict.CANNOT_TELL), console)
+    stream = console.file
+    assert isinstance(stream, io.StringIO)
+    assert "next     Staircase for 60 s would decide. Scenario: out/next_experiment/scenario.yaml" in stream.getvalue()
+    assert "left in  coil[4,4].temperature, 30.0 to 42.0 s: z 7.70, noise stays below 4.90" in stream.getvalue()
 
 
 def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -> None:
@@ -171,7 +193,8 @@ def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
 
 def test_a_page_without_held_out_recordings_and_without_a_network_says_so(tmp_path: Path) -> None:
     fits = (fit("rod.angle", "rad", 0.01, False),)
-    told = replace(diagnosis(Verdict.MISSING_PHYSICS), fit=fits, findings=(replace(UNNAMED, elements=("rod",)),))
+    told = replace(diagnosis(Verdict.MISSING_PHYSICS), fit=fits, findings=(replace(UNNAMED, elements=("rod",)),),
+                   waveforms=(), next_experiment=None)  # fmt: skip
     write_html(told, [], tmp_path / "report.html", network=Network())
     page = Page(read_page(tmp_path / "report.html"))
     assert "No recording was held out" in page.text
@@ -227,4 +250,6 @@ def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path)
     write_html(diagnosis(Verdict.MISSING_PHYSICS), [long, unknown, single], tmp_path / "report.html")
     # 1200 points a curve and five curves, about 20 bytes a point, as base64, beside 80 rows of fits.
     assert (tmp_path / "report.html").stat().st_size < 1_200_000
-    assert len(Page(read_page(tmp_path / "report.html")).addresses) == 5
+    assert (
+        len(Page(read_page(tmp_path / "report.html")).addresses) == 7
+    )  # with network, time line, waveform and next experiment
