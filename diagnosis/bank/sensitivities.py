@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -219,4 +220,4 @@ def _owned(plan: Plan, level: str) -> list[npt.NDArray[np.int64]]:
     parts = owners[0].astype(np.int64)
     order = np.argsort(parts, kind="stable")
     bounds = np.searchsorted(parts[order], np.arange(parts.max(initial=-1) + 2))
-    return [order[a:b] for a, b in zip(bounds[:-1], bounds[1:])]
+    return [order[a:b] for a, b in itertools.pairwise(bounds)]

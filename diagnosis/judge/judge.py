@@ -58,7 +58,7 @@ def is_trusted(outcome: Outcome) -> bool:
 
 
 def probabilities(rivals: tuple[Explanation, ...]) -> Array:
-    """Posterior probabilities of explanations with equally many terms (Laplace's approximation, see `Explanation.demerit`)."""
+    """Posterior probabilities of explanations with equally many terms, by `Explanation.demerit`."""
     costs = np.array([e.demerit for e in rivals])
     weights = np.exp(-0.5 * (costs - costs.min()))
     return np.asarray(weights / weights.sum())

@@ -20,7 +20,7 @@ RUNAWAY = 1e6
 STEP = 1e-3
 #: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
 TOLERANCE = 1e-6
-#: Derivatives by the model's own parameters are taken anew where a step gains less than this share of what they promise.
+#: Derivatives by the model's own parameters are taken anew after a step that gains less than this share of its promise.
 TRUSTED = 0.6
 #: ... or where a parameter moved by more than this since [prior deviations]; less where they disappoint.
 MOVED, NEAR = 1.5, 0.2
@@ -189,7 +189,7 @@ def fit(
         model: Model and recordings.
         start: Where the search begins; its terms are those that are fitted.
         iterations: Most steps.
-        near: A fit whose derivatives by the model's own parameters are good enough to begin with, and whose widths hold.
+        near: A fit whose derivatives by the model's own parameters are good enough to begin with; its widths hold.
         widths: See `Fit`; None: those of `near`, or 1.
 
     Returns:
@@ -204,10 +204,7 @@ def fit(
     x = objective.vector(start)
     here = objective.residuals(x)
     count = objective.count
-    if near is None:
-        columns = Columns.of(objective.base_columns(x), x[:count], here)
-    else:
-        columns = near.columns
+    columns = Columns.of(objective.base_columns(x), x[:count], here) if near is None else near.columns
     is_fresh, poor, refreshes = near is None, 0, 0
     most = iterations if near is None else REFRESHES
     value, damping, is_converged = objective.cost(x, here), 1e-3, False

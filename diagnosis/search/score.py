@@ -87,6 +87,14 @@ class Projection:
         left = np.maximum(whole - np.einsum("ij,ij->i", across, cho_solve(self._factor, across.T).T), 0.0)
         return Seen(whole, left, along - across @ self._pull, noise - across @ self._noise_pull, across)
 
+    def gram(self, slopes: Array) -> tuple[Array, Array]:
+        """Products of what is left of directions with each other, shape (k, k), and with the residuals, shape (k,)."""
+        weighted = (slopes * self.weights).astype(self._jacobian.dtype)
+        across = np.asarray(weighted @ self._jacobian, dtype=np.float64)
+        whole = np.asarray(weighted @ weighted.T, dtype=np.float64)
+        along = np.asarray(weighted @ self.residuals.astype(weighted.dtype), dtype=np.float64)
+        return whole - across @ cho_solve(self._factor, across.T), along - across @ self._pull
+
 
 @dataclass(frozen=True)
 class Seen:

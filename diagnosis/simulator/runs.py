@@ -19,8 +19,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.translate import Translation
 
-
-#: Standard deviation of a channel's zero, as a share of its noise: no instrument is set better than its readings scatter.
+#: Standard deviation of a channel's zero, as a share of its noise: nothing is set better than its readings scatter.
 ZERO = 0.15
 
 
@@ -125,7 +124,7 @@ class Run:
         return self._without_zeros((self.measured - outputs[:, self.pick]) * self.weight)
 
     def slopes(self, slopes: Array) -> Array:
-        """Derivatives of the outputs, shape (directions, out_size), to those of the residuals, (directions, samples)."""
+        """Derivatives of outputs, shape (directions, out_size), to those of residuals, (directions, samples)."""
         found = slopes[:, self.pick]
         found *= -self.weight
         return self._without_zeros(found)

@@ -59,6 +59,7 @@ def test_the_catalogue_holds_every_effect_that_was_asked_for():
 def test_a_law_is_a_formula_of_known_names(term: CandidateTerm):
     known = LAW_NAMES | set(READABLE) | set(COIL_FIELDS) | {"t"}
     known |= {p.name for p in term.parameters} | {s.name for s in term.states}
+    known |= {p.name + end for p in term.parameters for end in ("_a", "_b") if "pairs" in term.lines}
     for equation in term.law.split(";"):
         sides = equation.replace("<=", "=").split("=")
         assert len(sides) == 2, equation

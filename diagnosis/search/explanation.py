@@ -1,0 +1,64 @@
+"""What the search may spend, and what it compares: explanations, fitted models with terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from diagnosis.search.fit import Fit
+from diagnosis.search.problem import Term
+
+#: -2 log of the prior odds of a generic law against one of the catalogue: they are many, and any of them may bend well.
+UNNAMED = 6.0
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the search may spend and what it must be shown.
+
+    Args:
+        level: Rate of false alarms that is allowed.
+        floor: Least gain, whatever chance would give: every real rig has many tiny effects.
+        beam: Models that are carried forward.
+        refits: Best-scored terms that are refitted per model.
+        most_terms: Terms that a model may have.
+        seed: Of all random numbers.
+    """
+
+    level: float = 0.05
+    floor: float = 20.0
+    beam: int = 2
+    refits: int = 6
+    most_terms: int = 3
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A model with terms that were fitted.
+
+    Args:
+        fit: Converged fit of everything together.
+        gains: Fall of -2 log posterior by each term, all others kept.
+    """
+
+    fit: Fit
+    gains: Mapping[Term, float] = field(default_factory=dict)
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """Its terms."""
+        return tuple(self.fit.point.terms)
+
+    @property
+    def cost(self) -> float:
+        """-2 log posterior of the fit, and what the odds are against laws without a name before any data."""
+        return self.fit.cost + UNNAMED * sum(not t.is_named for t in self.terms)
+
+    @property
+    def demerit(self) -> float:
+        """What explanations are compared by: a free shape must pay for itself too (Laplace's approximation)."""
+        extra = sum(len(t.parameters) - 1 for t in self.terms)
+        return self.cost + extra * float(np.log(max(len(self.fit.residuals), 2)))

@@ -1,0 +1,196 @@
+"""Explanations with one term more, or with two at once."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.search.explanation import Explanation, Settings
+from diagnosis.search.fit import Fit, cost, fit, fit_best
+from diagnosis.search.focus import focus, unnamed_at
+from diagnosis.search.problem import Model, Point, Term, strength_slopes
+from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
+
+#: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
+HOPEFUL = 0.4
+#: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
+STRAINED = 4.0
+#: Explanations within this of the best are fitted to the end, and at most so many.
+CLOSE, MOST_POLISHED = 12.0, 5
+#: ... or within this share of what was gained, for the first fits are rough.
+ROUGH = 0.03
+#: A term is not refitted any more once another gained so many times what its straight line promises (straight lines
+#: promise too little where residuals are large and count linearly: by as much as they did before).
+OUTDONE = 1.6
+#: Instants from which a fit may begin.
+INSTANTS = 40
+#: Nulls that say what chance gives to the best of all terms.
+DRAWS = 96
+#: Most steps of a fit in the competition.
+TRIAL = 15
+#: Places at which unnamed terms are tried too.
+PLACES = 4
+#: Best-scored terms of which pairs are looked at, pairs that are fitted, and cosine beyond which two are one.
+PAIRED, PAIRS, ALIKE = 40, 4, 0.995
+
+
+def grow(
+    model: Model, terms: Sequence[Term], current: Sequence[Explanation], settings: Settings, margin: float
+) -> tuple[list[Explanation], Scoring]:
+    """Explanations with one term more, best first, and the scoring of the first model."""
+    grown: dict[frozenset[Term], Explanation] = {}
+    scorings = []
+    for explanation in current:
+        scoring = _scored(model, explanation.fit, terms, settings, DRAWS if not explanation.terms else 0)
+        scorings.append(scoring)
+        hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
+        most, kept = 0.0, 1.0
+        for candidate in _choice(hopeful, settings.refits):
+            key = frozenset((*explanation.terms, candidate.term))
+            if key not in grown and candidate.gain * kept * OUTDONE > most:
+                grown[key] = Explanation(_refit(model, explanation.fit, candidate))
+                gained = explanation.fit.cost - grown[key].fit.cost
+                most, kept = max(most, gained), max(kept, gained / candidate.gain)
+    return polished(model, sorted(grown.values(), key=lambda e: e.demerit), current[0].demerit), scorings[0]
+
+
+def polished(model: Model, grown: list[Explanation], before: float) -> list[Explanation]:
+    """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
+    gained = before - grown[0].demerit if grown else 0.0
+    near = [e for e in grown if e.demerit < grown[0].demerit + max(CLOSE, ROUGH * gained)][:MOST_POLISHED]
+    done = [Explanation(fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
+    return sorted([*done, *grown[len(near) :]], key=lambda e: e.demerit)
+
+
+def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, draws: int) -> Scoring:
+    """Scores of all terms worth trying: unnamed ones at single elements where a named one scores well."""
+    near = focus(model, base.residuals, terms)
+    first = score(model, base, near, draws, settings.seed)
+    places = list(dict.fromkeys(s.term.place for s in first.ranked[:40]))[:PLACES]
+    more = unnamed_at(terms, places, near)
+    return first.joined(score(model, base, more, draws, settings.seed)) if more else first
+
+
+def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
+    """The best scores, and the best of other effects that come near them: places compete, and so do effects.
+
+    Of the many generic laws only the best few of each unit are among the others.
+    """
+    chosen: list[Score] = []
+    generic = count if ranked and not ranked[0].term.is_named else count // 2
+    for candidate in ranked[:count]:
+        generic -= not candidate.term.is_named
+        chosen += [candidate] if candidate.term.is_named or generic >= 0 else []
+    others = {True: 0, False: 0}
+    for candidate in ranked[count : 12 * count]:
+        is_new = all(c.term.identifier != candidate.term.identifier for c in chosen)
+        if candidate.gain > 0.3 * ranked[0].gain and is_new and others[candidate.term.is_named] < count:
+            others[candidate.term.is_named] += 1
+            chosen.append(candidate)
+    return chosen
+
+
+def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
+    """Fit all again with a term more, from what the straight line says and from the best of other starts."""
+    here = before.point.plus(candidate.term, candidate.values)
+    points = list(_starts(before, candidate))
+    if not points:
+        return fit(model, here, TRIAL, before)
+    values = model.residuals([here, *points])
+    costs = [
+        cost(v, p.base, before.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, [here, *points])
+    ]
+    other = int(np.argmin(costs[1:]))
+    if costs[1 + other] > costs[0] and not candidate.term.parameters[0].is_switch:
+        return fit(model, here, TRIAL, before)
+    return fit_best(model, [here, points[other]], TRIAL, before)
+
+
+def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
+    """Where else a fit may begin: other instants and switches, and the nominal point where the base is strained."""
+    term, (strength, *shape) = candidate.term, candidate.values
+    first = term.parameters[0]
+    sizes = (first.upper,) if first.is_switch else (strength, *first.starts[:3])
+    yield from _other_shapes(before, candidate, sizes)
+    for moved in _other_instants(before.point):  # what came first may have come at a wrong instant
+        yield from (moved.plus(term, (size, *shape)) for size in sizes)
+    if np.max(np.abs(before.point.base / before.widths), initial=0.0) > STRAINED:
+        nominal = Point(np.zeros_like(before.point.base), before.point.terms)
+        for size in sizes:
+            yield nominal.plus(term, (size, *shape))
+
+
+def _other_instants(point: Point) -> Iterator[Point]:
+    """The same with one of its instants elsewhere."""
+    for term, values in point.terms.items():
+        for i, parameter in enumerate(term.parameters):
+            if parameter.is_instant:
+                for value in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]:
+                    yield point.plus(term, (*values[:i], float(value), *values[i + 1 :]))
+
+
+def _best_instants(model: Model, base: Fit, point: Point) -> Point:
+    """The point, or the best of those with one of its instants elsewhere, one instant after the other."""
+    points = [point, *_other_instants(point)]
+    if len(points) == 1:
+        return point
+    values = model.residuals(points)
+    costs = [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
+    return points[int(np.argmin(costs))]
+
+
+def _other_shapes(before: Fit, candidate: Score, sizes: Sequence[float]) -> Iterator[Point]:
+    term, (_, *shape) = candidate.term, candidate.values
+    first, *others = term.parameters
+    if not first.is_switch and not any(p.is_instant for p in others):
+        return
+    for i, parameter in enumerate(others):
+        span = np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1] if parameter.is_instant else ()
+        for value in (*parameter.starts, *(float(v) for v in span)):
+            for size in sizes:
+                yield before.point.plus(term, (size, *shape[:i], value, *shape[i + 1 :]))
+    if not others:
+        yield before.point.plus(term, (sizes[0],))
+
+
+def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, margin: float) -> list[Explanation]:
+    """Explanations with two terms that gain together what neither does alone, best first.
+
+    Each of two effects may be hidden behind the other, so that the best single term is neither. The straight lines of
+    the best-scored terms and the angles between them tell which pairs are worth a fit.
+
+    Args:
+        model: Model and training recordings.
+        base: Recalibrated, without terms.
+        ranked: Scores without terms.
+        settings: Of the search.
+        margin: Gain by which two must exceed the best of one.
+    """
+    top = list(ranked[:PAIRED])
+    if len(top) < 2:
+        return []
+    tasks = [(s.term, (SHARE * max(abs(v) for v in s.term.parameters[0].starts), *s.values[1:])) for s in top]
+    slopes = strength_slopes(model, base.point, base.residuals, tasks)
+    gram, along = Projection(base).gram(np.where(np.isfinite(slopes), slopes, 0.0))
+    found: list[tuple[float, int, int, Array]] = []
+    for i, j in itertools.combinations(range(len(top)), 2):
+        own = gram[np.ix_((i, j), (i, j))]
+        if np.linalg.det(own) <= (1.0 - ALIKE**2) * own[0, 0] * own[1, 1]:
+            continue  # one does what the other does
+        amounts = -np.linalg.solve(own, along[[i, j]])
+        limits = [top[n].term.parameters[0] for n in (i, j)]
+        if all(p.lower <= a <= p.upper for p, a in zip(limits, amounts)):
+            found.append((float(amounts @ own @ amounts), i, j, np.asarray(amounts, dtype=np.float64)))
+    found.sort(key=lambda pair: -pair[0])
+    fits = []
+    for gain, i, j, amounts in found[:PAIRS]:
+        if gain < top[0].gain + HOPEFUL * margin:
+            break
+        point = base.point
+        for n, amount in zip((i, j), amounts):
+            point = point.plus(top[n].term, (float(amount), *top[n].values[1:]))
+        fits.append(Explanation(fit(model, _best_instants(model, base, point), TRIAL, base)))
+    return sorted(fits, key=lambda e: e.demerit)

@@ -1,0 +1,1 @@
+"""Tests of the search: fit, scores, structure, acceptance."""
