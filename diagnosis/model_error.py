@@ -58,7 +58,7 @@ def search_with_model_error(
 
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
-    """Search plain laws, then all, and take what foretells best; a plain law goes before an equal that is none."""
+    """Search plain laws, and all where none of them foretells better; take what foretells best."""
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
     known: list[Foretold] = []
     outcomes = []
@@ -68,6 +68,8 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
         validation = Validation(model, partial(MaskedModel, model), on_progress)
         outcomes.append(search(model, terms, wide, model.groups(), on_progress, validation.select))
         known += validation.all
+        if known and chosen(known, set(plain)).explanation.terms:
+            break  # a law explains it; what else there is would only fill gaps
     outcome = outcomes[-1]
     if not known:
         return outcome
