@@ -74,12 +74,9 @@ def _of_kind(kind: PlaceKind, term: CandidateTerm, layout: BankLayout, measured:
     if term.axis == "channel":
         for quantity in measured:
             yield from _channels(kind, quantity, term, layout)
-    elif kind == "all":
-        if size:
+    elif kind in ("all", "powered"):
+        if size and not (kind == "powered" and layout.strings):
             yield Place(kind, "all coils" if term.axis == "coil" else f"all {term.axis}s", np.ones(size))
-    elif kind == "powered":
-        if not layout.strings:
-            yield Place(kind, "all coils", np.ones(size))
     elif kind in ("row_gradient", "column_gradient"):
         yield from _gradient(kind, layout)
     elif kind == "string" and term.axis == "coil":

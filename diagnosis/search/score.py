@@ -16,7 +16,7 @@ from diagnosis.search.problem import Model, Term, strength_slopes
 #: Strength at which a term is simulated, as a share of its first start value: small enough for a straight line.
 SHARE = 0.02
 #: Simulations per call, so that memory stays small.
-BATCH = 256
+BATCH = 128
 #: A direction of which the recalibration absorbs all but this share of the length cannot be seen.
 LEAST_VISIBLE = 5e-3  # below it single precision would see its own rounding
 

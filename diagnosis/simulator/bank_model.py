@@ -96,7 +96,7 @@ class BankModel:
         if not self._places:
             for candidate in self._candidates.values():
                 known: set[bytes] = set()  # one coil is all coils, one source all sources
-                found = sorted(places(candidate, self.coils, self.measured), key=lambda p: p.kind != "all")
+                found = sorted(places(candidate, self.coils, self.measured), key=lambda p: p.label != "all coils")
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
                         self._places[self._term(candidate, place)] = (candidate, place)
