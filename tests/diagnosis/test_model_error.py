@@ -52,7 +52,7 @@ def test_the_correlation_time_is_that_of_an_autoregressive_process(share):
     for i in range(1, 4000):
         values[i] = share * values[i - 1] + noise[i]
     expected = (1 + share) / (1 - share)
-    assert correlation_time(values) == pytest.approx(expected, rel=0.35)  # 4000 samples of 19 each and a window of 5 x 19: 30 %
+    assert correlation_time(values) == pytest.approx(expected, rel=0.35)  # 210 independent samples: up to 30 %
 
 
 def test_noise_that_is_as_stated_is_not_inflated_and_twice_as_much_fourfold():
