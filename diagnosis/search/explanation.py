@@ -25,6 +25,7 @@ class Settings:
         refits: Best-scored terms that are refitted per model.
         most_terms: Terms that a model may have.
         seed: Of all random numbers.
+        nulls: Recordings without any effect that the search is run on.
     """
 
     level: float = 0.05
@@ -33,6 +34,7 @@ class Settings:
     refits: int = 6
     most_terms: int = 3
     seed: int = 0
+    nulls: int = 12
 
 
 @dataclass(frozen=True)

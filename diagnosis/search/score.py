@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 from diagnosis.search.fit import Fit, huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
 
@@ -63,9 +63,9 @@ class Projection:
 
     def noise(self, draws: int, seed: int) -> None:
         """Draw nulls: noise of residuals and prior, against which `chance` is reckoned."""
-        rng = np.random.default_rng(seed)
         kind = self._jacobian.dtype
-        noise = rng.standard_normal((len(self.residuals), draws), dtype=np.float32).astype(kind)
+        noise, rng = null_noise(len(self.residuals), draws, seed)
+        noise = noise.astype(kind)
         prior = np.zeros((self._jacobian.shape[1], draws))
         prior[: self._count] = rng.standard_normal((self._count, draws)) / self._widths[:, None]
         slope = np.asarray(self._jacobian.T @ noise, dtype=np.float64) + prior
@@ -115,6 +115,12 @@ class Seen:
     across: Array
 
 
+def null_noise(count: int, draws: int, seed: int) -> tuple[AnyArray, np.random.Generator]:
+    """Noise of deviation 1 for every residual of every null, shape (count, draws), and the source for what follows."""
+    rng = np.random.default_rng(seed)
+    return rng.standard_normal((count, draws), dtype=np.float32), rng
+
+
 def _factored(normal: Array) -> tuple[Array, bool]:
     """Cholesky factor of a normal matrix with a hair more on its diagonal.
 
@@ -150,16 +156,26 @@ class Scoring:
         ranked: One score per term that would gain something, best first.
         tried: Choices of terms and shapes that were simulated and can be seen.
         chance: Largest gain of any of them in each simulated null, shape (draws,).
+        leads: Term and values that have it, for each null.
     """
 
     ranked: list[Score]
     tried: int
     chance: Array
+    leads: tuple[tuple[Term, tuple[float, ...]] | None, ...] = ()
 
     def joined(self, other: Scoring) -> Scoring:
         """Both together; they were scored against the same nulls."""
         ranked = sorted((*self.ranked, *other.ranked), key=lambda s: -s.gain)
-        return Scoring(ranked, self.tried + other.tried, np.maximum(self.chance, other.chance))
+        leads = tuple(
+            mine if own >= theirs else other_one
+            for own, theirs, mine, other_one in zip(self.chance, other.chance, self.leads, other.leads)
+        )
+        return Scoring(ranked, self.tried + other.tried, np.maximum(self.chance, other.chance), leads)
+
+    def scaled(self, factor: float) -> Scoring:
+        """The same with gains by chance that are larger by a factor: what refits find beyond straight lines."""
+        return replace(self, chance=factor * self.chance)
 
     def margin(self, level: float) -> float:
         """Gain that the best of all terms exceeds with probability `level` where none is there."""
@@ -184,29 +200,31 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed:
         model: Model and recordings.
         base: Converged fit without the terms.
         terms: Terms to try, each with every combination of its starts.
-        draws: Simulated nulls: noise of the residuals and of the prior, seen along the terms' directions. A refit gains
-            what the straight line predicts within a few per cent, so nulls need no simulation of their own here.
+        draws: Nulls: noise of the residuals and of the prior, seen along the terms' directions; `nulls` refits the best
+            terms of some of them.
         seed: Of the random numbers.
     """
     projection = Projection(base)
     projection.noise(draws, seed)
     tasks = [(term, values) for term in terms if term not in base.point.terms for values in shapes(term)]
     chance, tried = np.zeros(draws), 0
+    leads: list[tuple[Term, tuple[float, ...]] | None] = [None] * draws
     best: dict[Term, Score] = {}
     for begin in range(0, len(tasks), BATCH):
-        scores, largest = _batch(model, base, tasks[begin : begin + BATCH], projection)
+        scores, largest, leading = _batch(model, base, tasks[begin : begin + BATCH], projection)
         tried += len(scores)
+        leads = [new if b > a else old for a, b, old, new in zip(chance, largest, leads, leading)]
         chance = np.maximum(chance, largest)
         for found in scores:
             if found.gain > 0 and (found.term not in best or found.gain > best[found.term].gain):
                 best[found.term] = found
-    return Scoring(sorted(best.values(), key=lambda s: -s.gain), tried, chance)
+    return Scoring(sorted(best.values(), key=lambda s: -s.gain), tried, chance, tuple(leads))
 
 
 def _batch(
     model: Model, base: Fit, tasks: Sequence[tuple[Term, tuple[float, ...]]], projection: Projection
-) -> tuple[list[Score], Array]:
-    """Scores of what can be seen, and the largest gain of any in each null."""
+) -> tuple[list[Score], Array, list[tuple[Term, tuple[float, ...]] | None]]:
+    """Scores of what can be seen; the largest gain of any in each null, and what has it."""
     slopes = strength_slopes(model, base.point, base.residuals, tasks)
     usable = np.asarray(np.isfinite(slopes).all(axis=1))
     slopes[~usable] = 0.0
@@ -214,7 +232,7 @@ def _batch(
     is_visible = usable & (seen.left > LEAST_VISIBLE**2 * seen.whole) & (seen.left > 0.0)
     chosen = np.flatnonzero(is_visible).tolist()
     if not chosen:
-        return [], np.zeros(seen.noise.shape[1])
+        return [], np.zeros(seen.noise.shape[1]), [None] * seen.noise.shape[1]
     left, along = seen.left[chosen], seen.along[chosen]
     # The residuals' slope along a direction; the strength that would undo it has the other sign.
     toward = -seen.noise[chosen] / np.sqrt(left)[:, None]
@@ -229,7 +247,13 @@ def _batch(
         gain = float(amount**2 * length - (amount - inside) ** 2 * length)
         visibility = float(np.sqrt(length / seen.whole[i]))
         scores.append(Score(term, (inside, *values[1:]), gain, visibility))
-    return scores, np.asarray((toward**2).max(axis=0))
+    leads: list[tuple[Term, tuple[float, ...]] | None] = []
+    for draw, best in enumerate(np.argmax(toward**2, axis=0).tolist()):
+        term, values = tasks[chosen[best]]
+        strength = term.parameters[0]
+        amount = -float(seen.noise[chosen[best], draw]) / float(left[best])
+        leads.append((term, (min(max(amount, strength.lower), strength.upper), *values[1:])))
+    return scores, np.asarray((toward**2).max(axis=0, initial=0.0)), leads
 
 
 def _side(term: Term) -> int:

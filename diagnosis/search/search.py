@@ -13,6 +13,7 @@ from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, pairs, polished
+from diagnosis.search.nulls import calibrated
 from diagnosis.search.problem import Model, Parameter, Point, Term
 from diagnosis.search.score import Scoring
 from diagnosis.search.structure import Structure, structure
@@ -35,6 +36,7 @@ class Outcome:
         margin: Gain that a term had to exceed.
         false_alarm_rate: Probability that chance alone gives the first accepted term its gain; 1 without one.
         tried: Choices of terms and shapes that were simulated.
+        nulls: Recordings without any effect that the search was run on.
     """
 
     base: Fit
@@ -45,6 +47,7 @@ class Outcome:
     margin: float
     false_alarm_rate: float
     tried: int
+    nulls: int = 0
 
 
 OnProgress = Callable[[str], None]
@@ -105,7 +108,7 @@ def search(
     current = [Explanation(base)]
     best = current[0]
     rivals: tuple[Explanation, ...] = (best,)
-    margin, rate, tried = settings.floor, 1.0, 0
+    margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
@@ -116,6 +119,9 @@ def search(
             grown = polished(model, sorted([*grown, *together], key=lambda e: e.demerit), current[0].demerit)
         first = scoring if level == 0 else first
         tried += scoring.tried
+        if level == 0 and grown and current[0].cost - grown[0].cost > margin:
+            on_progress("the same search on nulls")
+            scoring, nulls = calibrated(model, base, scoring, settings)
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
         if not grown or current[0].cost - grown[0].cost <= margin:
@@ -134,7 +140,7 @@ def search(
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
-    return Outcome(base, left, best, after, rivals, margin, rate, tried)
+    return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
 
 
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
