@@ -18,6 +18,7 @@ from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.search import search_fabric
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.beginning import begun
+from diagnosis.judge.confirmed import confirmed
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
@@ -140,6 +141,7 @@ def diagnose(
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
+        nulls=outcome.nulls,
         false_alarm_rate=outcome.false_alarm_rate,
         structure_before=outcome.base_structure.z,
         structure_after=outcome.left.z,
@@ -158,7 +160,7 @@ def diagnose(
         left=remainders(outcome.best.fit.residuals, model.layout, model.groups()),
         next_experiment=experiment,
     )
-    return Found(diagnosis, model, judge, points, carried)
+    return Found(confirmed(diagnosis), model, judge, points, carried)
 
 
 def _statement(word: Verdict, found: Sequence[object]) -> str:

@@ -11,6 +11,7 @@ from diagnosis.amend.judged import judged
 from diagnosis.curves import curves
 from diagnosis.diagnose import Found
 from diagnosis.experiment.write import write_experiment
+from diagnosis.judge.confirmed import confirmed
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.recording.recording import load_recording
 from diagnosis.report.json_file import write_json
@@ -39,6 +40,7 @@ def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
         held_out = [load_recording(r.path) for r in diagnosis.recordings if r.is_held_out]
         points = found.points, found.held_out_points
         diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
+        diagnosis = confirmed(diagnosis)
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

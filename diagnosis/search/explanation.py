@@ -34,7 +34,7 @@ class Settings:
     refits: int = 6
     most_terms: int = 3
     seed: int = 0
-    nulls: int = 12
+    nulls: int = 8
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,42 @@
+"""The last word of the recordings held out: what makes their prediction worse is not accepted."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from diagnosis.judge.diagnosis import Diagnosis, Verdict
+
+#: Rise of chi-square over all held-out readings by which a finding is refuted: odds of 20000 to 1 for the model without.
+REFUTING = 20.0
+#: ... and at least this share of it, for no model of a rig foretells better than that.
+SHARE = 0.02
+
+
+def held_out_chi_square(diagnosis: Diagnosis, stage: str) -> float:
+    """Sum of squares over all readings held out, in deviations of their noise.
+
+    Args:
+        diagnosis: With fits of held-out recordings.
+        stage: `before`, `recalibrated` or `after`.
+    """
+    return sum(f.chi_square[stage] * f.samples for f in diagnosis.fit if f.is_held_out)
+
+
+def confirmed(diagnosis: Diagnosis) -> Diagnosis:
+    """The diagnosis, or `cannot tell` where its findings foretell held-out recordings worse than no finding at all.
+
+    Findings stay listed, as what the training recordings suggest. Nothing is fitted here; effects that the priors can
+    absorb show in training alone, and are not refuted by that.
+    """
+    if not diagnosis.findings or not any(f.is_held_out for f in diagnosis.fit):
+        return diagnosis
+    without, with_them = (held_out_chi_square(diagnosis, stage) for stage in ("recalibrated", "after"))
+    rise = with_them - without
+    if rise <= max(REFUTING, SHARE * without):
+        return diagnosis
+    effects = "; ".join(f.statement for f in diagnosis.findings)
+    text = (
+        f"The training recordings suggest: {effects}. The recordings held out are foretold worse with it "
+        f"(chi-square {with_them:.0f} against {without:.0f}), so it is not accepted."
+    )
+    return replace(diagnosis, verdict=Verdict.CANNOT_TELL, statement=text)
