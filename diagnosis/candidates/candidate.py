@@ -37,6 +37,7 @@ class Parameter:
         is_amplitude: Whether 0 switches the effect off (at that coil, string or channel); the first one, and it alone.
         is_fixed: Given with the place, never fitted (the scale of a channel).
         is_switch: An amplitude that is wholly there (its upper bound) or not at all.
+        negligible: Size of an amplitude below which it is no finding: every rig has that much of it.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Parameter:
     is_amplitude: bool = False
     is_fixed: bool = False
     is_switch: bool = False
+    negligible: float = 0.0
 
     @property
     def is_instant(self) -> bool:

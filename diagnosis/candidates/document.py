@@ -53,9 +53,11 @@ def _number(value: float) -> str:
 
 def _parameter(p: Parameter) -> str:
     if p.is_fixed:
-        return f"`{p.name}` [{p.unit}]: given with the place"
+        small = f"; below {_number(p.negligible)} it is no finding" if p.negligible else ""
+    return f"`{p.name}` [{p.unit}]: given with the place"
     starts = ", ".join(_number(v) for v in p.starts)
-    return f"`{p.name}` [{p.unit}], {_number(p.lower)} to {_number(p.upper)}: {p.reason}; tried from {starts}"
+    small = f"; below {_number(p.negligible)} it is no finding" if p.negligible else ""
+    return f"`{p.name}` [{p.unit}], {_number(p.lower)} to {_number(p.upper)}: {p.reason}; tried from {starts}{small}"
 
 
 def _named(term: CandidateTerm) -> Iterator[str]:

@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             "0 is the play operator; at most 1, so that the outer loop stays as it is",
             (0.1, 0.3, 0.7),
             is_amplitude=True,
+            negligible=0.06,
         ),
     ),
     places=("all", "coil"),

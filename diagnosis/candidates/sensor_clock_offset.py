@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="JCGM 200:2012, International Vocabulary of Metrology, and the definition of a time shift",
     parameters=(
         Parameter(
-            "delay", "s", -10.0, 10.0, "clocks are set within seconds", (0.1, -0.1, 0.5, -0.5, 2.0), is_amplitude=True
+            "delay",
+            "s",
+            -10.0,
+            10.0,
+            "clocks are set within seconds",
+            (0.1, -0.1, 0.5, -0.5, 2.0),
+            is_amplitude=True,
+            negligible=0.05,
         ),
     ),
     places=("channel", "quantity"),

@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="JCGM 200:2012, International Vocabulary of Metrology, 4.12 (sensitivity)",
     parameters=(
         Parameter(
-            "gain", "1", -0.5, 0.5, "a calibration is never off by more", (0.02, -0.02, 0.1, -0.1), is_amplitude=True
+            "gain",
+            "1",
+            -0.5,
+            0.5,
+            "a calibration is never off by more",
+            (0.02, -0.02, 0.1, -0.1),
+            is_amplitude=True,
+            negligible=0.003,
         ),
         Parameter(
             "pivot",

@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source=("E. O. Doebelin, Measurement Systems, 5th ed., McGraw-Hill 2003, section 3.3 (first-order instrument)"),
     parameters=(
         Parameter(
-            "lag_time", "s", 0.0, 60.0, "a sensor follows, it does not foresee", (0.1, 0.5, 2.0, 8.0), is_amplitude=True
+            "lag_time",
+            "s",
+            0.0,
+            60.0,
+            "a sensor follows, it does not foresee",
+            (0.1, 0.5, 2.0, 8.0),
+            is_amplitude=True,
+            negligible=0.05,
         ),
     ),
     places=("channel", "quantity"),

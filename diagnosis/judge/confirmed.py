@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 
-#: Rise of chi-square over all held-out readings by which a finding is refuted: odds of 20000 to 1 for the model without.
+#: Rise of chi-square over all held-out readings by which a finding is refuted: odds of 20000 to 1 against it.
 REFUTING = 20.0
 #: ... and at least this share of it, for no model of a rig foretells better than that.
 SHARE = 0.02

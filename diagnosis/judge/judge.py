@@ -15,6 +15,8 @@ from diagnosis.simulator.models import DiagnosisModel
 NORMAL_95 = 1.959963984540054
 #: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
 UNSEPARATED = 6.0
+#: Structure beyond so many times its limit is more than the small errors that every model of a rig has.
+EVIDENT = 1.2
 #: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
 DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 #: A parameter that moved by more prior deviations than this is told.
@@ -32,7 +34,7 @@ def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
     """
     terms = outcome.best.terms
     if not terms:
-        if not outcome.base_structure.is_noise:
+        if abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
             return Verdict.CANNOT_TELL
         moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
         fell = nominal_cost - outcome.base.cost

@@ -55,6 +55,11 @@ class Explanation:
         return tuple(self.fit.point.terms)
 
     @property
+    def is_negligible(self) -> bool:
+        """Whether one of its terms is smaller than what every rig has of it."""
+        return any(abs(values[0]) < t.parameters[0].negligible for t, values in self.fit.point.terms.items())
+
+    @property
     def cost(self) -> float:
         """-2 log posterior of the fit, and what the odds are against laws without a name before any data."""
         return self.fit.cost + UNNAMED * sum(not t.is_named for t in self.terms)

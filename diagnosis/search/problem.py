@@ -55,6 +55,7 @@ class TermParameter:
         is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
             along it.
         is_instant: An instant of the recording.
+        negligible: Size of a strength below which it is no finding.
     """
 
     name: str
@@ -64,6 +65,7 @@ class TermParameter:
     starts: tuple[float, ...]
     is_switch: bool = False
     is_instant: bool = False
+    negligible: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -124,7 +124,7 @@ def search(
             scoring, nulls = calibrated(model, base, scoring, settings)
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
-        if not grown or current[0].cost - grown[0].cost <= margin:
+        if not grown or current[0].cost - grown[0].cost <= margin or grown[0].is_negligible:
             if level == 0:  # not earned, but an experiment may decide about them
                 rivals = (best, *grown)
             break

@@ -135,7 +135,7 @@ class BankModel:
                 starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
             elif p.name in ("limit", "ceiling"):
                 starts = self._ceilings(candidate, place, p.name) or starts
-            free.append(TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant))
+            free.append(TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, p.negligible))
         return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
 
     def _ceilings(self, candidate: CandidateTerm, place: Place, name: str) -> tuple[float, ...]:

@@ -32,8 +32,8 @@ class Clocks:
     """How late readings may be by what the recordings state of clocks and sensors; quantity to seconds.
 
     Args:
-        late: One standard deviation of the clock; of a state, which never jumps, a short lag is a delay too.
-        slow: Typical lag of the sensors of a flow, which jumps.
+        late: One standard deviation of the clock.
+        slow: Typical lag of the sensors.
     """
 
     late: Mapping[str, float]

@@ -146,10 +146,8 @@ def clocks(runs: Sequence[Run]) -> Clocks:
     slow: dict[str, float] = {}
     for s in (s for run in runs for s in run.series):
         lag = s.channel.lag_bound if s.channel.lag_bound <= 1.0 else 0.0
-        if QUANTITIES[s.quantity].is_flow:
-            slow[s.quantity] = max(slow.get(s.quantity, 0.0), 0.2 * lag)
-            lag = 0.0
-        late[s.quantity] = max(late.get(s.quantity, 0.0), 0.5 * float(np.hypot(s.channel.offset_bound, lag)))
+        slow[s.quantity] = max(slow.get(s.quantity, 0.0), 0.2 * lag)
+        late[s.quantity] = max(late.get(s.quantity, 0.0), 0.5 * s.channel.offset_bound)
     return Clocks({q: v for q, v in late.items() if v > 0.0}, {q: v for q, v in slow.items() if v > 0.0})
 
 
