@@ -50,7 +50,8 @@ def grow(
         most, kept = 0.0, 1.0
         for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
-            if key not in grown and candidate.gain * kept * OUTDONE > most:
+            is_there = candidate.term.is_named and candidate.term.place == hopeful[0].term.place
+            if key not in grown and (is_there or candidate.gain * kept * OUTDONE > most):
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
                 gained = explanation.fit.cost - grown[key].fit.cost
                 most, kept = max(most, gained), max(kept, gained / candidate.gain)
@@ -87,7 +88,10 @@ def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
     others = {True: 0, False: 0}
     for candidate in ranked[count : 12 * count]:
         is_new = all(c.term.identifier != candidate.term.identifier for c in chosen)
-        if candidate.gain > 0.3 * ranked[0].gain and is_new and others[candidate.term.is_named] < count:
+        # A law far from straight promises little; one of the catalogue, at the very place, is tried all the same.
+        is_there = candidate.term.is_named and candidate.term.place == ranked[0].term.place
+        is_near = candidate.gain > (0.05 if is_there else 0.3) * ranked[0].gain
+        if is_near and is_new and others[candidate.term.is_named] < count:
             others[candidate.term.is_named] += 1
             chosen.append(candidate)
     return chosen
@@ -115,6 +119,8 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
     first = term.parameters[0]
     sizes = (first.upper,) if first.is_switch else (strength, *first.starts[:3])
     yield from _other_shapes(before, candidate, sizes)
+    if len(first.starts) > 1:  # far from a straight line another size may be the better start
+        yield from (before.point.plus(term, (size, *shape)) for size in first.starts)
     for moved in _other_instants(before.point):  # what came first may have come at a wrong instant
         yield from (moved.plus(term, (size, *shape)) for size in sizes)
     if np.max(np.abs(before.point.base / before.widths), initial=0.0) > STRAINED:

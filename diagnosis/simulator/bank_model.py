@@ -135,8 +135,29 @@ class BankModel:
                 starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
             elif p.name in ("limit", "ceiling"):
                 starts = self._ceilings(candidate, place, p.name) or starts
-            free.append(TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, p.negligible))
+            free.append(
+                TermParameter(
+                    p.name,
+                    p.unit,
+                    lower,
+                    upper,
+                    starts,
+                    p.is_switch,
+                    p.is_instant,
+                    self._stated(candidate, place, p.negligible),
+                )
+            )
         return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+
+    def _stated(self, candidate: CandidateTerm, place: Place, negligible: float) -> float:
+        """How far a sensor may be off by what the recordings state of it: that is no finding."""
+        bounds = {"sensor_clock_offset": "offset_bound", "sensor_lag": "lag_bound"}
+        if candidate.identifier not in bounds:
+            return negligible
+        elements = np.flatnonzero(place.mask).tolist()
+        every = (s for run in self.runs for s in run.series)
+        own = [s.channel for s in every if self.coils.channel(s.quantity) + s.element in elements]
+        return max([negligible, *(float(getattr(c, bounds[candidate.identifier])) for c in own)])
 
     def _ceilings(self, candidate: CandidateTerm, place: Place, name: str) -> tuple[float, ...]:
         """Where a limit may lie, from the most that was read: of what is cut off nothing is seen above it."""
