@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,10 @@ from diagnosis.recording.table import Table
 
 #: A channel needs at least this many values to be worth anything.
 FEWEST_VALUES = 8
+
+
+#: An estimated noise is at least this share of the median over the channels of one quantity.
+LIKE = 0.7
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,24 @@ def load_recording(path: str | Path) -> Recording:
     return _Reader(file).recording()
 
 
+def alike(channels: Mapping[str, Channel]) -> dict[str, Channel]:
+    """The same, with no estimated noise far below that of its like.
+
+    Differences of readings tell the noise, but not where a sensor stands at the end of its range: there they are all
+    the same, and a noise taken from them would make everything else wild. Sensors of one quantity have like noise.
+    """
+    kinds: dict[tuple[str, str], list[float]] = {}
+    for c in channels.values():
+        if not c.is_deviation_given:
+            kinds.setdefault((c.target.kind, c.target.quantity), []).append(c.deviation)
+    least = {kind: LIKE * float(np.median(values)) for kind, values in kinds.items()}
+    return {
+        name: c if c.is_deviation_given
+        else replace(c, deviation=max(c.deviation, least[c.target.kind, c.target.quantity]))
+        for name, c in channels.items()
+    }  # fmt: skip
+
+
 class _Reader:
     """Reads one recording; tables are read once."""
 
@@ -136,7 +158,7 @@ class _Reader:
 
     def recording(self) -> Recording:
         sidecar = self.sidecar
-        channels = {name: self._channel(name, entry) for name, entry in sidecar.channels.items()}
+        channels = alike({name: self._channel(name, entry) for name, entry in sidecar.channels.items()})
         inputs = tuple(self._input(name, entry) for name, entry in sidecar.inputs.items())
         end = max(float(c.times[-1]) for c in channels.values())
         return Recording(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, stated_priors
-from diagnosis.simulator.runs import Run, clocks
+from diagnosis.simulator.runs import LONGEST_LAG, Run, clocks, deviation
 from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
@@ -70,6 +71,9 @@ class BankModel:
         every = [s for run in self.runs for s in run.series]
         self._channel_axis = np.array([QUANTITIES[s.quantity].axis for s in every])
         self._channel_element = np.array([s.element for s in every])
+        self._noise = np.zeros(self.coils.size("channel"))
+        for one in every:
+            self._noise[self.coils.channel(one.quantity) + one.element] = deviation(one.channel)
         self._channel_number = np.array([self.coils.channel(s.quantity) + s.element for s in every])
 
     @property
@@ -97,6 +101,8 @@ class BankModel:
             for candidate in self._candidates.values():
                 known: set[bytes] = set()  # one coil is all coils, one source all sources
                 found = sorted(places(candidate, self.coils, self.measured), key=lambda p: p.label != "all coils")
+                if any(p.name == "noise" for p in candidate.parameters):
+                    found = [replace(p, fixed={**p.fixed, "noise": self._noise}) for p in found]
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
                         self._places[self._term(candidate, place)] = (candidate, place)
@@ -157,7 +163,10 @@ class BankModel:
         elements = np.flatnonzero(place.mask).tolist()
         every = (s for run in self.runs for s in run.series)
         own = [s.channel for s in every if self.coils.channel(s.quantity) + s.element in elements]
-        return max([negligible, *(float(getattr(c, bounds[candidate.identifier])) for c in own)])
+        stated = [float(getattr(c, bounds[candidate.identifier])) for c in own]
+        if candidate.identifier == "sensor_lag":  # beyond that the base has none; see `runs.clocks`
+            stated = [s for s in stated if s <= LONGEST_LAG]
+        return max([negligible, *stated])
 
     def _ceilings(self, candidate: CandidateTerm, place: Place, name: str) -> tuple[float, ...]:
         """Where a limit may lie, from the most that was read: of what is cut off nothing is seen above it."""
