@@ -21,6 +21,8 @@ from diagnosis.simulator.translate import Translation
 
 #: Standard deviation of a channel's zero, as a share of its noise: nothing is set better than its readings scatter.
 ZERO = 0.15
+#: A stated lag up to this belongs to the model of the sensors [s]; a longer one is no nuisance but a candidate.
+LONGEST_LAG = 1.0
 
 
 @dataclass(frozen=True)
@@ -141,11 +143,11 @@ class Run:
 
 
 def clocks(runs: Sequence[Run]) -> Clocks:
-    """How late readings may be. A lag beyond a second is no nuisance of sensors but a candidate."""
+    """How late readings may be."""
     late: dict[str, float] = {}
     slow: dict[str, float] = {}
     for s in (s for run in runs for s in run.series):
-        lag = s.channel.lag_bound if s.channel.lag_bound <= 1.0 else 0.0
+        lag = s.channel.lag_bound if s.channel.lag_bound <= LONGEST_LAG else 0.0
         slow[s.quantity] = max(slow.get(s.quantity, 0.0), 0.2 * lag)
         late[s.quantity] = max(late.get(s.quantity, 0.0), 0.5 * s.channel.offset_bound)
     return Clocks({q: v for q, v in late.items() if v > 0.0}, {q: v for q, v in slow.items() if v > 0.0})
