@@ -32,6 +32,7 @@ def prove(
     cluster: Annotated[str | None, typer.Option(help="Address of a Dask scheduler to use instead.")] = None,
     limit: Annotated[float, typer.Option(min=1.0, help="Longest time of one diagnosis [s].")] = 1200.0,
     resume: Annotated[bool, typer.Option("--resume", help="Insist that there is a proof to go on with.")] = False,
+    so_far: Annotated[bool, typer.Option("--so-far", help="No new diagnoses: score those that are done.")] = False,
     baselines: Annotated[bool, typer.Option(help="Try other methods on the same data.")] = True,
     table: Annotated[list[Path] | None, typer.Option(help="No new cases: tables of these proofs together.")] = None,
     page: Annotated[Path | None, typer.Option(help="Where the tables go; default: tables.md in the folder.")] = None,
@@ -62,11 +63,11 @@ def prove(
     draw = Draw(cases, seed, _names(kinds), _names(setups))
     try:
         with workers(jobs or _cores(), cluster) as crew:
-            results = run(Folder(out), draw, crew, Effort(limit, baselines))
+            results = run(Folder(out), draw, crew, Effort(limit, baselines, so_far))
     except KeyboardInterrupt:
         print(f"interrupted; what is done is kept: go on with the same command, `--out {out}`", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
-    about = {"cases": cases, "seed": seed, "kinds": kinds, "setups": setups, "date": date.today().isoformat()}
+    about = {"cases": len(results), "seed": seed, "kinds": kinds, "setups": setups, "date": date.today().isoformat()}
     write_all(results, about, out, page)
 
 
