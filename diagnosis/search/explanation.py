@@ -26,6 +26,8 @@ class Settings:
         most_terms: Terms that a model may have.
         seed: Of all random numbers.
         nulls: Recordings without any effect that the search is run on.
+        stops_at_noise: Whether it stops once what is left looks like noise; not where the noise was told from what was
+            left.
     """
 
     level: float = 0.05
@@ -34,7 +36,8 @@ class Settings:
     refits: int = 6
     most_terms: int = 3
     seed: int = 0
-    nulls: int = 8
+    nulls: int = 7
+    stops_at_noise: bool = True
 
 
 @dataclass(frozen=True)

@@ -112,7 +112,7 @@ def search(
     first = Scoring([], 0, np.zeros(0))
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
-        is_done = structure(current[0].fit.residuals, model.layout, groups).is_noise
+        is_done = settings.stops_at_noise and structure(current[0].fit.residuals, model.layout, groups).is_noise
         grown, scoring = grow(model, terms, current[:1] if is_done else current, settings, margin)
         if level == 1 and not is_done:
             together = pairs(model, base, first.ranked, settings, margin)
@@ -135,7 +135,8 @@ def search(
             break
         current = grown[: settings.beam]
         best, rivals = current[0], tuple(grown)
-        if structure(best.fit.residuals, model.layout, groups).is_noise and level + 1 >= settings.most_terms - 1:
+        is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
+        if settings.stops_at_noise and not is_left and level + 1 >= settings.most_terms - 1:
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)

@@ -24,6 +24,8 @@ from diagnosis.search.search import Explanation
 BLOCKS = 5
 #: Explanations that are validated, the best fits first.
 VALIDATED = 10
+#: Mean square of residuals, in that of the noise, below which stretches are all alike.
+SMALLEST = 1e-6
 #: Share of the largest gain that an explanation must have to be validated.
 WORTH = 0.3
 #: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
@@ -59,8 +61,13 @@ class Foretold:
 
     @property
     def loss(self) -> float:
-        """Mean over the stretches."""
-        return float(np.mean(self.losses))
+        """Geometric mean over the stretches.
+
+        What a model lacks comes into play in some stretches and not in others, so that its errors differ by orders:
+        their variance is each stretch's own, and the likelihood of the readings goes with the sum of its logarithms.
+        Of plain means the worst stretch alone would decide, which often asks for what only it holds.
+        """
+        return float(np.exp(np.mean(np.log(self.losses + SMALLEST))))
 
 
 class Validation:
@@ -94,7 +101,10 @@ class Validation:
         return Foretold(explanation, residuals, np.array(losses))
 
     def select(self, before: Explanation, grown: Sequence[Explanation]) -> list[Explanation]:
-        """Explanations by how well they foretell, the best first; none once two more terms have not helped."""
+        """Explanations, the most probable first; none once two more terms have not helped any of them to foretell.
+
+        What foretells badly may be half of what foretells best: it is judged at the end (`chosen`).
+        """
         if not self._losses:
             self.all.append(self.foretold(before))
             self._losses.append(self.all[0].loss)
@@ -108,25 +118,31 @@ class Validation:
         self._losses.append(min((f.loss for f in found), default=np.inf))
         if not found or min(self._losses[-PATIENCE:]) >= min(self._losses[:-PATIENCE], default=np.inf):
             return []
-        return [f.explanation for f in sorted(found, key=lambda f: f.loss)]
+        return [f.explanation for f in sorted(found, key=lambda f: f.explanation.cost)]
 
 
-def chosen(found: Sequence[Foretold], plain: Collection[Term]) -> Foretold:
-    """Of those that foretell as well as the best: the best of those with the fewest terms that are not plain.
+def chosen(found: Sequence[Foretold], plain: Collection[Term], margin: float) -> Foretold:
+    """Of those that foretell as well as the best: the most probable of those with the fewest terms that are not plain.
+
+    Few stretches tell little: one that asks for more than the others hold (two heaters on at once, which happens there
+    alone) outweighs the rest. They may refute an explanation; among those that they leave the readings decide, each
+    term against the margin.
 
     Args:
         found: At least one.
         plain: Terms that need no special reason.
+        margin: Gain that a term must be worth, in -2 log posterior.
     """
     best = min(found, key=lambda f: f.loss)
 
     def simplicity(one: Foretold) -> tuple[int, float]:
-        return sum(t not in plain for t in one.explanation.terms), one.loss
+        terms = one.explanation.terms
+        return sum(t not in plain for t in terms), one.explanation.cost + margin * len(terms)
 
     return min((f for f in found if _within(f, best)), key=simplicity)
 
 
 def _within(one: Foretold, best: Foretold) -> bool:
     """Whether an explanation foretells as well as the best, within the standard error of the difference."""
-    difference = one.losses - best.losses
+    difference = np.log(one.losses + SMALLEST) - np.log(best.losses + SMALLEST)
     return bool(np.mean(difference) <= np.std(difference, ddof=1) / np.sqrt(len(difference)))
