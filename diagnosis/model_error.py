@@ -9,20 +9,21 @@ from functools import partial
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Term
-from diagnosis.search.search import Explanation, Outcome, Settings, search, shrink
+from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
 from diagnosis.search.validation import Foretold, Validation, chosen
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 
-#: Searches with a tempered likelihood, each with the errors that the one before left.
-TEMPERINGS = 2
-#: A search stands if the errors that it leaves are not larger than it was told by this factor of the variance.
+#: What was found is reckoned again if it leaves errors whose variance is larger than was told by this factor.
 FAR = 2.0
 #: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
 BEAM, REFITS, MOST_TERMS = 3, 8, 4
+#: Parameters of laws that belong to one recording: another day has another draught and another drift.
+OF_A_DAY = ("instant", "drift")
 
 
 def search_with_model_error(
@@ -44,22 +45,42 @@ def search_with_model_error(
     """
     outcome = search(model, model.terms(), settings, model.groups(), on_progress)
     factor = _pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
-    found = model
-    for _ in range(TEMPERINGS if factor.max() > BELIEVED else 0):
-        on_progress("searching again: no model meets the readings within their noise")
-        found = TemperedModel(model, factor)
-        outcome = _validated(found, settings, on_progress)
-        raw = model.residuals([outcome.best.fit.point])[0]
-        larger = _pooled(inflation(raw, model.layout), model.layout)
-        if np.all(larger < FAR * factor):
-            break
-        factor = np.maximum(factor, larger)
+    if factor.max() <= BELIEVED:
+        return outcome, model
+    on_progress("searching again: no model meets the readings within their noise")
+    found = TemperedModel(model, factor)
+    outcome = _validated(found, settings, on_progress)
+    raw = model.residuals([outcome.best.fit.point])[0]
+    larger = _pooled(inflation(raw, model.layout), model.layout)
+    if np.any(larger >= FAR * factor):
+        found = TemperedModel(model, np.maximum(factor, larger))
+        outcome = _reckoned(found, outcome)
     return outcome, found
+
+
+def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
+    """What was found with larger errors: intervals grow, and terms that are not earned any more go.
+
+    It is not searched again: which laws foretell does not hang on the size of the errors, and with larger ones the
+    search would stop earlier, leave more, and so on.
+    """
+    base = recalibrate(model)
+    best = shrink(model, Explanation(fit(model, outcome.best.fit.point)), outcome.margin)
+    near = [e for e in outcome.rivals if len(e.terms) == len(best.terms)]
+    rivals = sorted([best, *(Explanation(fit(model, e.fit.point)) for e in near)], key=lambda e: e.fit.cost)
+    return replace(
+        outcome,
+        base=base,
+        base_structure=structure(base.residuals, model.layout, model.groups()),
+        best=best,
+        left=structure(best.fit.residuals, model.layout, model.groups()),
+        rivals=tuple(_once(rivals)),
+    )
 
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
     """Search plain laws, and all where none of them foretells better; take what foretells best."""
-    wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
+    wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
     known: list[Foretold] = []
     outcomes = []
     every = distinct(model, model.terms())
@@ -68,12 +89,12 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
         validation = Validation(model, partial(MaskedModel, model), on_progress)
         outcomes.append(search(model, terms, wide, model.groups(), on_progress, validation.select))
         known += validation.all
-        if known and chosen(known, set(plain)).explanation.terms:
+        if known and chosen(known, set(plain), outcomes[-1].margin).explanation.terms:
             break  # a law explains it; what else there is would only fill gaps
     outcome = outcomes[-1]
     if not known:
         return outcome
-    best = chosen(known, set(plain))
+    best = chosen(known, set(plain), outcome.margin)
     explanation = shrink(model, best.explanation, outcome.margin)
     near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
     rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
@@ -93,10 +114,10 @@ def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
 
 
 def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
-    """Laws with a name that hold at any time, and faults of sensors that a recording itself says may be there.
+    """Laws with a name that hold on any day, and faults of sensors that a recording itself says may be there.
 
-    Where much is left unexplained, an event at some instant, a term without a name or a sensor under suspicion without
-    a reason fills any gap; none of them says anything about another recording.
+    Where much is left unexplained, an event at some instant, a drift, a term without a name or a sensor under suspicion
+    without a reason fills any gap; none of them says anything about another recording.
     """
     channels = [s.channel for run in model.runs for s in run.series]
     stated = {
@@ -108,7 +129,7 @@ def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
         t
         for t in terms
         if t.is_named
-        and all(p.name != "instant" for p in t.parameters)
+        and all(p.name not in OF_A_DAY for p in t.parameters)
         and (t.unit != "measurement" or stated.get(t.identifier, False))
     ]
 

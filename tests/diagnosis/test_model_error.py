@@ -92,5 +92,5 @@ def test_of_two_that_foretell_alike_the_plain_one_is_taken():
     losses = np.array([1.0, 1.2, 0.9, 1.1, 1.0])
     far = Foretold(start, readings, losses + 1.0)
     plain, special = Foretold(other, readings, losses + 0.01), Foretold(start, readings, losses * 0.98)
-    assert chosen([far, plain, special], set(other.terms)) is special  # fewer terms, and it foretells better
-    assert chosen([far, plain], set(other.terms)) is plain
+    assert chosen([far, plain, special], set(other.terms), 20.0) is special  # fewer terms, and it foretells better
+    assert chosen([far, plain], set(other.terms), 20.0) is plain
