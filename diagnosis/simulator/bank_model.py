@@ -12,16 +12,17 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank, BankError
 from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.bank.places import SCALES, Place, merge, places
+from diagnosis.bank.places import Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
-from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
+from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, stated_priors
-from diagnosis.simulator.runs import LONGEST_LAG, Run, clocks, deviation
+from diagnosis.simulator.runs import Run, clocks, deviation
+from diagnosis.simulator.term_at import term_at
 from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
@@ -29,8 +30,6 @@ UNIT_OF_QUANTITY = {
     "temperature": "thermal", "current": "electrical", "supply_current": "electrical", "resistance": "electrical",
     "power": "electrical", "extension": "mechanical", "length": "mechanical", "stiffness": "stiffness",
 }  # fmt: skip
-#: Instants at which an effect that begins some time is tried first.
-INSTANTS = 9
 
 
 class BankModel:
@@ -105,7 +104,7 @@ class BankModel:
                     found = [replace(p, fixed={**p.fixed, "noise": self._noise}) for p in found]
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
-                        self._places[self._term(candidate, place)] = (candidate, place)
+                        self._places[term_at(candidate, place, self.coils, self.runs)] = (candidate, place)
                         known.add(place.mask.tobytes())
         return list(self._places)
 
@@ -127,58 +126,6 @@ class BankModel:
         touched = np.isin(self._channel_number if axis == "channel" else own, elements)
         found = np.flatnonzero(touched).tolist()
         return (found, place.kind == "swap") if found else None
-
-    def _term(self, candidate: CandidateTerm, place: Place) -> Term:
-        end = max(float(t[-1]) for run in self.runs for t in run.times.values())
-        begin = min(run.translation.start for run in self.runs)
-        free = []
-        for p in candidate.parameters:
-            if p.is_fixed:
-                continue
-            lower, upper, starts = p.lower, p.upper, p.starts
-            if p.is_instant:
-                lower, upper = begin, end
-                starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
-            elif p.name in ("limit", "ceiling"):
-                starts = self._ceilings(candidate, place, p.name) or starts
-            free.append(
-                TermParameter(
-                    p.name,
-                    p.unit,
-                    lower,
-                    upper,
-                    starts,
-                    p.is_switch,
-                    p.is_instant,
-                    self._stated(candidate, place, p.negligible),
-                )
-            )
-        return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
-
-    def _stated(self, candidate: CandidateTerm, place: Place, negligible: float) -> float:
-        """How far a sensor may be off by what the recordings state of it: that is no finding."""
-        bounds = {"sensor_clock_offset": "offset_bound", "sensor_lag": "lag_bound"}
-        if candidate.identifier not in bounds:
-            return negligible
-        elements = np.flatnonzero(place.mask).tolist()
-        every = (s for run in self.runs for s in run.series)
-        own = [s.channel for s in every if self.coils.channel(s.quantity) + s.element in elements]
-        stated = [float(getattr(c, bounds[candidate.identifier])) for c in own]
-        if candidate.identifier == "sensor_lag":  # beyond that the base has none; see `runs.clocks`
-            stated = [s for s in stated if s <= LONGEST_LAG]
-        return max([negligible, *stated])
-
-    def _ceilings(self, candidate: CandidateTerm, place: Place, name: str) -> tuple[float, ...]:
-        """Where a limit may lie, from the most that was read: of what is cut off nothing is seen above it."""
-        elements = np.flatnonzero(place.mask).tolist()
-        most = 0.0
-        for s in (s for run in self.runs for s in run.series):
-            if name == "limit" and s.quantity in ("supply_current", "current"):
-                most = max(most, float(np.quantile(s.measured, 0.999)))
-            elif name == "ceiling" and self.coils.channel(s.quantity) + s.element in elements:
-                scale, pivot = SCALES[s.quantity]
-                most = max(most, (float(np.quantile(s.measured, 0.999)) - pivot) / scale)
-        return tuple(most * share for share in (0.99, 0.9, 0.75, 0.6, 0.45)) if most > 0.0 else ()
 
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""

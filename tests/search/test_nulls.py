@@ -38,7 +38,7 @@ def test_a_linear_term_gains_on_nulls_what_its_straight_line_promises():
     base = recalibrate(model)
     scoring = score(model, base, [BEND], draws=24, seed=1)
     gains = refitted(model, base, scoring, Settings(nulls=24, seed=1))
-    # The scoring draws the prior's noise too, the null does not: two parameters of hundreds of readings, a few per cent.
+    # The scoring draws the prior's noise too, the null does not: two parameters, hundreds of readings, a few per cent.
     np.testing.assert_allclose(gains, scoring.chance, rtol=0.1, atol=0.3)
 
 
