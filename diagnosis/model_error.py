@@ -10,6 +10,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.fit import fit
+from diagnosis.search.grow import grow
 from diagnosis.search.problem import Layout, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
@@ -22,6 +23,8 @@ from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 FAR = 2.0
 #: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
 BEAM, REFITS, MOST_TERMS = 3, 8, 4
+#: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
+EXCHANGED = 4
 #: Parameters of laws that belong to one recording: another day has another draught and another drift.
 OF_A_DAY = ("instant", "drift")
 
@@ -97,9 +100,23 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     best = chosen(known, set(plain), outcome.margin)
     explanation = shrink(model, best.explanation, outcome.margin)
     near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
+    on_progress("trying others in the place of what was found")
+    near += _exchanged(model, explanation, plain, wide, outcome.margin)
     rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
     left = structure(explanation.fit.residuals, model.layout, model.groups())
     return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+
+
+def _exchanged(
+    model: TemperedModel, found: Explanation, terms: Sequence[Term], settings: Settings, margin: float
+) -> list[Explanation]:
+    """Explanations with another term in the place of one of several; the search did not meet them all on its way."""
+    others: list[Explanation] = []
+    for term in found.terms if len(found.terms) > 1 else ():
+        without = Explanation(fit(model, found.fit.point.without(term), near=found.fit))
+        grown, _ = grow(model, [t for t in terms if t != term], [without], settings, margin)
+        others += grown[:EXCHANGED]
+    return others
 
 
 def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:

@@ -78,7 +78,10 @@ def open_explanations(outcome: Outcome) -> Open | None:
     size = len(outcome.best.terms)
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
     chances = probabilities((outcome.best, *others))
-    near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1]][: MOST - 1]
+    # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
+    gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
+    near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or gaps[i] < UNSEPARATED]
+    near = near[: MOST - 1]
     found = (outcome.best, *(others[i] for i in near))
     return Open(found, probabilities(found)) if near else None
 

@@ -145,6 +145,18 @@ def test_only_explanations_with_a_chance_are_open(tmp_path: Path) -> None:
     assert open_explanations(outcome([fits[0], far], base, 0, 12.0)) is None
 
 
+def test_what_fits_as_well_is_open_though_it_has_more_parameters(tmp_path: Path) -> None:
+    """A free shape costs ln(residuals), 7 and more: odds of 30 to 1, with which nothing was read that decides."""
+    made = scenario(tmp_path)
+    random = np.random.default_rng(0)
+    model, fits = rivals(made, [measured(made, STRESS[0], off(made, random), random)], STRESS)
+    terms = {replace(t, parameters=(*t.parameters, t.parameters[0])): (*v, 0.0) for t, v in fits[1].point.terms.items()}
+    shaped = replace(fits[1], point=replace(fits[1].point, terms=terms), cost=fits[0].cost + 1.0)
+    found = open_explanations(outcome([fits[0], shaped], recalibrate(model), 0, 12.0))
+    assert found is not None
+    assert found.chances[0] > 20.0 * found.chances[1]
+
+
 def test_what_missed_the_margin_by_little_is_open_against_the_model_as_it_is(tmp_path: Path) -> None:
     made = scenario(tmp_path)
     random = np.random.default_rng(0)
