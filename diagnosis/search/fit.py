@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg import LinAlgError
 
 from cosim.unit import Array
+from diagnosis.search.bounded import bounded_step
 from diagnosis.search.problem import Model, Point, Term
 
 #: Residuals beyond this many deviations count linearly (Huber): one wild reading must not look like physics.
@@ -24,6 +25,8 @@ TOLERANCE = 1e-6
 TRUSTED = 0.6
 #: ... or where a parameter moved by more than this since [prior deviations]; less where they disappoint.
 MOVED, NEAR = 1.5, 0.2
+#: Mean change of the weights from which the normal matrix is made anew.
+REWEIGHED = 0.005
 #: Most times that a fit near another takes them anew: it is a trial, and what is good is fitted to the end.
 REFRESHES = 3
 
@@ -49,6 +52,14 @@ class Columns:
     at: Array
     normal: Array
     weights: Array
+
+    def for_now(self, residuals: Array) -> Columns:
+        """The same with the weights of other residuals, where these differ by more than `REWEIGHED`.
+
+        Where a term takes large residuals away, what counted linearly counts in full again.
+        """
+        change = float(np.mean(np.abs(huber_weights(residuals) ** 2 - self.weights**2)))
+        return Columns.of(self.values, self.at, residuals) if change > REWEIGHED else self
 
     @staticmethod
     def of(values: Array, at: Array, residuals: Array) -> Columns:
@@ -204,7 +215,7 @@ def fit(
     x = objective.vector(start)
     here = objective.residuals(x)
     count = objective.count
-    columns = Columns.of(objective.base_columns(x), x[:count], here) if near is None else near.columns
+    columns = Columns.of(objective.base_columns(x), x[:count], here) if near is None else near.columns.for_now(here)
     is_fresh, poor, refreshes = near is None, 0, 0
     most = iterations if near is None else REFRESHES
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
@@ -219,10 +230,11 @@ def fit(
         if gained == 0.0 and (is_fresh or refreshes >= most):
             break
         poor = poor + 1 if gained < TRUSTED * promised else 0
+        columns = columns.for_now(here)
         is_fresh = moved > MOVED or gained == 0.0 or (poor > 0 and moved > NEAR) or poor > 1
         if is_fresh and refreshes < most:
             refreshes += 1
-            columns, poor = Columns.of(objective.base_columns(x), x[:count], here), 0
+            columns, poor, damping = Columns.of(objective.base_columns(x), x[:count], here), 0, 1e-3
         terms = objective.term_columns(x, here)
     return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths)
 
@@ -239,24 +251,19 @@ def _descend(
     normal, slope = _quadratic(objective.widths, x, here, slopes)
     size = np.maximum(np.diag(normal), 1e-12)
     expected = 0.0
-    for attempt in range(12):
-        is_held = ((x <= objective.lower) & (slope > 0)) | ((x >= objective.upper) & (slope < 0))
-        free = np.flatnonzero(~is_held)
-        damped = normal[np.ix_(free, free)] + np.diag(damping * size[free])
-        step = np.zeros_like(x)
+    for _ in range(12):
         try:
-            step[free] = -cho_solve(cho_factor(damped), slope[free])
+            other = x + bounded_step(normal + np.diag(damping * size), slope, objective.lower - x, objective.upper - x)
         except LinAlgError:  # single precision made it indefinite
             damping *= 6.0
             continue
-        other = np.clip(x + step, objective.lower, objective.upper)
         moved = other - x
         promised = float(-2.0 * slope @ moved - moved @ normal @ moved)
-        expected = promised if attempt == 0 else expected
+        expected = max(promised, expected)
         there = objective.residuals(other)
         cost_there = objective.cost(other, there)
         if cost_there < value:
-            return other, there, value - cost_there, promised, max(damping / 8.0, 1e-9)
+            return other, there, value - cost_there, expected, max(damping / 8.0, 1e-9)
         if promised <= TOLERANCE * (1.0 + value):
             break
         damping *= 6.0
