@@ -8,7 +8,9 @@ from scipy.linalg import cho_factor, cho_solve
 from cosim.unit import Array
 
 #: Most turns in which bounds are found that a step would pass.
-TURNS = 8
+TURNS = 16
+#: Slope, as a share of the largest, from which a number at its bound is let go.
+EAGER = 1e-9
 
 
 def bounded_step(normal: Array, slope: Array, lower: Array, upper: Array) -> Array:
@@ -33,8 +35,13 @@ def bounded_step(normal: Array, slope: Array, lower: Array, upper: Array) -> Arr
         pull = slope[free] + normal[np.ix_(free, np.flatnonzero(is_held))] @ step[is_held]
         step[free] = -cho_solve(cho_factor(normal[np.ix_(free, free)]), pull)
         is_over = ~is_held & ((step < lower) | (step > upper))
-        if not is_over.any():
+        if is_over.any():
+            step[is_over] = np.clip(step, lower, upper)[is_over]
+            is_held |= is_over
+            continue
+        slope_there = slope + normal @ step  # what was stopped too early is let go, the most eager first
+        inward = np.where(step <= lower, -slope_there, slope_there) * is_held
+        if inward.max(initial=0.0) <= EAGER * np.abs(slope).max():
             break
-        step[is_over] = np.clip(step, lower, upper)[is_over]
-        is_held |= is_over
+        is_held[int(np.argmax(inward))] = False
     return np.asarray(np.clip(step, lower, upper))

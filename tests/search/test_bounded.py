@@ -8,7 +8,7 @@ from diagnosis.search.bounded import bounded_step
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_step_within_bounds_goes_downhill_nearly_as_far_as_the_best(seed):
+def test_a_step_within_bounds_goes_downhill_as_far_as_any(seed):
     """Numbers that belong together (columns nearly alike), some of them at a bound; SciPy's solver is the reference."""
     rng = np.random.default_rng(seed)
     design = rng.standard_normal((40, 6))
@@ -23,7 +23,7 @@ def test_a_step_within_bounds_goes_downhill_nearly_as_far_as_the_best(seed):
         return float(-2.0 * slope @ s - s @ normal @ s)
 
     assert np.all((step >= lower) & (step <= upper))
-    assert gain(step) > 0.8 * gain(best)  # what was stopped is not let go again: not the best, but never uphill
+    assert gain(step) == pytest.approx(gain(best), rel=1e-6)  # SciPy stops at 1e-12
 
 
 def test_without_bounds_it_is_newtons_step():
