@@ -67,7 +67,8 @@ def prove(
     except KeyboardInterrupt:
         print(f"interrupted; what is done is kept: go on with the same command, `--out {out}`", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
-    about = {"cases": len(results), "seed": seed, "kinds": kinds, "setups": setups, "date": date.today().isoformat()}
+    about = {"cases": cases, "scored": len(results), "seed": seed, "kinds": kinds, "setups": setups,
+             "date": date.today().isoformat()}  # fmt: skip
     write_all(results, about, out, page)
 
 

@@ -75,6 +75,8 @@ def _about(about: Sequence[dict[str, Any]], results: Sequence[CaseResult]) -> st
     for given in about:
         only = [f"only {given[k]}" for k in ("kinds", "setups") if given.get(k)]
         command = f"`cosim prove --cases {given['cases']} --seed {given['seed']}`"
+        if given.get("scored", given["cases"]) < given["cases"]:
+            command += f", the {given['scored']} of them that were done"
         lines.append(f"- {'; '.join([command, *only, *([given['date']] if 'date' in given else [])])}")
     refused = len(results) - len(counted(results))
     apart = f" {refused} of them were refused in words and are counted apart." if refused else ""
