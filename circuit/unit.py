@@ -179,6 +179,8 @@ class CircuitUnit(Unit):
         now = contacts
         for _ in range(MOST_TURNS):
             solution = self._limited(wanted, now, time)
+            if not self._rises.any():
+                return solution
             last, now = now, contacts + self._rises * solution.string_current**2
             if np.all(np.abs(now - last) <= SETTLED * (1.0 + now)):
                 return solution
