@@ -12,7 +12,9 @@ CANDIDATE = CandidateTerm(
         " 3.1 (conductance of a contact)"
     ),
     parameters=(
-        Parameter("g", "W/K", 0.0, 0.02, "heat flows from hot to cold", (0.001, 0.0003, 0.004, 0.02), is_amplitude=True),
+        Parameter(
+            "g", "W/K", 0.0, 0.02, "heat flows from hot to cold", (0.001, 0.0003, 0.004, 0.02), is_amplitude=True
+        ),
     ),
     places=("all", "string"),
     lines={
