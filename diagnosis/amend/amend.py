@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from cosim.fmu_tools.build_c import build_c
-from cosim.scenario import Scenario, load_scenario
+from cosim.scenario import Scenario
 from diagnosis.amend.actuator_fmu import actuator_source
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.changes import CannotAmend, Changes, FittedTerm, changes_of
@@ -20,6 +20,7 @@ from diagnosis.amend.load_fmu import load_source
 from diagnosis.amend.parts import Part, load_ports
 from diagnosis.amend.scenario_file import Files, actuator_inputs, amended_data, needs_own_fmu, needs_own_load
 from diagnosis.amend.sensors import sensor_entries
+from diagnosis.amend.written import write_scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.search.problem import Point
 from diagnosis.simulator.bank_model import BankModel
@@ -127,13 +128,12 @@ def _write(
 ) -> AmendedModel:  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
     take_along(scenario, data, folder)
-    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
-    (folder / "scenario.yaml").write_text(_comment(scenario, changes) + text, encoding="utf-8")
+    amended = write_scenario(data, _comment(scenario, changes), folder / "scenario.yaml")
     sensors = sensor_entries(changes)
     if sensors:
         text = yaml.safe_dump({"sensors": sensors}, sort_keys=False, allow_unicode=True, width=110)
         (folder / "sensors.yaml").write_text(_SENSOR_COMMENT + text, encoding="utf-8")
-    return AmendedModel(folder, load_scenario(folder / "scenario.yaml"), changes, scenario, files)
+    return AmendedModel(folder, amended, changes, scenario, files)
 
 
 _SENSOR_COMMENT = "# What was found of the sensors: no part of the model that runs, but of what they read of it.\n"

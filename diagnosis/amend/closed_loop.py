@@ -6,8 +6,9 @@ from pathlib import Path
 
 import yaml
 
-from cosim.scenario import Scenario, load_scenario
+from cosim.scenario import Scenario
 from diagnosis.amend.beside import take_along
+from diagnosis.amend.written import comment_of, write_scenario
 from diagnosis.search.cosim_run import Changes, changed
 from diagnosis.search.problem import Point
 from diagnosis.simulator.closed_loop import ClosedLoopModel
@@ -37,11 +38,5 @@ def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, 
     data = yaml.safe_load(changed(scenario, lasting).to_yaml())
     take_along(scenario, data, folder)
     path = folder / "scenario.yaml"
-    lines = ["# Amended scenario, written by `cosim diagnose` (docs/amended-models.md)."]
-    for term, values in point.terms.items():
-        numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
-        lines.append(f"# {term.place}: {term.law}; {numbers}")
-    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
-    path.write_text("\n".join(lines) + "\n" + text, encoding="utf-8")
-    load_scenario(path)  # what cannot be read back must not be handed over
+    write_scenario(data, comment_of("docs/amended-models.md", point.terms), path)
     return path

@@ -7,10 +7,11 @@ from typing import Any
 
 import yaml
 
-from cosim.scenario import Scenario, load_scenario
+from cosim.scenario import Scenario
 from diagnosis.amend.amend import write_amended
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.changes import changes_of
+from diagnosis.amend.written import comment_of, write_scenario
 from diagnosis.fabric.model import FabricModel
 from diagnosis.search.problem import Point
 
@@ -48,14 +49,7 @@ def amend_fabric(scenario: Scenario, model: FabricModel, point: Point, folder: P
         data = yaml.safe_load(scenario.to_yaml())
         take_along(scenario, data, folder)
     _put(data, model, point)
-    own = model.own_point(point)
-    lines = ["# Amended scenario, written by `cosim diagnose` (docs/fabric-diagnosis.md)."]
-    for term, values in own.terms.items():
-        numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
-        lines.append(f"# {term.place}: {term.law}; {numbers}")
-    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
-    path.write_text("\n".join(lines) + "\n" + text, encoding="utf-8")
-    load_scenario(path)  # what cannot be read back must not be handed over
+    write_scenario(data, comment_of("docs/fabric-diagnosis.md", model.own_point(point).terms), path)
     return path
 
 
