@@ -13,7 +13,7 @@ from diagnosis.bank.layout import Array, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import Place
 from diagnosis.bank.plan import Plan
-from diagnosis.bank.sensitivities import Direction, flat_sensitivities
+from diagnosis.bank.sensitivities import Direction, by_quantity, flat_sensitivities
 from diagnosis.candidates.candidate import CandidateTerm
 
 
@@ -61,11 +61,7 @@ def probe_sensitivities(
     Raises:
         BankError: A value stopped being finite.
     """
-    plan, base, slopes = _probed(bank, parameters, inputs, times, probe, threads)
-    outputs, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(slopes)
-    for found in (outputs, derivatives):
-        found.pop("string_share", None)
-    return outputs, derivatives
+    return by_quantity(*_probed(bank, parameters, inputs, times, probe, threads))
 
 
 def flat_probe_sensitivities(
@@ -102,7 +98,7 @@ def _probed(
         return plan, base, slopes
     whole = np.zeros((len(probe.places), plan.out_size))
     whole[direct] = slopes
-    found_at, derivatives = {n: v[0] for n, v in plan.split(base[None]).items()}, plan.split(whole)
+    found_at, derivatives = by_quantity(plan, base, whole)
     for n in set(range(len(probe.places))) - set(direct):
         _exchange(bank.layout, found_at, derivatives, probe.places[n].mask, n)
     return plan, base, whole

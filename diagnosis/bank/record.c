@@ -2,53 +2,55 @@
 
 #define SCAN_POINTS 8192
 
+/* Cooling branch less heating branch at x [degC]. */
+static inline double branch_gap(const double *up, const double *down, double x)
+{
+    return gompertz(down[0], down[1], down[2], down[3], x) - gompertz(up[0], up[1], up[2], up[3], x);
+}
+
+/* Where the gap becomes negative between `low` and `high`, to the last bit. */
+static double bisect_crossing(const double *up, const double *down, double low, double high)
+{
+    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
+        if (branch_gap(up, down, middle) < 0.0) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
 /* Highest temperature [degC] at which the cooling branch passes below the heating branch; infinite if it stays above it.
  * The same search as in fmus/thermal_stiffness/model.c. */
 static double find_crossing(const double *up, const double *down)
 {
     const double absolute_zero = -CELSIUS;
     double high = fmax((log(up[1]) + 40.0) / up[2], (log(down[1]) + 40.0) / down[2]);
-#define GAP(x) (gompertz(down[0], down[1], down[2], down[3], x) - gompertz(up[0], up[1], up[2], up[3], x))
-    if (!(GAP(high) < 0.0)) {
+    if (!(branch_gap(up, down, high) < 0.0)) {
         return INFINITY;
     }
     const double width = (high - absolute_zero) / SCAN_POINTS;
     double low = high;
-    for (int i = 0; GAP(low) < 0.0; i++) {
+    for (int i = 0; branch_gap(up, down, low) < 0.0; i++) {
         if (i == SCAN_POINTS) {
             return absolute_zero; /* below everywhere: the heating branch alone */
         }
         high = low;
         low = high - width;
     }
-    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
-        if (GAP(middle) < 0.0) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-#undef GAP
-    return high;
+    return bisect_crossing(up, down, low, high);
 }
 
 /* The same where it is known to lie near `guess`; not a number if it does not. */
 static double crossing_near(double guess, const double *up, const double *down)
 {
-#define GAP(x) (gompertz(down[0], down[1], down[2], down[3], x) - gompertz(up[0], up[1], up[2], up[3], x))
-    double low = guess - 2.0, high = guess + 2.0;
-    if (!isfinite(guess) || guess < 2.0 - CELSIUS || !(GAP(high) < 0.0) || GAP(low) < 0.0) {
+    const double low = guess - 2.0, high = guess + 2.0;
+    if (!isfinite(guess) || guess < 2.0 - CELSIUS || !(branch_gap(up, down, high) < 0.0) ||
+        branch_gap(up, down, low) < 0.0) {
         return NAN;
     }
-    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
-        if (GAP(middle) < 0.0) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-#undef GAP
-    return high;
+    return bisect_crossing(up, down, low, high);
 }
 
 static void find_crossings(Step *s)

@@ -72,11 +72,14 @@ def sensitivities(
         BankError: A value stopped being finite.
         KeyError: A direction along a parameter that the bank does not have.
     """
-    plan, base, slopes = flat_sensitivities(bank, parameters, inputs, times, directions, threads)
-    result = {n: v[0] for n, v in plan.split(base[None]).items()}
-    derivatives = plan.split(slopes)
-    for outputs in (result, derivatives):
-        outputs.pop("string_share", None)
+    return by_quantity(*flat_sensitivities(bank, parameters, inputs, times, directions, threads))
+
+
+def by_quantity(plan: Plan, outputs: Array, slopes: Array) -> tuple[dict[str, Array], dict[str, Array]]:
+    """What `flat_sensitivities` gives, by quantity and without the shares of the strings."""
+    result, derivatives = {n: v[0] for n, v in plan.split(outputs[None]).items()}, plan.split(slopes)
+    for found in (result, derivatives):
+        found.pop("string_share", None)
     return result, derivatives
 
 

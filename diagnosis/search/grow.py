@@ -11,7 +11,7 @@ from cosim.unit import Array
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, cost, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
-from diagnosis.search.problem import Model, Point, Term, strength_slopes
+from diagnosis.search.problem import Model, Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
@@ -50,8 +50,7 @@ def grow(
         most, kept = 0.0, 1.0
         for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
-            is_there = candidate.term.is_named and candidate.term.place == hopeful[0].term.place
-            if key not in grown and (is_there or candidate.gain * kept * OUTDONE > most):
+            if key not in grown and (_is_law_at(candidate, hopeful[0]) or candidate.gain * kept * OUTDONE > most):
                 grown[key] = Explanation(_refit(model, explanation.fit, candidate))
                 gained = explanation.fit.cost - grown[key].fit.cost
                 most, kept = max(most, gained), max(kept, gained / candidate.gain)
@@ -89,12 +88,16 @@ def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
     for candidate in ranked[count : 12 * count]:
         is_new = all(c.term.identifier != candidate.term.identifier for c in chosen)
         # A law far from straight promises little; one of the catalogue, at the very place, is tried all the same.
-        is_there = candidate.term.is_named and candidate.term.place == ranked[0].term.place
-        is_near = candidate.gain > (0.05 if is_there else 0.3) * ranked[0].gain
+        is_near = candidate.gain > (0.05 if _is_law_at(candidate, ranked[0]) else 0.3) * ranked[0].gain
         if is_near and is_new and others[candidate.term.is_named] < count:
             others[candidate.term.is_named] += 1
             chosen.append(candidate)
     return chosen
+
+
+def _is_law_at(candidate: Score, best: Score) -> bool:
+    """Whether it is a law of the catalogue at the place of the best score."""
+    return candidate.term.is_named and candidate.term.place == best.term.place
 
 
 def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
@@ -103,14 +106,17 @@ def _refit(model: Model, before: Fit, candidate: Score) -> Fit:
     points = list(_starts(before, candidate))
     if not points:
         return fit(model, here, TRIAL, before)
-    values = model.residuals([here, *points])
-    costs = [
-        cost(v, p.base, before.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, [here, *points])
-    ]
+    costs = _costs(model, before, [here, *points])
     other = int(np.argmin(costs[1:]))
     if costs[1 + other] > costs[0] and not candidate.term.parameters[0].is_switch:
         return fit(model, here, TRIAL, before)
     return fit_best(model, [here, points[other]], TRIAL, before)
+
+
+def _costs(model: Model, base: Fit, points: Sequence[Point]) -> list[float]:
+    """-2 log posterior at points, with the prior's widths of a fit; infinite where a simulation failed."""
+    values = model.residuals(points)
+    return [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
 
 
 def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
@@ -129,13 +135,18 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
             yield nominal.plus(term, (size, *shape))
 
 
+def _instants(parameter: TermParameter) -> list[float]:
+    """Instants within the bounds of one [s], evenly spread."""
+    return [float(v) for v in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]]
+
+
 def _other_instants(point: Point) -> Iterator[Point]:
     """The same with one of its instants elsewhere."""
     for term, values in point.terms.items():
         for i, parameter in enumerate(term.parameters):
             if parameter.is_instant:
-                for value in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]:
-                    yield point.plus(term, (*values[:i], float(value), *values[i + 1 :]))
+                for value in _instants(parameter):
+                    yield point.plus(term, (*values[:i], value, *values[i + 1 :]))
 
 
 def _best_instants(model: Model, base: Fit, point: Point) -> Point:
@@ -143,9 +154,7 @@ def _best_instants(model: Model, base: Fit, point: Point) -> Point:
     points = [point, *_other_instants(point)]
     if len(points) == 1:
         return point
-    values = model.residuals(points)
-    costs = [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
-    return points[int(np.argmin(costs))]
+    return points[int(np.argmin(_costs(model, base, points)))]
 
 
 def _other_shapes(before: Fit, candidate: Score, sizes: Sequence[float]) -> Iterator[Point]:
@@ -154,8 +163,7 @@ def _other_shapes(before: Fit, candidate: Score, sizes: Sequence[float]) -> Iter
     if not first.is_switch and not any(p.is_instant for p in others):
         return
     for i, parameter in enumerate(others):
-        span = np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1] if parameter.is_instant else ()
-        for value in (*parameter.starts, *(float(v) for v in span)):
+        for value in (*parameter.starts, *(_instants(parameter) if parameter.is_instant else ())):
             for size in sizes:
                 yield before.point.plus(term, (size, *shape[:i], value, *shape[i + 1 :]))
     if not others:

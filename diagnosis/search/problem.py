@@ -148,18 +148,21 @@ class Model(Protocol):
         ...
 
 
-def strength_slopes(model: Model, point: Point, here: Array, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+def strength_slopes(
+    model: Model, point: Point, here: Array | None, tasks: Sequence[tuple[Term, tuple[float, ...]]]
+) -> Array:  # fmt: skip
     """Derivative of the residuals by the strength of terms, shape (tasks, residuals); not finite where it failed.
 
     Args:
         model: The model; one that has a method `slopes` knows a faster way than a simulation for each.
         point: Where; the terms are absent there.
-        here: Residuals at that point.
+        here: Residuals at that point; None where they are not at hand.
         tasks: Terms with the values of their parameters; the strength is the step of the difference.
     """
     own = getattr(model, "slopes", None)
     if own is not None:
         return np.asarray(own(point, tasks))
+    start = model.residuals([point])[0] if here is None else here
     points = [point.plus(term, values) for term, values in tasks]
     strengths = np.array([values[0] for _, values in tasks])
-    return np.asarray((model.residuals(points) - here) / strengths[:, None])
+    return np.asarray((model.residuals(points) - start) / strengths[:, None])
