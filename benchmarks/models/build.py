@@ -6,6 +6,7 @@ indices and modelDescription.xml, so that the two cannot disagree. The FMI heade
 
 from __future__ import annotations
 
+import os
 import sys
 import tomllib
 import uuid
@@ -50,7 +51,7 @@ def build_one(folder: Path, version: int, into: Path) -> Path:
              "-lm"], check=True)  # fmt: skip
         entries = {"modelDescription.xml": describe(model, version).encode(), binary: library.read_bytes()}
     into.mkdir(parents=True, exist_ok=True)
-    part = fmu.with_suffix(".part")  # another process may be reading the old file
+    part = fmu.with_name(f"{fmu.name}.{os.getpid()}.part")  # others may be reading the old file, or building it as well
     with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in entries.items():
             entry = zipfile.ZipInfo(name, EPOCH)
