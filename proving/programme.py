@@ -79,7 +79,7 @@ def soak(rng: np.random.Generator, top: float, stop: float) -> Programme:
 def partial(rng: np.random.Generator, top: float, stop: float) -> Programme:
     """Heating that turns within the transformation, again and again: minor loops."""
     times, levels, t = [0.0], [0.0], 2.0
-    while t < stop - 10.0:
+    while t < stop - 11.0:  # a level lasts at least 1 s before the last switch: instants are rounded to 0.1 s
         width = rng.uniform(6.0, 12.0)
         times.append(t)
         levels.append(top * (rng.uniform(0.85, 1.0) if len(times) % 2 == 0 else rng.uniform(0.5, 0.72)))

@@ -156,3 +156,13 @@ def test_unknown_kinds_and_no_cases_are_refused(tmp_path, capsys):
     assert "there is no kind of case `ghost`" in capsys.readouterr().err
     assert main([str(tmp_path), "--cases", "0"]) == 2
     assert "ask for at least one" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("seed", [235, 1374])
+def test_instants_of_a_programme_rise_as_they_are_written(seed):
+    # With these seeds the programme of minor loops once had two switches within the last written digit.
+    for setup in SETUPS.values():
+        for shape in setup.shapes.values():
+            programme = shape(np.random.default_rng(seed), setup.top, setup.stop)
+            written = [float(f"{time:.6g}") for time in programme.times]
+            assert written == sorted(set(written))
