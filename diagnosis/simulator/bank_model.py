@@ -238,8 +238,8 @@ class BankModel:
                 )
             except BankError:  # on the verge of what can be simulated: there is no way on from here
                 continue
-            for (i, weight), row in zip(columns, run.slopes(slopes)):
-                jacobian[i, own] += weight * row
+            into, factors = np.array([c[0] for c in columns]), np.array([c[1] for c in columns])
+            jacobian[:, own] = run.slopes(slopes, len(self._free), into, factors)
         return jacobian.T
 
 

@@ -14,6 +14,7 @@ from diagnosis.bank.inputs import BankInputs, grid
 from diagnosis.bank.layout import QUANTITIES, BankLayout
 from diagnosis.bank.sensitivities import sharing_plan
 from diagnosis.bank.steps import choose_step
+from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.simulator.free import Clocks
@@ -88,14 +89,14 @@ class Run:
         self.count = sum(len(s.samples) for s in self.series)
         self.pick = np.concatenate([self._places(layout, s) for s in self.series])
         self.measured = np.concatenate([s.measured for s in self.series])
-        self._lengths = np.array([len(s.samples) for s in self.series])
-        self._begins = np.concatenate([[0], np.cumsum(self._lengths)[:-1]])
         used = np.maximum([np.count_nonzero(s.used) for s in self.series], 1)
         # where a bound of the bias is stated, the zero is a parameter of the model (diagnosis/simulator/biased.py)
         is_implied = np.array([s.channel.bias_bound == 0.0 for s in self.series])
-        self._shares = np.where(is_implied, 1.0 - 1.0 / np.sqrt(1.0 + used * ZERO**2), 0.0) / used
         # 1 / deviation, 0 where a sample does not count
-        self.weight = np.concatenate([np.where(s.used, 1.0 / deviation(s.channel), 0.0) for s in self.series])
+        weight = np.concatenate([np.where(s.used, 1.0 / deviation(s.channel), 0.0) for s in self.series])
+        shares = np.where(is_implied, 1.0 - 1.0 / np.sqrt(1.0 + used * ZERO**2), 0.0) / used
+        self.weight = weight
+        self._whitening = Whitening(self.pick, weight, shares, np.array([len(s.samples) for s in self.series]))
 
     def _inputs(self, bank: Bank, channels: list[tuple[Channel, str]]) -> BankInputs:
         deviations = {q: min(c.deviation for c, quantity in channels if quantity == q) for q in self.times}
@@ -122,24 +123,17 @@ class Run:
         return np.asarray(first + series.samples * layout.elements(series.quantity) + series.element)
 
     def residuals(self, outputs: Array) -> Array:
-        """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size)."""
-        return self._without_zeros((self.measured - outputs[:, self.pick]) * self.weight)
+        """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size).
 
-    def slopes(self, slopes: Array) -> Array:
-        """Derivatives of outputs, shape (directions, out_size), to those of residuals, (directions, samples)."""
-        found = slopes[:, self.pick]
-        found *= -self.weight
-        return self._without_zeros(found)
-
-    def _without_zeros(self, rows: Array) -> Array:
-        """Rows of residuals (in place), whitened for a zero of each channel that is off by an unknown `ZERO`.
-
-        With residuals r of deviation 1 and a common zero of deviation s, the covariance is I + s^2 1 1'; its inverse
-        root takes the share 1 - 1 / sqrt(1 + n s^2) of the mean away.
+        They are whitened for a zero of each channel that is off by an unknown `ZERO`.
         """
-        sums = np.add.reduceat(rows, self._begins, axis=1)
-        rows -= np.repeat(sums * self._shares, self._lengths, axis=1) * (self.weight > 0.0)
-        return rows
+        return self._whitening.values((self.measured - outputs[:, self.pick]) * self.weight)
+
+    def slopes(
+        self, slopes: Array, rows: int | None = None, into: AnyArray | None = None, factors: Array | None = None
+    ) -> AnyArray:  # fmt: skip
+        """Derivatives of outputs, shape (directions, out_size), to those of residuals; see `Whitening.slopes`."""
+        return self._whitening.slopes(slopes, len(slopes) if rows is None else rows, into, factors)
 
 
 def clocks(runs: Sequence[Run]) -> Clocks:
