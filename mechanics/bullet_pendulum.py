@@ -32,7 +32,8 @@ class PendulumWorld:
     def __init__(self, design: PendulumDesign, micro_step: float) -> None:
         self.design, self.micro_step = design, micro_step
         self.acceleration = 0.0
-        self._speed = 0.0
+        self._speed = self._angle = self._time = 0.0
+        self._held = -1.0
         self._client = pybullet.connect(pybullet.DIRECT)
         if self._client < 0:
             raise RuntimeError("Bullet has no free client")
@@ -71,11 +72,14 @@ class PendulumWorld:
             body, 0, localInertiaDiagonal=[design.central_inertia] * 3, jointDamping=0.0, linearDamping=0.0,
             angularDamping=0.0, physicsClientId=client,
         )  # fmt: skip
-        self._hold(body, 0.0)
+        self._hold(int(body), 0.0)
         return int(body)
 
     def _hold(self, body: int, torque: float) -> None:
         """Dry friction of the next steps [N m]."""
+        if torque == self._held:
+            return
+        self._held = torque
         pybullet.setJointMotorControl2(
             body, 0, pybullet.VELOCITY_CONTROL, targetVelocity=0.0, force=torque, physicsClientId=self._client
         )
@@ -91,20 +95,20 @@ class PendulumWorld:
 
         A trial step gives the acceleration, with which the speed goes back by half a step.
         """
-        self.put(angle, angular_velocity, 0.0)
+        self.put(angle, angular_velocity, 0.0, 0.0)
         self.advance(1, torque)
         acceleration = self.acceleration
-        self.put(angle, angular_velocity - 0.5 * self.micro_step * acceleration, acceleration)
+        self.put(angle, angular_velocity - 0.5 * self.micro_step * acceleration, acceleration, 0.0)
 
-    def put(self, angle: float, half_speed: float, acceleration: float) -> None:
+    def put(self, angle: float, half_speed: float, acceleration: float, time: float) -> None:
         """Set the state as `state` gives it."""
         pybullet.resetJointState(self._body, 0, angle, half_speed, physicsClientId=self._client)
-        self._speed, self.acceleration = half_speed, acceleration
+        self._angle, self._speed, self.acceleration, self._time = angle, half_speed, acceleration, time
 
-    def state(self) -> tuple[float, float, float]:
-        """Angle [rad], speed half a step before [rad/s], acceleration of the last step [rad/s^2]."""
+    def state(self) -> tuple[float, float, float, float]:
+        """Angle [rad], speed half a step before [rad/s], acceleration of the last step [rad/s^2], time since the start."""
         angle, speed = pybullet.getJointState(self._body, 0, self._client)[:2]
-        return float(angle), float(speed), self.acceleration
+        return float(angle), float(speed), self.acceleration, self._time
 
     def angular_velocity(self) -> float:
         """Now [rad/s]: that of half a step before, carried on with the acceleration of the last step."""
@@ -118,15 +122,25 @@ class PendulumWorld:
             torque: About the hinge, held constant.
         """
         design, client, body, dt = self.design, self._client, self._body, self.micro_step
-        is_driven = bool(torque) or design.viscous_damping > 0 or design.quadratic_drag > 0
-        self._hold(body, design.dry_friction(self._speed))
+        is_driven = bool(torque) or design.has_smooth_law
+        is_dry = design.coulomb_friction > 0 or design.stiction > 0
         for _ in range(steps):
             middle = self._speed + 0.5 * dt * self.acceleration
-            if is_driven:
-                given = torque - (design.viscous_damping + design.quadratic_drag * abs(middle)) * middle
+            given = torque + design.smooth_torque(self._time, self._angle, middle) if is_driven else 0.0
+            if is_dry:
+                given += self._dry_friction(middle, given)
+            if given:
                 pybullet.setJointMotorControl2(body, 0, pybullet.TORQUE_CONTROL, force=given, physicsClientId=client)
-            if design.stiction > 0:
-                self._hold(body, design.dry_friction(middle))
             pybullet.stepSimulation(client)
-            speed = pybullet.getJointState(body, 0, client)[1]
+            self._angle, speed = pybullet.getJointState(body, 0, client)[:2]
             self.acceleration, self._speed = (speed - self._speed) / dt, speed
+            self._time += dt
+
+    def _dry_friction(self, middle: float, given: float) -> float:
+        """Set the motor that is dry friction; the torque that stands for it in a step in which the arm turns [N m]."""
+        design = self.design
+        friction = design.dry_friction(middle)
+        free = given + design.weight_moment * math.sin(self._angle - design.tilt)
+        turning = design.turning(friction, self._speed, free, self.micro_step)
+        self._hold(self._body, friction if turning is None else 0.0)
+        return turning or 0.0

@@ -133,8 +133,8 @@ class PendulumUnit(Unit):
             self._open()
         for name in self.variables:
             self._store.arrays[name][...] = state[name]
-        angle, speed, acceleration = (float(v) for v in state["state"])
-        self._live().put(angle, speed, acceleration)
+        angle, speed, acceleration, since = (float(v) for v in state["state"])
+        self._live().put(angle, speed, acceleration, since)
 
     def terminate(self) -> None:
         """Free Bullet's world; safe to call twice."""

@@ -6,9 +6,12 @@ import math
 from dataclasses import dataclass, fields
 
 #: Numbers that may have either sign.
-_SIGNED = frozenset({"tilt", "initial_angle", "initial_angular_velocity"})
+_SIGNED = frozenset(
+    {"tilt", "initial_angle", "initial_angular_velocity", "spring_stiffness", "spring_rest", "periodic_torque",
+     "periodic_phase", "constant_torque"}
+)  # fmt: skip
 #: Numbers that must not be 0.
-_POSITIVE = frozenset({"mass", "centre_distance", "gravity", "stribeck_speed"})
+_POSITIVE = frozenset({"mass", "centre_distance", "gravity", "stribeck_speed", "band_width"})
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,15 @@ class PendulumDesign:
         quadratic_drag: c in the torque -c |w| w of air in turbulent flow [N m s^2/rad^2].
         backlash: Play between arm and encoder [rad]: the encoder stands until the play is used up.
         tilt: How far the hanging arm stands off pi because the stand leans in the plane of the swing [rad].
+        cubic_drag: c in the torque -c w^3 [N m s^3/rad^3].
+        spring_stiffness: k in the torque -k (angle - spring_rest) [N m/rad]; either sign: a magnet pushes.
+        spring_rest: Angle at which that spring is at rest [rad].
+        band_damping: b in the torque -b exp(-((angle - pi) / band_width)^2) w [N m s/rad].
+        band_width: See there [rad].
+        periodic_torque: Amplitude of an outer torque, that of sin(periodic_rate t + periodic_phase) [N m].
+        periodic_rate: [rad/s].
+        periodic_phase: [rad].
+        constant_torque: Outer torque [N m].
         initial_angle: [rad].
         initial_angular_velocity: [rad/s].
 
@@ -50,6 +62,15 @@ class PendulumDesign:
     quadratic_drag: float = 0.0
     backlash: float = 0.0
     tilt: float = 0.0
+    cubic_drag: float = 0.0
+    spring_stiffness: float = 0.0
+    spring_rest: float = math.pi
+    band_damping: float = 0.0
+    band_width: float = 0.25
+    periodic_torque: float = 0.0
+    periodic_rate: float = 0.0
+    periodic_phase: float = 0.0
+    constant_torque: float = 0.0
     initial_angle: float = math.pi
     initial_angular_velocity: float = 0.0
 
@@ -78,6 +99,41 @@ class PendulumDesign:
         if self.stiction == 0.0:
             return self.coulomb_friction
         return self.coulomb_friction + self.stiction * math.exp(-((angular_velocity / self.stribeck_speed) ** 2))
+
+    def turning(self, friction: float, speed: float, free: float, step: float) -> float | None:
+        """Torque of dry friction in a step in which the arm turns back; None where it does not turn, or may stick.
+
+        It acts one way before the turn and the other way after, which one motor over a whole step cannot.
+
+        Args:
+            friction: Magnitude [N m].
+            speed: Before the step [rad/s].
+            free: All other torque [N m].
+            step: [s].
+        """
+        following = speed + step * free / self.inertia
+        if friction == 0.0 or speed * following >= 0.0 or abs(free) <= 2.0 * friction:
+            return None
+        before = abs(speed) / (abs(speed) + abs(following))
+        return -math.copysign(friction, speed) * (2.0 * before - 1.0)
+
+    @property
+    def has_smooth_law(self) -> bool:
+        """Whether any torque but weight and dry friction acts by itself."""
+        return any((self.viscous_damping, self.quadratic_drag, self.cubic_drag, self.spring_stiffness,
+                    self.band_damping, self.periodic_torque, self.constant_torque))  # fmt: skip
+
+    def smooth_torque(self, time: float, angle: float, angular_velocity: float) -> float:
+        """Torque of all laws but weight and dry friction [N m], at a time [s], angle [rad], angular velocity [rad/s]."""
+        w = angular_velocity
+        found = self.constant_torque - (self.viscous_damping + self.quadratic_drag * abs(w) + self.cubic_drag * w * w) * w
+        if self.spring_stiffness:
+            found -= self.spring_stiffness * (angle - self.spring_rest)
+        if self.band_damping:
+            found -= self.band_damping * math.exp(-(((angle - math.pi) / self.band_width) ** 2)) * w
+        if self.periodic_torque:
+            found += self.periodic_torque * math.sin(self.periodic_rate * time + self.periodic_phase)
+        return found
 
     def kinetic_energy(self, angular_velocity: float) -> float:
         """[J]."""
