@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +24,9 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
 STEP = 1e-3
+#: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
+#: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
+USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.01, "centre_distance": 0.05}}
 #: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
 _SI = ("rad", "rad/s", "K", "m", "kg", "kg*m^2", "m^2", "m^3", "W/(m^2*K)", "J/(kg*K)", "kg/m^3", "1", "ohm", "V", "W",
        "N/m", "N*m", "N*m*s", "1/K", "m/s^2")  # fmt: skip
@@ -184,6 +187,8 @@ def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Ar
 def free_parameters(scenario: Scenario, recordings: Sequence[Recording]) -> list[Free]:
     """Numbers that may be off: those whose parameter set states an uncertainty, and what a recording says itself.
 
+    Of a component whose parameters state none, those of `USUAL` may be off.
+
     Raises:
         InputError: A recording names something that the scenario does not have.
     """
@@ -191,7 +196,8 @@ def free_parameters(scenario: Scenario, recordings: Sequence[Recording]) -> list
     assembly = assemble(scenario_of(scenario, recordings[0]))
     try:
         for component, resolved in assembly.parameters.items():
-            for name, deviation in resolved.uncertainty.items():
+            usual = USUAL.get(scenario.components[component].kind, {})
+            for name, deviation in (resolved.uncertainty or usual).items():
                 value = resolved.values[name]
                 if deviation and isinstance(value, PhysicalValue):
                     unit = _si(value.unit)

@@ -188,7 +188,8 @@ def _scale(starts: Sequence[float], width: float) -> float:
 
 
 def fit(
-    model: Model, start: Point, iterations: int = 60, near: Fit | None = None, widths: Array | None = None
+    model: Model, start: Point, iterations: int = 60, near: Fit | None = None, widths: Array | None = None,
+    refreshes: int = REFRESHES,
 ) -> Fit:  # fmt: skip
     """Fit all parameters of the model and of the terms in `start`, from there.
 
@@ -202,6 +203,7 @@ def fit(
         iterations: Most steps.
         near: A fit whose derivatives by the model's own parameters are good enough to begin with; its widths hold.
         widths: See `Fit`; None: those of `near`, or 1.
+        refreshes: How often a fit near another takes those derivatives anew.
 
     Returns:
         The fit, converged or not: it says so.
@@ -216,24 +218,24 @@ def fit(
     here = objective.residuals(x)
     count = objective.count
     columns = Columns.of(objective.base_columns(x), x[:count], here) if near is None else near.columns.for_now(here)
-    is_fresh, poor, refreshes = near is None, 0, 0
-    most = iterations if near is None else REFRESHES
+    is_fresh, poor, taken = near is None, 0, 0
+    most = iterations if near is None else refreshes
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
     terms = objective.term_columns(x, here)
     for _ in range(iterations):
         other, there, gained, promised, damping = _descend(objective, (x, here, value), (columns, terms), damping)
         x, here, value = other, there, value - gained
         moved = float(np.max(np.abs(x[:count] - columns.at), initial=0.0))
-        if promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or refreshes >= most):
+        if promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or taken >= most):
             is_converged = True
             break
-        if gained == 0.0 and (is_fresh or refreshes >= most):
+        if gained == 0.0 and (is_fresh or taken >= most):
             break
         poor = poor + 1 if gained < TRUSTED * promised else 0
         columns = columns.for_now(here)
         is_fresh = moved > MOVED or gained == 0.0 or (poor > 0 and moved > NEAR) or poor > 1
-        if is_fresh and refreshes < most:
-            refreshes += 1
+        if is_fresh and taken < most:
+            taken += 1
             columns, poor, damping = Columns.of(objective.base_columns(x), x[:count], here), 0, 1e-3
         terms = objective.term_columns(x, here)
     return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths)
@@ -287,6 +289,8 @@ def _quadratic(widths: Array, x: Array, here: Array, slopes: tuple[Columns, Arra
     return normal, slope
 
 
-def fit_best(model: Model, starts: Sequence[Point], iterations: int = 60, near: Fit | None = None) -> Fit:
+def fit_best(
+    model: Model, starts: Sequence[Point], iterations: int = 60, near: Fit | None = None, refreshes: int = REFRESHES
+) -> Fit:  # fmt: skip
     """The best of fits from several starts (second masses are found from one of them alone in a quarter of cases)."""
-    return min((fit(model, start, iterations, near) for start in starts), key=lambda f: f.cost)
+    return min((fit(model, start, iterations, near, refreshes=refreshes) for start in starts), key=lambda f: f.cost)

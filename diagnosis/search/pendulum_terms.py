@@ -45,25 +45,80 @@ _LAWS = (
         TermParameter("tilt", "rad", -0.2, 0.2, (1e-3, -1e-3, 1e-2, -1e-2)),)),
 )  # fmt: skip
 
+_NEAR_PI = math.pi
+#: Rates at which a periodic torque is looked for [rad/s]: closer than what 12 s can tell apart.
+_RATES = tuple(round(0.4 * n, 1) for n in range(2, 51))
+#: Torques without a name, over the arm's own variables; each is a number of the unit.
+_UNNAMED = (
+    _Law("torque_of_rate_cubed", "torque with the cube of the rate", "torque = -cubic_drag * w**3", (
+        TermParameter("cubic_drag", "N*m*s^3", 0.0, 0.01, (1e-7, 1e-6, 1e-5)),)),
+    _Law("torque_of_position", "torque with the position",
+         "torque = -spring_stiffness * (angle - spring_rest)", (
+        TermParameter("spring_stiffness", "N*m", -0.05, 0.05, (1e-3, -1e-3, 5e-3)),
+        TermParameter("spring_rest", "rad", _NEAR_PI - 2.0, _NEAR_PI + 2.0, (_NEAR_PI - 0.4, _NEAR_PI + 0.4)))),
+    _Law("torque_of_rate_in_a_band", "torque with the rate near the lowest position",
+         "torque = -band_damping * exp(-((angle - pi) / band_width)**2) * w", (
+        TermParameter("band_damping", "N*m*s", 0.0, 0.05, (1e-4, 1e-3)),
+        TermParameter("band_width", "rad", 0.05, 1.5, (0.15, 0.3, 0.7)))),
+    _Law("periodic_torque", "torque that comes and goes",
+         "torque = periodic_torque * sin(periodic_rate * t + periodic_phase)", (
+        TermParameter("periodic_torque", "N*m", -0.02, 0.02, (5e-4, -5e-4)),
+        TermParameter("periodic_rate", "rad/s", 0.3, 30.0, _RATES),
+        TermParameter("periodic_phase", "rad", -7.0, 7.0, (0.0, 0.5 * math.pi)))),
+    _Law("constant_torque", "steady torque", "torque = constant_torque", (
+        TermParameter("constant_torque", "N*m", -0.02, 0.02, (1e-4, -1e-4, 1e-3, -1e-3)),)),
+)  # fmt: skip
+#: Law of the catalogue to the name of the same term in a library of torques over rate, position and history. It is
+#: tried only where the catalogue is without the law: else the name tells more.
+_TWINS = {
+    "viscous_damping": "torque_of_rate", "coulomb_friction": "torque_of_the_sign_of_rate",
+    "stiction": "torque_of_slow_rate", "quadratic_drag": "torque_of_rate_squared",
+    "backlash": "memory_of_direction", "tilt": "torque_of_the_cosine_of_position",
+}  # fmt: skip
+#: Faults of the encoder's chain. A bias is not among them: in free swings it is what a tilt is (state `bias_bound`).
+SENSOR_TERMS: Mapping[str, tuple[str, str, TermParameter]] = {
+    "sensor_gain": ("gain of a sensor", "value = pi + (1 + gain) * (truth - pi)",
+                    TermParameter("gain", "1", -0.3, 0.3, (0.02, -0.02), negligible=0.002)),
+    "sensor_lag": ("lag of a sensor", "lag_time * d(value) = truth - value",
+                   TermParameter("lag_time", "s", 0.0, 1.0, (0.005, 0.03), negligible=0.001)),
+    "sensor_clock_offset": ("clock of a sensor", "value(t) = truth(t - offset)",
+                            TermParameter("offset", "s", -1.0, 1.0, (0.01, -0.01), negligible=0.001)),
+}  # fmt: skip
 
-def pendulum_laws(component: str) -> list[UnitLaw]:
-    """Laws of a component of kind `bullet_pendulum`.
+
+def pendulum_laws(component: str, without: Collection[str] = ()) -> list[UnitLaw]:
+    """Laws of a component of kind `bullet_pendulum`, those without a name last.
 
     Args:
         component: Its name in the scenario.
+        without: Laws that are hidden: the same torques are among those without a name.
+    """
+    named = [_unit_law(component, law) for law in _LAWS if law.identifier not in without]
+    twins = [replace(law, identifier=_TWINS[law.identifier], name=f"law {_TWINS[law.identifier]}", confused_with={})
+             for law in _LAWS if law.identifier in without]  # fmt: skip
+    return named + [_unit_law(component, law, is_named=False) for law in (*_UNNAMED, *twins)]
+
+
+def _unit_law(component: str, law: _Law, is_named: bool = True) -> UnitLaw:
+    term = Term(law.identifier, component, "mechanical", law.parameters, is_named, law.law)
+    place = ComponentTerm(term, component, tuple(p.name for p in law.parameters))
+    return UnitLaw(place, law.name, "mechanics/pendulum_design.py", law.confused_with)
+
+
+def sensor_laws(component: str, channels: Collection[str]) -> list[UnitLaw]:
+    """Faults of the sensors of a pendulum.
+
+    Args:
+        component: Its name in the scenario.
+        channels: Names of the channels.
     """
     return [
-        UnitLaw(
-            ComponentTerm(
-                Term(law.identifier, component, "mechanical", law.parameters, law=law.law), component,
-                tuple(p.name for p in law.parameters),
-            ),
-            law.name, "mechanics/pendulum_design.py", law.confused_with,
-        )
-        for law in _LAWS
-    ]  # fmt: skip
+        UnitLaw(ComponentTerm(Term(identifier, channel, "measurement", (number,), law=law), component, ()), name)
+        for channel in channels
+        for identifier, (name, law, number) in SENSOR_TERMS.items()
+    ]
 
 
 def pendulum_terms(component: str) -> list[ComponentTerm]:
-    """The same laws as terms alone."""
-    return [law.place for law in pendulum_laws(component)]
+    """The laws of the catalogue as terms alone."""
+    return [law.place for law in pendulum_laws(component) if law.place.term.is_named]
