@@ -106,7 +106,7 @@ class PendulumWorld:
         self._angle, self._speed, self.acceleration, self._time = angle, half_speed, acceleration, time
 
     def state(self) -> tuple[float, float, float, float]:
-        """Angle [rad], speed half a step before [rad/s], acceleration of the last step [rad/s^2], time since the start."""
+        """Angle [rad], speed half a step before [rad/s], acceleration of the last step [rad/s^2], time [s]."""
         angle, speed = pybullet.getJointState(self._body, 0, self._client)[:2]
         return float(angle), float(speed), self.acceleration, self._time
 

@@ -124,9 +124,11 @@ class PendulumDesign:
                     self.band_damping, self.periodic_torque, self.constant_torque))  # fmt: skip
 
     def smooth_torque(self, time: float, angle: float, angular_velocity: float) -> float:
-        """Torque of all laws but weight and dry friction [N m], at a time [s], angle [rad], angular velocity [rad/s]."""
+        """Torque of all laws but weight and dry friction [N m], at a time [s], an angle and a rate in radians."""
         w = angular_velocity
-        found = self.constant_torque - (self.viscous_damping + self.quadratic_drag * abs(w) + self.cubic_drag * w * w) * w
+        found = (
+            self.constant_torque - (self.viscous_damping + self.quadratic_drag * abs(w) + self.cubic_drag * w * w) * w
+        )
         if self.spring_stiffness:
             found -= self.spring_stiffness * (angle - self.spring_rest)
         if self.band_damping:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
 
 from diagnosis.search.cosim_model import ComponentTerm
 from diagnosis.search.problem import Term, TermParameter
@@ -40,7 +41,8 @@ _LAWS = (
         {"viscous_damping": _AMPLITUDES}),
     _Law("backlash", "backlash between arm and encoder", "abs(arm - encoder) <= backlash / 2", (
         TermParameter("backlash", "rad", 0.0, 0.5, (1e-3, 1e-2)),),
-        {"tilt": "slow turns decide: play stands still at each of them"}),
+        {"tilt": "slow turns decide: play stands still at each of them",
+         "sensor_lag": "swings of different sizes decide"}),
     _Law("tilt", "tilt of the stand against gravity", "torque = weight_moment * sin(angle - tilt)", (
         TermParameter("tilt", "rad", -0.2, 0.2, (1e-3, -1e-3, 1e-2, -1e-2)),)),
 )  # fmt: skip

@@ -12,8 +12,10 @@ from cosim.unit import AnyArray, Array
 from diagnosis.compute.batch import Batches
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters
+from diagnosis.search.pendulum_terms import pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
+from diagnosis.simulator.pendulum_model import PendulumModel, is_single_pendulum
 from diagnosis.simulator.runs import deviation
 from diagnosis.simulator.unit_laws import laws_of
 
@@ -58,10 +60,16 @@ class ClosedLoopModel:
         self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str] = (),
         batches: Batches | None = None,
     ) -> None:  # fmt: skip
-        self._laws = {law.place.term: law for law in laws_of(scenario) if law.place.term.identifier not in without}
         recordings = [_with_rounding(r) for r in recordings]
+        laws, kind = laws_of(scenario), CosimModel
+        if is_single_pendulum(scenario, recordings):
+            (component,) = scenario.components
+            channels = dict.fromkeys(name for r in recordings for name in r.channels)
+            laws = [*pendulum_laws(component, without), *sensor_laws(component, channels)]
+            kind = PendulumModel
+        self._laws = {law.place.term: law for law in laws if law.place.term.identifier not in without}
         free = free_parameters(scenario, recordings)
-        self.model = CosimModel(scenario, recordings, free, [law.place for law in self._laws.values()], batches)
+        self.model = kind(scenario, recordings, free, [law.place for law in self._laws.values()], batches)
         self.runs = [_compared(r) for r in recordings]
         self.parameters: Sequence[Parameter] = self.model.parameters
         self.layout: Layout = self.model.layout

@@ -1,0 +1,192 @@
+"""A single pendulum with its recordings: fitted by many arms at a time in Bullet, judged by the co-simulation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.assemble import assemble
+from cosim.components import PendulumComponent
+from cosim.mechanics_assembly import PENDULUM_UNITS
+from cosim.quantity import PhysicalValue
+from cosim.scenario import Scenario
+from cosim.unit import Array
+from diagnosis.recording.recording import Recording
+from diagnosis.recording.series import Series, sample
+from diagnosis.search.cosim_model import CosimModel
+from diagnosis.search.pendulum_terms import SENSOR_TERMS
+from diagnosis.search.problem import Point
+from diagnosis.simulator.pendulum_batch import arm, is_available, swings
+
+#: Numbers of a design that a scenario need not give, as in mechanics/pendulum_design.py.
+_DEFAULTS = {
+    **dict.fromkeys(PENDULUM_UNITS, 0.0), "gravity": 9.80665, "stribeck_speed": 0.05, "band_width": 0.25,
+    "spring_rest": math.pi, "initial_angle": math.pi,
+}  # fmt: skip
+_MEASURED = frozenset({"angle", "arm_angle", "angular_velocity"})
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """When the unit of one recording tells its state.
+
+    Args:
+        values: Numbers of the arm in the scenario, SI.
+        micro: Micro-step of the unit [s].
+        macro: Macro-step [s].
+        times: Of all macro-steps [s], shape (samples,).
+        every: Macro-steps per output.
+    """
+
+    values: Mapping[str, float]
+    micro: float
+    macro: float
+    times: Array
+    every: int
+
+
+def is_single_pendulum(scenario: Scenario, recordings: Sequence[Recording]) -> bool:
+    """Whether a scenario is one pendulum and nothing else, seen in angle or speed, and Bullet can be called."""
+    components = list(scenario.components.values())
+    if len(components) != 1 or not isinstance(components[0], PendulumComponent) or scenario.connections:
+        return False
+    measured = {c.target.quantity for r in recordings for c in r.channels.values()}
+    return measured <= _MEASURED and not components[0].start and is_available()
+
+
+class PendulumModel(CosimModel):
+    """See `CosimModel`; residuals come from arms in one world, `predictions` from the co-simulation."""
+
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        found: list[Array] = [np.zeros(0)] * len(wanted)
+        self.runs += len(wanted)
+        for number in sorted({n for _, n in wanted}):
+            own = [i for i, (_, n) in enumerate(wanted) if n == number]
+            for i, values in zip(own, self._swung([wanted[i][0] for i in own], number)):
+                found[i] = self._residual(number, values)
+        return found
+
+    def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+        """See `CosimModel`; what faults of sensors add comes from arms in one world."""
+        found = super().predictions(wanted)
+        for i, (point, number) in enumerate(wanted):
+            values = found[i]
+            if values is not None and any(t.identifier in SENSOR_TERMS for t in point.terms):
+                plain = Point(point.base, {t: v for t, v in point.terms.items() if t.identifier not in SENSOR_TERMS})
+                with_them, without = self._swung([point, plain], number)
+                if with_them is not None and without is not None:
+                    found[i] = [v + a - b for v, a, b in zip(values, with_them, without)]
+        return found
+
+    def _swung(self, points: Sequence[Point], number: int) -> list[list[Array] | None]:
+        """Values of every channel of a recording at its samples, SI, for every point."""
+        grid = self._grid(number)
+        arms, given, is_possible = [], [], []
+        for point in points:
+            values = dict(grid.values)
+            for own in self.changes_at(point, number).parameters.values():
+                values.update({n: v.to(PENDULUM_UNITS[n]) for n, v in own.items()})
+            is_possible.append(_is_possible(values))
+            given.append(values)
+            arms.append(arm(values if is_possible[-1] else grid.values))
+        courses = swings(arms, grid.micro, grid.macro, len(grid.times))
+        found: list[list[Array] | None] = []
+        for point, values, course, is_right in zip(points, given, courses, is_possible):
+            if not is_right or not np.isfinite(course).all():
+                found.append(None)
+                continue
+            found.append(self._read(point, number, grid, {
+                "arm_angle": course[:, 0], "angular_velocity": course[:, 1],
+                "angle": behind_play(course[:, 0], values["backlash"]),
+            }))  # fmt: skip
+        return found
+
+    def _read(self, point: Point, number: int, grid: _Grid, course: Mapping[str, Array]) -> list[Array]:
+        """What the sensors read of a course."""
+        found = []
+        for channel in self.recordings[number].channels.values():
+            times, values = grid.times, course[channel.target.quantity]
+            late, gain = 0.0, 0.0
+            for term, (amount, *_) in point.terms.items():
+                if term.place != channel.name:
+                    continue
+                if term.identifier == "sensor_clock_offset":
+                    late += amount
+                elif term.identifier == "sensor_gain":
+                    gain += amount
+                elif term.identifier == "sensor_lag":
+                    values = lagging(values, amount, grid.macro)
+            series = Series(times[:: grid.every], values[:: grid.every], False, channel.unit)
+            middle = math.pi if channel.unit == "rad" else 0.0
+            found.append(middle + (1.0 + gain) * (sample(series, channel.times - late) - middle))
+        return found
+
+    def _grid(self, number: int) -> _Grid:
+        known: dict[int, _Grid] = self.__dict__.setdefault("_grids", {})
+        if number not in known:
+            known[number] = _grid_of(self.scenarios[number])
+        return known[number]
+
+
+def _grid_of(scenario: Scenario) -> _Grid:
+    (component,) = scenario.components.values()
+    assert isinstance(component, PendulumComponent)
+    assembly = assemble(scenario)
+    try:
+        (resolved,) = assembly.parameters.values()
+    finally:
+        assembly.system.terminate()
+    values = dict(_DEFAULTS)
+    for name, value in resolved.values.items():
+        assert isinstance(value, PhysicalValue)
+        values[name] = value.to(PENDULUM_UNITS[name])
+    time = scenario.time
+    start, stop, macro = time.start.to("s"), time.stop.to("s"), time.macro_step.to("s")
+    count = round((stop - start) / macro)
+    times: Array = start + macro * np.arange(count + 1.0)
+    every = max(1, round(time.output_step.to("s") / macro))
+    return _Grid(values, component.micro_step.to("s"), macro, times, every)
+
+
+def _is_possible(values: Mapping[str, float]) -> bool:
+    """Whether the unit can be built."""
+    positive = all(values[n] > 0.0 for n in ("mass", "centre_distance", "gravity", "stribeck_speed", "band_width"))
+    return positive and all(math.isfinite(v) for v in values.values()) and values["central_inertia"] >= 0.0
+
+
+def behind_play(angle: Array, play: float) -> Array:
+    """Encoder behind a play of this full width [rad], from its middle, shape as given.
+
+    Source: play operator, A. Visintin, Differential Models of Hysteresis, Springer 1994, chapter III.
+    """
+    if play <= 0.0:
+        return angle
+    found, stands = np.empty_like(angle), float(angle[0])
+    for i, now in enumerate(angle.tolist()):
+        stands = min(max(stands, now - 0.5 * play), now + 0.5 * play)
+        found[i] = stands
+    return found
+
+
+def lagging(values: Array, lag: float, step: float) -> Array:
+    """What a sensor of first order reads of values at even times [s], from rest at the first, shape as given.
+
+    Between two of them the input is a straight line, for which the response is exact (`sensor_lag` in the catalogue).
+    """
+    if lag <= 0.0:
+        return values
+    ratio = step / lag
+    kept = math.exp(-ratio)
+    mean = (1.0 - kept) / ratio  # share of the last step's rise that has not come through
+    found, reads = np.empty_like(values), float(values[0])
+    before = reads
+    for i, now in enumerate(values.tolist()):
+        if i:
+            reads = kept * reads + (1.0 - kept) * before + (1.0 - mean) * (now - before)
+            before = now
+        found[i] = reads
+    return found
