@@ -51,6 +51,22 @@ class Lead:
 
 
 @dataclass(frozen=True)
+class Drop:
+    """A voltage that a string takes whatever its current, as a film on a contact does: R = voltage / (|I| + 10 mA).
+
+    Below some 10 mA it fades, so that the string has one solution (R. Holm, Electric Contacts, 4th ed., Springer 1967,
+    chapter 27).
+
+    Args:
+        string: String, from 1.
+        voltage: [V].
+    """
+
+    string: int
+    voltage: float
+
+
+@dataclass(frozen=True)
 class SourceResistance:
     """Inner resistance of a source (Thevenin), beside `supply_resistance`.
 
@@ -81,14 +97,17 @@ class CurrentLimit:
     share: float = 1.0
 
 
-Element = Contact | Lead | SourceResistance | CurrentLimit
+#: Current [A] below which a `Drop` fades.
+FADING = 0.01
+
+Element = Contact | Lead | Drop | SourceResistance | CurrentLimit
 
 
 def check(elements: Sequence[Element], strings: int, sources: int) -> None:
     """Raise ValueError for an element at a place that does not exist, or that would give energy."""
     for element in elements:
-        is_in_string = isinstance(element, Contact | Lead)
-        place = element.string if isinstance(element, Contact | Lead) else element.supply
+        is_in_string = isinstance(element, Contact | Lead | Drop)
+        place = element.string if isinstance(element, Contact | Lead | Drop) else element.supply
         count, what = (strings, "string") if is_in_string else (sources, "supply")
         if not 1 <= place <= count:
             raise ValueError(f"elements: there is no {what} {place}; they are numbered 1 to {count}")
@@ -128,6 +147,14 @@ class Series:
         for element in self.elements:
             if isinstance(element, Lead):
                 found[element.string - 1] += element.rise
+        return found
+
+    def drops(self) -> Array:
+        """Sum of the voltages that each string takes whatever its current [V], shape (strings,)."""
+        found = np.zeros(self.strings)
+        for element in self.elements:
+            if isinstance(element, Drop):
+                found[element.string - 1] += element.voltage
         return found
 
     def source_resistances(self) -> Array:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from circuit.elements import Contact, Element, Lead, Series, check
+from circuit.elements import Contact, Drop, Element, Lead, Series, check
 
 #: Resistance of the only open coil of a string [ohm]. Against a true break it lets V / 1e12 ohm pass: 6 pA at 6 V.
 OPEN_RESISTANCE = 1e12
@@ -121,7 +121,7 @@ class Network:
 
     def strings_with_contacts(self) -> list[int]:
         """Strings (from 1) that have a contact or a lead among the elements."""
-        return sorted({e.string for e in self.elements if isinstance(e, Contact | Lead)})
+        return sorted({e.string for e in self.elements if isinstance(e, Contact | Lead | Drop)})
 
     def coils_of_strings(self) -> list[range]:
         """Coil numbers (from 1) of every string."""

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
+from circuit.elements import FADING
 from circuit.kirchhoff import Laws, Solution
 from circuit.netlist import (
     MAX_RESISTANCE,
@@ -69,6 +70,8 @@ class CircuitUnit(Unit):
         self._whole = np.array([c not in faulty for c in range(1, network.coils + 1)])
         self._in_use = np.concatenate([np.ones(network.sources, dtype=bool), self._whole])
         self._series, self._rises = network.series, network.series.rises()
+        self._drops = self._series.drops()
+        self._by_current = (self._rises > 0.0) | (self._drops > 0.0)
         self._with_contacts = [n - 1 for n in network.strings_with_contacts()]
         self._elements += [f"{contact_name(n + 1)} gain" for n in self._with_contacts]
         self._in_use = np.append(self._in_use, np.ones(len(self._with_contacts), dtype=bool))
@@ -175,16 +178,17 @@ class CircuitUnit(Unit):
             )
 
     def _settled(self, wanted: Array, contacts: Array, time: int) -> Solution:
-        """The solution in which the resistance of every lead agrees with its current."""
+        """The solution in which what depends on a string's current agrees with it."""
         now = contacts
         for _ in range(MOST_TURNS):
             solution = self._limited(wanted, now, time)
-            if not self._rises.any():
+            if not self._by_current.any():
                 return solution
-            last, now = now, contacts + self._rises * solution.string_current**2
+            current = np.abs(solution.string_current)
+            last, now = now, contacts + self._rises * current**2 + self._drops / (current + FADING)
             if np.all(np.abs(now - last) <= SETTLED * (1.0 + now)):
                 return solution
-            now = np.where(self._rises > 0.0, 0.5 * (now + last), now)  # a lead that rules its string would swing
+            now = np.where(self._by_current, 0.5 * (now + last), now)  # a lead that rules its string would swing
         raise UnitError(
             self.name, "the resistance of a lead does not settle", time, "give it a smaller rise, or a lower voltage"
         )

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from circuit.elements import Contact, CurrentLimit, Lead, SourceResistance
+from circuit.elements import Contact, CurrentLimit, Drop, Lead, SourceResistance
 from circuit.elements import Element as CircuitPart
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
@@ -25,6 +25,7 @@ from cosim.components import (
     CircuitElement,
     Component,
     ContactElement,
+    DropElement,
     FabricComponent,
     FmuComponent,
     HangingMassComponent,
@@ -207,6 +208,8 @@ def _element_of(given: CircuitElement) -> CircuitPart:
         return Contact(given.string, given.resistance.to("ohm"), instant)
     if isinstance(given, LeadElement):
         return Lead(given.string, given.rise.to("ohm/A^2"))
+    if isinstance(given, DropElement):
+        return Drop(given.string, given.voltage.to("V"))
     if isinstance(given, SourceResistanceElement):
         return SourceResistance(given.supply, given.resistance.to("ohm"))
     return CurrentLimit(given.supply, given.limit.to("A"), given.share)

@@ -94,6 +94,14 @@ class LeadElement(Strict):
     rise: Annotated[PhysicalValue, In("ohm/A^2", minimum=0.0)]
 
 
+class DropElement(Strict):
+    """A voltage that a string takes whatever its current; it fades below 10 mA."""
+
+    kind: Literal["drop"]
+    string: Count
+    voltage: Annotated[PhysicalValue, In("V", minimum=0.0)]
+
+
 class SourceResistanceElement(Strict):
     """Inner resistance of one source."""
 
@@ -112,7 +120,8 @@ class CurrentLimitElement(Strict):
 
 
 CircuitElement = Annotated[
-    ContactElement | LeadElement | SourceResistanceElement | CurrentLimitElement, Field(discriminator="kind")
+    ContactElement | LeadElement | DropElement | SourceResistanceElement | CurrentLimitElement,
+    Field(discriminator="kind"),
 ]
 
 

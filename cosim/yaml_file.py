@@ -16,7 +16,7 @@ from cosim.errors import InputError
 _MEMBER = re.compile(r"^(bool|function-plain\[.*|list\[.*|float|int|str)$")
 _KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass", "bullet_pendulum",
           "gauss_seidel", "jacobi", "iterated", "step_doubling",
-          "contact", "lead", "source_resistance", "current_limit")  # fmt: skip
+          "contact", "lead", "drop", "source_resistance", "current_limit")  # fmt: skip
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):

@@ -27,6 +27,14 @@ def _lead(n: int, v: Values) -> dict[str, Any]:
     return {"kind": "lead", "string": n, "rise": quantity(v["rise"], "ohm/A^2")}
 
 
+def _series_drop(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "drop", "string": n, "voltage": quantity(v["a"], "V")}
+
+
+def _series(n: int, v: Values) -> dict[str, Any]:
+    return {"kind": "contact", "string": n, "resistance": quantity(v["a"], "ohm")}
+
+
 def _source(n: int, v: Values) -> dict[str, Any]:
     return {"kind": "source_resistance", "supply": n, "resistance": quantity(v["R_source"], "ohm")}
 
@@ -42,6 +50,10 @@ _ELEMENTS: Mapping[str, Callable[[int, Values], dict[str, Any]]] = {
     "self_heating_lead": _lead,
     "supply_source_resistance": _source,
     "supply_current_limit": _limit,
+    "unnamed_series_constant": _series_drop,
+    "unnamed_series_linear": _series,
+    "unnamed_supply_linear": lambda n, v: _source(n, {"R_source": v["a"]}),
+    "unnamed_supply_hinge": lambda n, v: _limit(n, {"limit": v["limit"], "share": v["a"]}),
 }
 
 

@@ -73,6 +73,25 @@ static inline double share_after(double instant, double begin, double end)
 /* x / (1 + |x|): odd, slope 1 at 0, tends to +-1. */
 static inline double saturate(double x) { return x / (1.0 + fabs(x)); }
 
+/* How the heat of a step goes from coil to coil: half of it before the coils' own balance and half after it, the pairs
+ * one after the other and then the other way round (G. Strang, SIAM J. Numer. Anal. 5 (1968) 506-517). Each pair's own
+ * exchange is exact, so that it is stable at any strength and no heat is lost. */
+enum { FORWARDS, BACKWARDS, AT_END };
+
+static inline void exchange_heat(Step *s, int64_t a, int64_t b, double exchange, int turn)
+{
+    const double c_a = s->capacity[a], c_b = s->capacity[b], gap = s->temperature[a] - s->temperature[b];
+    if (turn == AT_END) {
+        s->slope[a] -= exchange * gap / c_a;
+        s->slope[b] += exchange * gap / c_b;
+        return;
+    }
+    const double half = 0.5 * s->dt * exchange, exponent = half / c_a + half / c_b;
+    const double moved = half * gap * bank_relaxation(exponent); /* [J] */
+    s->temperature[a] -= moved / c_a;
+    s->temperature[b] += moved / c_b;
+}
+
 /* Used by the generated hooks. */
 #define COIL_LOOP _Pragma("GCC ivdep") for (int64_t i = 0; i < s->width; i++)
 #define ON(term) (s->plan->term_offset[term] >= 0)

@@ -44,7 +44,7 @@ WRITABLE: Mapping[str, Mapping[str, str]] = {
     "sensor": {"value": "sensor->value[n]"},
 }  # fmt: skip
 #: Hooks that are called before the step is made: continuous states are taken at its middle.
-_BEFORE_STEP = ("resistance", "heat", "pairs")
+_BEFORE_STEP = ("resistance", "heat")
 
 
 def generate(terms: Sequence[CandidateTerm]) -> str:
@@ -183,15 +183,14 @@ def _pairs_function(term: CandidateTerm, head: str) -> str:
     used = words(term.lines["pairs"])
     declared = [c for x in "ab" for c in _parameters(term, used, "s->width", x, f"_{x}")]
     body = "\n        ".join([*declared, *term.lines["pairs"].strip().splitlines()])
-    return f"""{head}Step *s, const double *restrict p)
+    return f"""{head}Step *s, const double *restrict p, int turn)
 {{
-    for (int64_t n = 0; n < s->plan->pairs; n++) {{
+    for (int64_t k = 0; k < s->plan->pairs; k++) {{
+        const int64_t n = turn == BACKWARDS ? s->plan->pairs - 1 - k : k;
         const int64_t a = s->plan->pair_a[n], b = s->plan->pair_b[n];
-        const double T_a = s->felt[a], T_b = s->felt[b];
-        double flow = 0.0; /* from a to b [W]: what one coil loses the other gains */
+        double exchange = 0.0; /* [W/K] */
         {body}
-        s->heat[a] -= flow;
-        s->heat[b] += flow;
+        exchange_heat(s, a, b, exchange, turn);
     }}
 }}
 """
@@ -232,7 +231,7 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
         if hook == "gather":
             continue  # called together with `shared`
         is_sensor = HOOK_AXES[hook] == "channel"
-        argument = "sensor" if is_sensor else "s"
+        argument = "sensor" if is_sensor else "s, turn" if hook == "pairs" else "s"
         calls = [_call(number, term, hook, is_sensor) for number, term in enumerate(terms) if hook in term.lines]
         out.append(f"#define HOOK_{hook}({argument}) do {{ {' '.join(calls)} }} while (0)")
     starts = [f"if (ON({n})) start_{t.identifier}(s, VALUES({n}));" for n, t in enumerate(terms) if t.states]
@@ -241,6 +240,8 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
         f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if "I" in words(t.lines.get("string", ""))
     ]
     out.append(f"#define HAS_CURRENT_FEEDBACK(plan) ({' || '.join(feedback) or '0'})")
+    paired = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if "pairs" in t.lines]
+    out.append(f"#define HAS_PAIRS(plan) ({' || '.join(paired) or '0'})")
     sensors = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if t.axis == "channel"]
     out.append(f"#define HAS_SENSOR(plan) ({' || '.join(sensors) or '0'})")
     return "\n".join(out) + "\n"
@@ -251,6 +252,8 @@ def _call(number: int, term: CandidateTerm, hook: str, is_sensor: bool) -> str:
         return (
             f"if (ON({number})) {hook}_{term.identifier}(sensor, sensor->set + plan->term_offset[{number}], CHANNELS);"
         )
+    if hook == "pairs":
+        return f"if (ON({number})) {hook}_{term.identifier}(s, VALUES({number}), turn);"
     if hook == "shared":
         return (
             f"if (ON({number})) {{ double sums[2]; gather_{term.identifier}(s, VALUES({number}), sums); "

@@ -111,8 +111,8 @@ static void balance_heat(Step *s, int64_t k)
         conductance[i] = is_regressed[i] != 0.0 && power[i] <= off[i] ? cooling[i] * c[i] : ha[i];
     }
     s->felt = s->middle;
-    HOOK_pairs(s);
     HOOK_heat(s);
+    HOOK_pairs(s, FORWARDS);
     COILS_LOOP
     {
         const double net = power[i] + heat[i] - conductance[i] * (temperature[i] - ambient[i]);
@@ -123,6 +123,11 @@ static void balance_heat(Step *s, int64_t k)
         temperature[i] += rate[i] * dt;
         slope[i] = (net - conductance[i] * rate[i] * dt) / capacity[i];
         energy[i] += power[i] * dt;
+    }
+    if (HAS_PAIRS(s->plan)) {
+        HOOK_pairs(s, BACKWARDS);
+        HOOK_pairs(s, AT_END);
+        COILS_LOOP rate[i] = (temperature[i] - s->before[i]) / dt;
     }
 }
 

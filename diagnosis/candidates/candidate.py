@@ -69,7 +69,7 @@ class State:
     """A state that a candidate adds.
 
     Args:
-        name: As used in the C lines: its value at the middle of the step in `resistance`, `heat` and `pairs`, later
+        name: As used in the C lines: its value at the middle of the step in `resistance` and `heat`, later
             that at the end; `<name>_begin` is its value at the begin of the step.
         unit: SI unit.
         start: C expression of its value at the start.

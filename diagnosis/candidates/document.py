@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from diagnosis.candidates import unnamed, unnamed_shapes
 from diagnosis.candidates.candidate import CandidateTerm, Parameter
 from diagnosis.candidates.hooks import FUNCTIONS, HOOKS, NAMES
 from diagnosis.candidates.registry import catalogue
@@ -83,9 +84,13 @@ def _unnamed() -> Iterator[str]:
     yield "\n| equation | law | amplitude | terms |\n|---|---|---|---|"
     for equation, target in TARGETS.items():
         prefix = f"unnamed_{equation}_"
-        names = [t.identifier[len(prefix) :] for t in catalogue() if t.identifier.startswith(prefix)]
+        names = [t.identifier[len(prefix) :] for t in unnamed.CANDIDATES if t.identifier.startswith(prefix)]
         law = target.law.format(phi="phi")
         yield f"| {equation} | `{law}` | {_number(target.bound)} {target.amplitude} at most | {', '.join(names)} |"
+    yield "\nThresholds, steps, changes, and equations that few laws act on:\n"
+    yield "| term | law | amplitude |\n|---|---|---|"
+    for term in unnamed_shapes.CANDIDATES:
+        yield f"| {term.identifier.removeprefix('unnamed_')} | `{term.law}` | [{term.amplitude.unit}] |"
     yield ""
 
 

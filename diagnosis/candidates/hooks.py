@@ -9,7 +9,7 @@ HOOKS: Mapping[str, str] = {
     "resistance": "resistance of a coil, before the circuit is solved",
     "string": "what lies in series with a string",
     "supply": "a source: its voltage, inner resistance and limit",
-    "pairs": "heat between coils that touch: set `flow` [W] from a to b; `T_a`, `T_b`; parameters end in `_a`, `_b`",
+    "pairs": "heat between coils that touch: set `exchange` [W/K]; parameters end in `_a`, `_b`",
     "heat": "heat balance of a coil, once its power is known",
     "state": "added states, continuous: set `<state>_inflow` and `<state>_rate` of d state/dt = inflow - rate * state",
     "gather": "sums over the coils for a shared state: set `gathered` and `weight`",

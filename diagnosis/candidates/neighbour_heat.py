@@ -12,13 +12,11 @@ CANDIDATE = CandidateTerm(
         " 3.1 (conductance of a contact)"
     ),
     parameters=(
-        Parameter(
-            "g", "W/K", 0.0, 0.02, "heat flows from hot to cold", (0.001, 0.0003, 0.004, 0.02), is_amplitude=True
-        ),
+        Parameter("g", "W/K", 0.0, 0.1, "heat flows from hot to cold", (0.001, 0.0003, 0.004, 0.02), is_amplitude=True),
     ),
     places=("all", "string"),
     lines={
-        "pairs": "flow = 0.5 * (g_a + g_b) * (T_a - T_b);",
+        "pairs": "exchange = 0.5 * (g_a + g_b);",
     },
     signature="Unpowered coils warm up beside powered ones, with a delay; inner coils hotter than outer ones.",
     confused_with={

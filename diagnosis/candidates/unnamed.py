@@ -159,7 +159,7 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
 
 def _between_neighbours() -> CandidateTerm:
     """Heat that goes from coil to coil: what one loses the other gains."""
-    amplitude = Parameter("a", "W", -2.0, 2.0, _REASON, (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
+    amplitude = Parameter("a", "W", 0.0, 3.0, "heat flows from hot to cold", (0.01, 0.05, 0.2), is_amplitude=True)
     return CandidateTerm(
         identifier="unnamed_heat_neighbour",
         name="unnamed term in heat: difference of temperature to coils that touch",
@@ -168,7 +168,7 @@ def _between_neighbours() -> CandidateTerm:
         source=_SOURCE,
         parameters=(amplitude,),
         places=("all", "string"),
-        lines={"pairs": "flow = 0.5 * (a_a + a_b) * (T_a - T_b) / 30.0;"},
+        lines={"pairs": "exchange = 0.5 * (a_a + a_b) / 30.0;"},
         signature="What is missing in heat follows the difference of temperature between coils that touch.",
         is_named=False,
     )

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from circuit.elements import Contact, CurrentLimit, Lead, SourceResistance
+from circuit.elements import FADING, Contact, CurrentLimit, Drop, Lead, SourceResistance
 from circuit.netlist import Network
 from circuit.unit import CircuitUnit
 from cosim.unit import Array
@@ -46,6 +46,15 @@ def test_a_lead_agrees_with_its_current(rise: float) -> None:
     assert current * (4.0 + rise * current**2) == pytest.approx(6.0, rel=1e-12)
 
 
+@pytest.mark.parametrize(("drop", "voltage"), [(0.2, 6.0), (3.0, 6.0), (0.2, 0.1), (0.2, -6.0)])
+def test_a_drop_takes_its_voltage_whatever_the_current_and_fades_below_its_threshold(
+    drop: float, voltage: float
+) -> None:
+    current = float(_current(Network((2,), elements=(Drop(1, drop),)), voltage)[0])
+    # Settled to 1e-13 of the resistance, which one step of a drop larger than its voltage carries on some tenfold.
+    assert current * (4.0 + drop / (abs(current) + FADING)) == pytest.approx(voltage, rel=1e-11)
+
+
 def test_an_inner_resistance_of_the_supply_couples_the_strings() -> None:
     network = Network((2, 2), supply_resistance=0.5, elements=(SourceResistance(1, 0.5),))
     np.testing.assert_allclose(_current(network, 6.0), [1.0, 1.0], rtol=SOLVED)  # 6 V over 1 ohm + 4 ohm / 2
@@ -81,13 +90,14 @@ def test_supplies_of_their_own_have_elements_of_their_own() -> None:
     [
         (Contact(3, 1.0), "no string 3"),
         (Lead(1, -1.0), "0 or positive"),
+        (Drop(3, 1.0), "no string 3"),
         (SourceResistance(2, 1.0), "no supply 2"),
         (CurrentLimit(1, 0.0), "above 0 A"),
         (Contact(1, math.nan), "0 or positive"),
     ],
 )
 def test_an_element_without_place_or_sense_is_refused(
-    element: Contact | Lead | SourceResistance | CurrentLimit, said: str
+    element: Contact | Lead | Drop | SourceResistance | CurrentLimit, said: str
 ) -> None:
     with pytest.raises(ValueError, match=said):
         Network((2, 2), elements=(element,))

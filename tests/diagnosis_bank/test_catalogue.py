@@ -124,7 +124,7 @@ def test_a_candidate_moves_what_belongs_to_its_unit_and_nothing_upstream(term: C
     parameters, without = base
     place = widest_place(term)
     values = strongest(term, place)
-    if term.identifier == "supply_current_limit":
+    if term.identifier in ("supply_current_limit", "unnamed_supply_hinge"):
         values["limit"] = 0.4  # below the current of this small network
     result = full_bank(NETWORK).simulate(parameters.with_term(term.identifier, **values), network_inputs(), TIMES)
     moved, kept = TOUCHES[term.unit]

@@ -1,0 +1,186 @@
+"""Generic terms beyond sums of smooth functions: thresholds, steps, changes, and equations that only few laws act on.
+
+The same idea as in `unnamed`: an amplitude with a unit times a dimensionless function. A threshold is a hinge
+(J. H. Friedman, Annals of Statistics 19 (1991) 1-67), a sign of motion the play operator (M. Brokate and J. Sprekels,
+Hysteresis and Phase Transitions, Springer 1996, chapter 2), a change a variable less its own first-order delay. Where a
+term can only take energy, its amplitude is not negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
+from diagnosis.candidates.unnamed import VARIABLES
+
+_SOURCE = "J. H. Friedman, Annals of Statistics 19 (1991) 1-67; M. Brokate and J. Sprekels, Hysteresis and Phase "
+_SOURCE += "Transitions, Springer 1996, chapter 2"
+_REASON = "size only: nothing is known about the sign of a law without a name"
+_PASSIVE = "it only takes energy"
+_LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
+_EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
+_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 500.0))
+_INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
+
+
+def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False) -> Parameter:
+    starts = sizes if is_passive else tuple(sign * s for s in sizes for sign in (1.0, -1.0))
+    reason = _PASSIVE if is_passive else _REASON
+    return Parameter("a", unit, 0.0 if is_passive else -bound, bound, reason, starts, is_amplitude=True)
+
+
+def _term(
+    identity: tuple[Unit, str, str], law: str, parameters: tuple[Parameter, ...], lines: dict[str, str],
+    places: tuple[PlaceKind, ...] = _LOCAL, states: tuple[State, ...] = (),
+) -> CandidateTerm:  # fmt: skip
+    unit, name, words = identity
+    equation = name.split("_", 1)[0]
+    return CandidateTerm(
+        identifier=f"unnamed_{name}", name=f"unnamed term in {equation}: {words}", unit=unit, law=law, source=_SOURCE,
+        parameters=parameters, places=places, lines=lines,
+        signature=f"What is missing in {equation} follows {words}.", states=states, is_named=False,
+    )  # fmt: skip
+
+
+def _delayed(formula: str) -> tuple[dict[str, str], tuple[State, ...]]:
+    """A variable behind a first-order delay `tau`."""
+    line = f"delayed_inflow = ({formula}) / tau;\ndelayed_rate = 1.0 / tau;"
+    return {"state": line}, (State("delayed", "1", "0.0"),)
+
+
+def _of_shift() -> Iterator[CandidateTerm]:
+    """Shift of the transformation temperatures [K]."""
+    size = _amplitude("K", 40.0, 0.5, 4.0)
+    for form, variable in (
+        ("linear", "rate"), ("absolute", "rate"), ("linear", "time"), ("linear", "energy"), ("linear", "power"),
+        ("linear", "stretch"), ("linear", "pull"),
+    ):  # fmt: skip
+        formula, words = VARIABLES[variable]
+        phi = f"fabs({formula})" if form == "absolute" else formula
+        identity: tuple[Unit, str, str] = ("stiffness", f"shift_{form}_{variable}", f"{words}, {form}")
+        law = f"shift = a * ({phi.replace('fabs', 'abs')})"
+        yield _term(identity, law, (size,), {"stiffness": f"shift += a * ({phi});"})
+    formula, words = VARIABLES["excess"]
+    lines, states = _delayed(formula)
+    yield _term(
+        ("stiffness", "shift_delayed_excess", f"{words}, delayed"),
+        f"shift = a * delayed; tau * d(delayed) = {formula} - delayed",
+        (size, _TAU), {"stiffness": "shift += a * delayed;", **lines}, states=states,
+    )  # fmt: skip
+
+
+def _of_force() -> Iterator[CandidateTerm]:
+    """Force on a coil [N], and what holds its motion."""
+    size = _amplitude("N", 1.0, 0.02, 0.1)
+    for name, phi, words in (
+        ("linear_pull", VARIABLES["pull"][0], "tension (scale 1 N), linear"),
+        ("square_amperes", "({v}) * ({v})".format(v=VARIABLES["amperes"][0]), "current, square"),
+        ("linear_excess", VARIABLES["excess"][0], "temperature above the surroundings, linear"),
+        ("linear_time", VARIABLES["time"][0], "time, linear"),
+    ):
+        law = f"tension = load + a * ({phi})"
+        yield _term(("mechanical", f"force_{name}", words), law, (size,), {"load": f"tension += a * ({phi});"})
+    yield _term(
+        ("mechanical", "force_hinge_stretch", "extension, beyond a threshold"),
+        "tension = stiffness * extension + a * max(extension - onset, 0)",
+        (_amplitude("N/m", 5000.0, 20.0, 100.0, 500.0, is_passive=True),
+         Parameter("onset", "m", 0.0, 0.05, "a threshold that is reached", (0.004, 0.002, 0.003, 0.006))),
+        {"length": "extension -= a * most(extension - onset, 0.0) / (stiffness + a);"},
+    )  # fmt: skip
+    yield _term(
+        ("mechanical", "force_sign_motion", "direction of the motion"),
+        "abs(tension - stiffness * extension) <= a",
+        (_amplitude("N", 1.0, 0.02, 0.1, is_passive=True),),
+        {"length": "extension = clip(extension_before, extension - a / stiffness, extension + a / stiffness);"},
+    )
+    yield _term(
+        ("mechanical", "length_sign_motion", "direction of the motion"),
+        "abs(extension_marker - extension) <= a",
+        (_amplitude("m", 0.005, 5e-5, 5e-4, is_passive=True),),
+        {"length": "extension = clip(extension_before, extension - a, extension + a);"},
+    )
+
+
+def _of_heat() -> Iterator[CandidateTerm]:
+    """Heat [W]: what no smooth function of the coil's own variables is."""
+    watts = _amplitude("W", 2.0, 0.02, 0.1)
+    excess, words = VARIABLES["excess"]
+    yield _term(
+        ("thermal", "heat_linear_excess", f"{words}, linear"), f"heat = -a * ({excess})",
+        (Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True),),
+        {"heat": "conductance += a / 30.0;"}, _EVERY,
+    )  # fmt: skip
+    yield _term(
+        ("thermal", "heat_hinge_excess", "temperature beyond a threshold"), "heat = a * max(T - onset, 0) / 30.0",
+        (watts, Parameter("onset", "K", 200.0, 600.0, "a threshold that is reached", (320.0, 305.0, 335.0))),
+        {"heat": "heat += a * most(T - onset, 0.0) / 30.0;"},
+    )  # fmt: skip
+    yield _term(
+        ("thermal", "heat_step", "an instant"), "heat = a * step(t - instant)", (watts, _INSTANT),
+        {"heat": "heat += a * share_after(instant, t_begin, t_end);"},
+    )  # fmt: skip
+    stretch, words = VARIABLES["stretch"]
+    lines, states = _delayed(stretch)
+    yield _term(
+        ("thermal", "heat_excess_times_change_of_stretch", "temperature above the surroundings times change of "
+         "extension"),
+        f"heat = a * ({excess}) * abs({stretch} - delayed); tau * d(delayed) = {stretch} - delayed",
+        (watts, Parameter("tau", "s", 0.05, 1e3, "a delay is positive", (1.0, 5.0))),
+        {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed);", **lines}, states=states,
+    )  # fmt: skip
+
+
+def _of_resistance() -> Iterator[CandidateTerm]:
+    """Resistance of coils, what strings take in series, what a supply gives."""
+    yield _term(
+        ("electrical", "resistance_step", "an instant"),
+        "R = R_0 + a * reference_resistance * step(t - instant)",
+        (_amplitude("1", 0.9, 0.02, 0.2), _INSTANT),
+        {"resistance": "R += a * reference_resistance * share_after(instant, t_begin, t_end);"},
+    )
+    amperes, words = VARIABLES["amperes"]
+    lines, states = _delayed(amperes)
+    yield _term(
+        ("electrical", "resistance_delayed_amperes", f"{words}, delayed"),
+        f"R = R_0 + a * reference_resistance * delayed; tau * d(delayed) = {amperes} - delayed",
+        (_amplitude("1", 20.0, 0.01, 0.05), _TAU),
+        {"resistance": "R += a * reference_resistance * delayed;", **lines}, states=states,
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "series_constant", "direction of the current"), "R_string = R_string_0 + a / (abs(I) + 0.01)",
+        (_amplitude("V", 5.0, 0.05, 0.15, 0.5, is_passive=True),),
+        {"string": "R_string += a / (fabs(I) + 0.01);"}, ("all", "string"),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "series_linear", "current, linear"), "R_string = R_string_0 + a",
+        (_amplitude("ohm", 20.0, 0.05, 0.5, is_passive=True),), {"string": "R_string += a;"}, ("string",),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "supply_linear", "current of the supply, linear"), "V_terminal = V - a * I_supply",
+        (_amplitude("ohm", 20.0, 0.05, 0.5, is_passive=True),), {"supply": "R_supply += a;"}, ("supply",),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "supply_hinge", "current of the supply, beyond a threshold"),
+        "I_supply = I_free - a * max(I_free - limit, 0)",
+        (Parameter("a", "1", 0.0, 1.0, _PASSIVE, (0.5, 1.0, 0.2), is_amplitude=True),
+         Parameter("limit", "A", 0.01, 1000.0, "a threshold is positive", (2.0, 0.3, 0.7, 1.2, 3.0, 5.0))),
+        {"supply": "I_limit = a > 0.0 ? limit : I_limit;\nlimited = a > 0.0 ? a : limited;"}, ("supply", "all"),
+    )  # fmt: skip
+
+
+def _of_value() -> Iterator[CandidateTerm]:
+    """A sensor that is not linear."""
+    fixed = (
+        Parameter("scale", "unit of the channel", 1e-9, 1000.0, "given", (10.0,), is_fixed=True),
+        Parameter("pivot", "unit of the channel", -1000.0, 1000.0, "given", (0.0, 295.15), is_fixed=True),
+    )
+    yield _term(
+        ("measurement", "value_square", "the reading itself, square"),
+        "value = truth + a * scale * ((truth - pivot) / scale)**2",
+        (_amplitude("1", 0.3, 0.01, 0.05), *fixed),
+        {"sensor": "value += a * scale * ((value - pivot) / scale) * ((value - pivot) / scale);"},
+        ("channel", "quantity"),
+    )  # fmt: skip
+
+
+CANDIDATES = (*_of_shift(), *_of_force(), *_of_heat(), *_of_resistance(), *_of_value())
