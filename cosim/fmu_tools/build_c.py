@@ -12,6 +12,7 @@ import shlex
 import shutil
 import subprocess
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import fmpy
@@ -62,18 +63,18 @@ def build_c(folder: Path, version: int, coils: int, target: Path) -> list[str]:
         _lay_out(folder, root, names, coils)
         describe = Path(scratch) / "describe"
         generator = [str(FMUS / "fmi" / n) for n in ("describe.c", "describe_variables.c", "variables.c")]
-        said = _compile(folder, [*WARNINGS, f"-I{sources}", "-o", str(describe), *generator], FMUS)
-        (root / "modelDescription.xml").write_bytes(_output(folder, describe, str(version)))
-        if version == 3:
-            (sources / "buildDescription.xml").write_bytes(_output(folder, describe, "build"))
         binary = f"{identifier}{fmpy.sharedLibraryExtension}"
         library = Path("..", "binaries", fmpy.platform_tuple if version == 3 else fmpy.platform, binary)
         (sources / library).parent.resolve().mkdir(parents=True)
         include = ["-I.", "-isystem", str(Path(fmpy.__file__).parent / "c-code")]
-        said += _compile(
-            folder, [*WARNINGS, "-fPIC", "-fvisibility=hidden", "-shared", *include, "-o", str(library), *names, "-lm"],
-            sources,
-        )  # fmt: skip
+        flags = ["-fPIC", "-fvisibility=hidden", "-shared", *include]
+        with ThreadPoolExecutor(1) as pool:  # the compiler runs twice at the same time
+            built = pool.submit(_compile, folder, [*WARNINGS, *flags, "-o", str(library), *names, "-lm"], sources)
+            said = _compile(folder, [*WARNINGS, f"-I{sources}", "-o", str(describe), *generator], FMUS)
+            said += built.result()
+        (root / "modelDescription.xml").write_bytes(_output(folder, describe, str(version)))
+        if version == 3:
+            (sources / "buildDescription.xml").write_bytes(_output(folder, describe, "build"))
         target.parent.mkdir(parents=True, exist_ok=True)
         runpy.run_path(str(FMUS / "pack.py"))["pack"](root, target)
     return said

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 
 import numpy as np
 
@@ -15,6 +17,12 @@ from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pac
 from diagnosis.bank.plan import Plan
 from diagnosis.bank.source import generate
 from diagnosis.candidates.candidate import CandidateTerm
+
+
+@cache
+def _pool(process: int, threads: int) -> ThreadPoolExecutor:
+    """Threads that wait for parts of batches; a forked process has none of its parent's."""
+    return ThreadPoolExecutor(threads, thread_name_prefix=f"bank-{process}")
 
 
 class BankError(Exception):
@@ -154,8 +162,7 @@ class Bank:
         if len(bounds) == 2:
             part(0)
         else:
-            with ThreadPoolExecutor(len(bounds) - 1) as pool:
-                list(pool.map(part, range(len(bounds) - 1)))
+            list(_pool(os.getpid(), threads).map(part, range(len(bounds) - 1)))
         return out
 
     def _call(self, plan: Plan, structure: ctypes.Structure, vectors: Array, out: Array, first: int) -> None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import faultdiagnosistoolbox as fdt
 import numpy as np
 
 from cosim.unit import AnyArray
@@ -69,7 +68,9 @@ class _Equations:
     def derivative(self, rate: str, variable: str) -> None:
         """`rate` is the derivative of `variable`."""
         self.unknown |= dict.fromkeys((rate, variable))
-        self.relations.append(fdt.DiffConstraint(rate, variable))
+        from faultdiagnosistoolbox import DiffConstraint  # late, as below: it takes seconds to load
+
+        self.relations.append(DiffConstraint(rate, variable))
 
 
 @dataclass(frozen=True)
@@ -111,8 +112,10 @@ class Analysis:
 
 def analyse(rig: Rig) -> Analysis:
     """Detectability and isolability of every fault of a rig."""
+    from faultdiagnosistoolbox import DiagnosisModel
+
     equations = _equations(rig)
-    model = fdt.DiagnosisModel(
+    model = DiagnosisModel(
         {"type": "VarStruc", "x": list(equations.unknown), "f": list(equations.faults), "z": list(equations.known),
          "rels": equations.relations},
     )  # fmt: skip

@@ -43,7 +43,7 @@ PAIRED, PAIRS, ALIKE = 40, 4, 0.995
 def grow(
     model: Model, terms: Sequence[Term], current: Sequence[Explanation], settings: Settings, margin: float
 ) -> tuple[list[Explanation], Scoring]:
-    """Explanations with one term more, best first, and the scoring of the first model."""
+    """Explanations with one term more, and the scoring of the first model."""
     grown: dict[frozenset[Term], Explanation] = {}
     scorings = []
     for explanation in current:
@@ -61,7 +61,7 @@ def grow(
                 gained = explanation.fit.cost - tried[key].cost
                 most, kept = max(most, gained), max(kept, gained / candidate.gain)
         grown |= _continued(model, explanation.fit.cost, tried, laws)
-    return polished(model, sorted(grown.values(), key=lambda e: e.demerit), current[0].demerit), scorings[0]
+    return list(grown.values()), scorings[0]
 
 
 def _continued(
@@ -77,12 +77,17 @@ def _continued(
     return grown
 
 
-def polished(model: Model, grown: list[Explanation], before: float) -> list[Explanation]:
-    """The same with those fitted to the end that may be the best: refits of many rest on derivatives made nearby."""
-    gained = before - grown[0].demerit if grown else 0.0
-    near = [e for e in grown if e.demerit < grown[0].demerit + max(CLOSE, ROUGH * gained)][:MOST_POLISHED]
+def polished(model: Model, grown: Sequence[Explanation], before: float, margin: float) -> list[Explanation]:
+    """Best first, and fitted to the end those that may be the best: refits of many rest on derivatives made nearby.
+
+    Where even the best is not earned, the order of the others matters to nobody.
+    """
+    ranked = sorted(grown, key=lambda e: e.demerit)
+    gained = before - ranked[0].demerit if ranked else 0.0
+    most = MOST_POLISHED if gained > margin else 1
+    near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
     done = [Explanation(fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
-    return sorted([*done, *grown[len(near) :]], key=lambda e: e.demerit)
+    return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 
 def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, draws: int) -> Scoring:
@@ -191,7 +196,7 @@ def _other_shapes(before: Fit, candidate: Score, sizes: Sequence[float]) -> Iter
 
 
 def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, margin: float) -> list[Explanation]:
-    """Explanations with two terms that gain together what neither does alone, best first.
+    """Explanations with two terms that gain together what neither does alone.
 
     Each of two effects may be hidden behind the other, so that the best single term is neither. The straight lines of
     the best-scored terms and the angles between them tell which pairs are worth a fit.
@@ -227,4 +232,4 @@ def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, 
         for n, amount in zip((i, j), amounts):
             point = point.plus(top[n].term, (float(amount), *top[n].values[1:]))
         fits.append(Explanation(fit(model, _best_instants(model, base, point), STEPS, base)))
-    return sorted(fits, key=lambda e: e.demerit)
+    return fits

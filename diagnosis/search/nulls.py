@@ -12,7 +12,8 @@ from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Model, Parameter, Point, Term, strength_slopes
 from diagnosis.search.score import Scoring, null_noise
 
-#: Most steps of a fit to a null; it begins where the truth of the null lies, but the prior pulls it from there.
+#: Most steps of a fit to a null. It begins where the truth of the null lies, so that the derivatives there serve it; but
+#: the prior pulls it from there.
 STEPS = 40
 
 
@@ -63,9 +64,9 @@ def refitted(model: Model, base: Fit, scoring: Scoring, settings: Settings) -> A
         if lead is None:
             continue
         null = NullModel(model, base, noise[:, draw].astype(np.float64))
-        without = fit(null, base.point, STEPS, base)
+        without = fit(null, base.point, STEPS, base, refreshes=0)
         term, values = lead
-        found = fit(null, without.point.plus(term, values), STEPS, base)
+        found = fit(null, without.point.plus(term, values), STEPS, base, refreshes=0)
         gains.append(max(without.cost - found.cost, 0.0))
     return np.array(gains)
 

@@ -115,8 +115,8 @@ def search(
         is_done = settings.stops_at_noise and structure(current[0].fit.residuals, model.layout, groups).is_noise
         grown, scoring = grow(model, terms, current[:1] if is_done else current, settings, margin)
         if level == 1 and not is_done:
-            together = pairs(model, base, first.ranked, settings, margin)
-            grown = polished(model, sorted([*grown, *together], key=lambda e: e.demerit), current[0].demerit)
+            grown = [*grown, *pairs(model, base, first.ranked, settings, margin)]
+        grown = polished(model, grown, current[0].demerit, margin)
         first = scoring if level == 0 else first
         tried += scoring.tried
         if level == 0 and grown and current[0].cost - grown[0].cost > margin:
