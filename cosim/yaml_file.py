@@ -19,8 +19,8 @@ _KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_m
           "contact", "lead", "drop", "source_resistance", "current_limit")  # fmt: skip
 
 
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """YAML keeps the last of two equal keys silently; here it is an error."""
+class _UniqueKeyLoader(yaml.CSafeLoader):
+    """YAML keeps the last of two equal keys silently; here it is an error. In C: ten times as fast."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         seen: set[Any] = set()

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.fit import fit
-from diagnosis.search.grow import grow
+from diagnosis.search.grow import grow, polished
 from diagnosis.search.problem import Layout, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
@@ -115,7 +115,7 @@ def _exchanged(
     for term in found.terms if len(found.terms) > 1 else ():
         without = Explanation(fit(model, found.fit.point.without(term), near=found.fit))
         grown, _ = grow(model, [t for t in terms if t != term], [without], settings, margin)
-        others += grown[:EXCHANGED]
+        others += polished(model, grown, without.demerit, margin)[:EXCHANGED]
     return others
 
 
