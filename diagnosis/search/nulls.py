@@ -12,7 +12,7 @@ from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Model, Parameter, Point, Term, strength_slopes
 from diagnosis.search.score import Scoring, null_noise
 
-#: Most steps of a fit to a null. It begins where the truth of the null lies, so that the derivatives there serve it; but
+#: Most steps of a fit to a null. It begins at the truth of the null, so that the derivatives there serve it; but
 #: the prior pulls it from there.
 STEPS = 40
 
