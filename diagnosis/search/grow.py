@@ -13,6 +13,7 @@ from diagnosis.search.fit import Fit, cost, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
 from diagnosis.search.problem import Model, Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
+from diagnosis.search.structure import structure
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
@@ -25,6 +26,8 @@ ROUGH = 0.03
 #: A term is not refitted any more once another gained so many times what its straight line promises (straight lines
 #: promise too little where residuals are large and count linearly: by as much as they did before).
 OUTDONE = 1.6
+#: Equations of which a generic law is fitted all the same where what is best leaves structure.
+EQUATIONS = 3
 #: Instants from which a fit may begin.
 INSTANTS = 40
 #: Nulls that say what chance gives to the best of all terms.
@@ -52,6 +55,7 @@ def grow(
         hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
         tried: dict[frozenset[Term], Fit] = {}
         laws, most, kept = set[frozenset[Term]](), 0.0, 1.0
+        left_out: list[Score] = []
         for candidate in _choice(hopeful, settings.refits):
             key = frozenset((*explanation.terms, candidate.term))
             is_law = _is_law_at(candidate, hopeful[0])
@@ -60,8 +64,29 @@ def grow(
                 laws |= {key} if is_law else set()
                 gained = explanation.fit.cost - tried[key].cost
                 most, kept = max(most, gained), max(kept, gained / candidate.gain)
+            elif key not in grown:
+                left_out.append(candidate)
+        if settings.stops_at_noise and tried:
+            best = min(tried.values(), key=lambda f: f.cost)
+            for candidate in _unnamed_equations(left_out, best, model):
+                tried[frozenset((*explanation.terms, candidate.term))] = _trial(model, explanation.fit, candidate)
         grown |= _continued(model, explanation.fit.cost, tried, laws)
     return list(grown.values()), scorings[0]
+
+
+def _unnamed_equations(left_out: Sequence[Score], best: Fit, model: Model) -> list[Score]:
+    """Of generic laws whose straight line promises less, one of every equation, where the best leaves structure.
+
+    The straight line of a law that bends the response says little: a loop that shifts with the rate promised 240
+    where a clock offset gained 569, and gained 1185. Before a name is taken that does not explain all, they are fitted.
+    """
+    if structure(best.residuals, model.layout).is_noise:
+        return []
+    found: dict[str, Score] = {}
+    for candidate in left_out:
+        if not candidate.term.is_named:
+            found.setdefault("_".join(candidate.term.identifier.split("_")[:2]), candidate)
+    return list(found.values())[:EQUATIONS]
 
 
 def _continued(
