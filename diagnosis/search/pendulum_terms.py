@@ -33,8 +33,8 @@ _LAWS = (
         TermParameter("coulomb_friction", _TORQUE, 0.0, 0.5, (1e-5, 1e-4, 1e-3)),),
         {"viscous_damping": _AMPLITUDES, "stiction": "slow swings decide: stiction lets go above its Stribeck speed"}),
     _Law("stiction", "stiction of the hinge", "torque = -stiction * exp(-(w / stribeck_speed)**2) * sign(w)", (
-        TermParameter("stiction", _TORQUE, 0.0, 0.5, (1e-5, 1e-4, 1e-3)),
-        TermParameter("stribeck_speed", "rad/s", 1e-3, 10.0, (0.05, 0.5))),
+        TermParameter("stiction", _TORQUE, 0.0, 0.5, (5e-3, 1e-3, 2e-4)),
+        TermParameter("stribeck_speed", "rad/s", 1e-3, 10.0, (0.05, 0.15, 0.4, 1.2))),
         {"coulomb_friction": "fast swings decide: there stiction does nothing"}),
     _Law("quadratic_drag", "drag of the air, with the square of the speed", "torque = -quadratic_drag * abs(w) * w", (
         TermParameter("quadratic_drag", _DRAG, 0.0, 0.05, (1e-6, 1e-5, 1e-4)),),
@@ -49,7 +49,7 @@ _LAWS = (
 
 _NEAR_PI = math.pi
 #: Rates at which a periodic torque is looked for [rad/s]: closer than what 12 s can tell apart.
-_RATES = tuple(round(0.4 * n, 1) for n in range(2, 51))
+_RATES = tuple(0.5 * n for n in range(2, 41))
 #: Torques without a name, over the arm's own variables; each is a number of the unit.
 _UNNAMED = (
     _Law("torque_of_rate_cubed", "torque with the cube of the rate", "torque = -cubic_drag * w**3", (
