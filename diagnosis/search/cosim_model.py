@@ -26,7 +26,7 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 STEP = 1e-3
 #: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
 #: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
-USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.01, "centre_distance": 0.05}}
+USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
 #: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
 _SI = ("rad", "rad/s", "K", "m", "kg", "kg*m^2", "m^2", "m^3", "W/(m^2*K)", "J/(kg*K)", "kg/m^3", "1", "ohm", "V", "W",
        "N/m", "N*m", "N*m*s", "1/K", "m/s^2")  # fmt: skip

@@ -17,6 +17,7 @@ from cosim.unit import Array
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, sample
 from diagnosis.search.cosim_model import STEP, CosimModel
+from diagnosis.search.cosim_run import Changes
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
 from diagnosis.search.problem import Point, Term
 from diagnosis.simulator.pendulum_batch import arm, is_available, swings
@@ -62,6 +63,21 @@ def is_single_pendulum(scenario: Scenario, recordings: Sequence[Recording]) -> b
 
 class PendulumModel(CosimModel):
     """See `CosimModel`; residuals come from arms in one world, `predictions` from the co-simulation."""
+
+    def changes_at(self, point: Point, number: int) -> Changes:
+        """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
+
+        A free swing shows ratios to the inertia alone. So varied, the mass does nothing but scale torques; were it
+        varied by itself, it and the length would do the same, and a fit would crawl along the valley between them.
+        """
+        found = super().changes_at(point, number)
+        parameters = {component: dict(own) for component, own in found.parameters.items()}
+        for own in parameters.values():
+            if "mass" in own and "central_inertia" not in own:
+                values = self._grid(number).values
+                central = values["central_inertia"] * own["mass"].to("kg") / values["mass"]
+                own["central_inertia"] = PhysicalValue(central, "kg*m^2")
+        return Changes(parameters, found.shifts)
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`; forward differences: half the arms, and exact enough for their use.
