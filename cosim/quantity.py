@@ -23,6 +23,7 @@ def registry() -> pint.UnitRegistry[Any]:
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
+@functools.cache
 def parse_unit(text: str) -> pint.Unit:
     """A unit; `1` and an empty text are dimensionless.
 
@@ -35,6 +36,7 @@ def parse_unit(text: str) -> pint.Unit:
         raise ValueError(f"`{text}` is not a unit that is known here") from error
 
 
+@functools.cache
 def conversion(source: str, target: str) -> tuple[float, float]:
     """(factor, offset) with target value = factor * source value + offset.
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from cosim.unit import Array
 
@@ -87,7 +87,7 @@ def separation(first: float, second: float, log_odds: float) -> Separation:
 def _reaches(squared: float, log_odds: float) -> float:
     """Probability that log odds for the truth reach `DECISIVE`."""
     missing = DECISIVE - log_odds - 0.5 * squared
-    return float(norm.cdf(-missing / math.sqrt(squared))) if squared > 0.0 else float(missing <= 0.0)
+    return float(ndtr(-missing / math.sqrt(squared))) if squared > 0.0 else float(missing <= 0.0)
 
 
 def root(covariance: Array) -> Array:

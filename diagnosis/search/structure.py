@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtri  # scipy.stats takes a second to load
 
 from cosim.unit import Array
 from diagnosis.search.fit import HUBER
@@ -39,7 +39,7 @@ class Structure:
     @property
     def limit(self) -> float:
         """Largest |z| that noise alone passes in one of a hundred recordings (windows counted as independent)."""
-        return float(norm.isf(LEVEL / (2.0 * max(self.looked_at, 1))))
+        return -float(ndtri(LEVEL / (2.0 * max(self.looked_at, 1))))
 
     @property
     def is_noise(self) -> bool:

@@ -29,21 +29,21 @@ def term_at(candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Se
         layout: Coils and strings.
         runs: The recordings.
     """
-    every = [s for run in runs for s in run.series]
-    elements = np.flatnonzero(place.mask).tolist()
-    own = [s for s in every if layout.channel(s.quantity) + s.element in elements]
-    begin = min(run.translation.start for run in runs)
-    end = max(float(t[-1]) for run in runs for t in run.times.values())
+    own: list[Series] = []
+    if candidate.axis == "channel":
+        elements = set(np.flatnonzero(place.mask).tolist())
+        own = [s for run in runs for s in run.series if layout.channel(s.quantity) + s.element in elements]
     free = []
     for p in candidate.parameters:
         if p.is_fixed:
             continue
         lower, upper, starts = p.lower, p.upper, p.starts
         if p.is_instant:
-            lower, upper = begin, end
+            lower = begin = min(run.translation.start for run in runs)
+            upper = end = max(float(t[-1]) for run in runs for t in run.times.values())
             starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
         elif p.name == "limit":
-            starts = _limits(every) or starts
+            starts = _limits([s for run in runs for s in run.series]) or starts
         elif p.name == "ceiling":
             starts = _ceilings(own) or starts
         negligible = max(p.negligible, _stated(candidate, own))
