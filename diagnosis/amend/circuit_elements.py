@@ -52,6 +52,8 @@ _ELEMENTS: Mapping[str, Callable[[int, Values], dict[str, Any]]] = {
     "supply_current_limit": _limit,
     "unnamed_series_constant": _series_drop,
     "unnamed_series_linear": _series,
+    "unnamed_series_step": lambda n, v: _loose(n, {"R_contact": v["a"], "instant": v["instant"]}),
+    "unnamed_series_cube": lambda n, v: _lead(n, {"rise": v["a"]}),
     "unnamed_supply_linear": lambda n, v: _source(n, {"R_source": v["a"]}),
     "unnamed_supply_hinge": lambda n, v: _limit(n, {"limit": v["limit"], "share": v["a"]}),
 }

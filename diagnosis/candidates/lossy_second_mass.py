@@ -14,7 +14,14 @@ CANDIDATE = CandidateTerm(
     parameters=(
         Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.004, 0.02), is_amplitude=True),
         Parameter("C2", "J/K", 0.001, 100.0, "a heat capacity is positive", (0.02, 0.1, 0.5, 3.0)),
-        Parameter("loss", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.005, 0.03)),
+        Parameter(
+            "loss",
+            "W/K",
+            1e-6,
+            0.5,
+            "heat flows from hot to cold; without loss it is a second mass",
+            (0.001, 0.005, 0.03),
+        ),
     ),
     places=("all", "coil", "string"),
     lines={

@@ -119,6 +119,13 @@ def _of_heat() -> Iterator[CandidateTerm]:
         ("thermal", "heat_step", "an instant"), "heat = a * step(t - instant)", (watts, _INSTANT),
         {"heat": "heat += a * share_after(instant, t_begin, t_end);"},
     )  # fmt: skip
+    yield _term(
+        ("thermal", "heat_excess_times_step", f"{words} after an instant"),
+        f"heat = -a * ({excess}) * step(t - instant)",
+        (Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True),
+         _INSTANT),
+        {"heat": "conductance += a / 30.0 * share_after(instant, t_begin, t_end);"},
+    )  # fmt: skip
     stretch, words = VARIABLES["stretch"]
     lines, states = _delayed(stretch)
     yield _term(
@@ -154,6 +161,16 @@ def _of_resistance() -> Iterator[CandidateTerm]:
     yield _term(
         ("electrical", "series_linear", "current, linear"), "R_string = R_string_0 + a",
         (_amplitude("ohm", 20.0, 0.05, 0.5, is_passive=True),), {"string": "R_string += a;"}, ("string",),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "series_step", "current after an instant"),
+        "R_string = R_string_0 + a * step(t - instant)",
+        (_amplitude("ohm", 50.0, 0.05, 0.5, is_passive=True), _INSTANT),
+        {"string": "R_string += a * share_after(instant, t_begin, t_end);"}, ("string",),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "series_cube", "current, cube"), "R_string = R_string_0 + a * I**2",
+        (_amplitude("V/A^3", 20.0, 0.1, 0.5, 2.0, is_passive=True),), {"string": "R_string += a * I * I;"}, ("string",),
     )  # fmt: skip
     yield _term(
         ("electrical", "supply_linear", "current of the supply, linear"), "V_terminal = V - a * I_supply",

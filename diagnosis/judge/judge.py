@@ -19,6 +19,8 @@ UNSEPARATED = 6.0
 EVIDENT = 1.2
 #: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
 DOUBTFUL, UNEXPLAINED = 1.5, 0.03
+#: Share of its range within which a parameter lies at its bound (bounds hold exactly; this is rounding).
+AT_BOUND = 1e-12
 #: A parameter that moved by more prior deviations than this is told.
 MOVED = 2.0
 #: Fall of -2 log posterior per parameter by which a recalibration counts as needed.
@@ -41,7 +43,7 @@ def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
         return Verdict.RECALIBRATED if moved or fell > NEEDED * len(outcome.base.point.base) else Verdict.CONSISTENT
     if all(t.unit == "measurement" for t in terms) and is_trusted(outcome):
         return Verdict.MEASUREMENT_FAULT
-    if any(not t.is_named for t in terms) or not is_trusted(outcome):
+    if not is_trusted(outcome) or any(not t.is_named or is_limiting_case(outcome.best.fit, t) for t in terms):
         return Verdict.UNNAMED_PHYSICS
     return Verdict.MISSING_PHYSICS
 
@@ -57,6 +59,18 @@ def is_trusted(outcome: Outcome) -> bool:
     before = cost(outcome.base.residuals, np.zeros(0)) - used
     after = cost(outcome.best.fit.residuals, np.zeros(0)) - used
     return bool(after < UNEXPLAINED * before)
+
+
+def is_limiting_case(fit: Fit, term: Term) -> bool:
+    """Whether a law is found at a bound of what shapes it, where it is another law than its name says.
+
+    A stiffness at the far end of what a wire can reach is a constant force. Instants may lie anywhere, a strength at
+    its bound is only strong, and a bound of 0 leaves away a part of a law.
+    """
+    values = fit.point.terms[term]
+    shaped = [(p, v) for p, v in zip(term.parameters[1:], values[1:]) if not p.is_instant]
+    bounds = [(v, b, p.upper - p.lower) for p, v in shaped for b in (p.lower, p.upper) if b != 0.0]
+    return any(abs(v - b) <= AT_BOUND * width for v, b, width in bounds)
 
 
 def probabilities(rivals: tuple[Explanation, ...]) -> Array:
@@ -87,7 +101,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
         intervals=_intervals(model, effect),
         channels=_channels(model, effect),
         effect=term.identifier,
-        is_named=term.is_named and is_trusted(outcome),
+        is_named=term.is_named and is_trusted(outcome) and not is_limiting_case(fit, term),
         statement=f"{candidate.name}, {place.label}",
         law=candidate.law,
         parameters=estimates(fit, term, _doubt(outcome)),
