@@ -103,6 +103,7 @@ class CandidateTerm:
         states: States that it adds.
         is_named: False for a generic term, which stands for a law that nobody named.
         keeps_sums: A sensor that is linear in the signal of its own channel: a sum passes it as its parts do.
+        same_as: A named candidate with the same law: this one is tried only where that is not in the catalogue.
         rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
     """
 
@@ -119,6 +120,7 @@ class CandidateTerm:
     states: tuple[State, ...] = ()
     is_named: bool = True
     keeps_sums: bool = False
+    same_as: str = ""
     rank: int = 0
 
     def __post_init__(self) -> None:

@@ -23,6 +23,15 @@ _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
 
 
+#: Generic terms whose law is that of a named candidate.
+_SAME = {
+    "series_step": "loose_contact", "series_linear": "contact_resistance", "series_cube": "self_heating_lead",
+    "supply_linear": "supply_source_resistance", "force_sign_motion": "slide_friction",
+    "length_sign_motion": "backlash", "heat_excess_times_step": "draught",
+    "shift_linear_pull": "stress_dependent_transformation",
+}  # fmt: skip
+
+
 def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False) -> Parameter:
     starts = sizes if is_passive else tuple(sign * s for s in sizes for sign in (1.0, -1.0))
     reason = _PASSIVE if is_passive else _REASON
@@ -39,6 +48,7 @@ def _term(
         identifier=f"unnamed_{name}", name=f"unnamed term in {equation}: {words}", unit=unit, law=law, source=_SOURCE,
         parameters=parameters, places=places, lines=lines,
         signature=f"What is missing in {equation} follows {words}.", states=states, is_named=False,
+        same_as=_SAME.get(name, ""),
     )  # fmt: skip
 
 

@@ -98,6 +98,8 @@ class BankModel:
         """Every candidate at every place, as the search sees them."""
         if not self._places:
             for candidate in self._candidates.values():
+                if candidate.same_as in self._candidates:
+                    continue  # one law, one term: of two that are alike chance would choose
                 known: set[bytes] = set()  # one coil is all coils, one source all sources
                 found = sorted(places(candidate, self.coils, self.measured), key=lambda p: p.label != "all coils")
                 if any(p.name == "noise" for p in candidate.parameters):
