@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
 from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
-from diagnosis.report.fits import STAGES, mean_chi_square
+from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
 
 #: What follows from a verdict.
 ADVICE = {
@@ -48,13 +50,21 @@ def decisive(finding: Finding) -> list[str]:
 
 
 def improvement(diagnosis: Diagnosis) -> str:
-    """Chi-square per sample of the recordings that judge."""
+    """Chi-square per sample of the recordings that judge: of all channels, and of those in which findings show."""
+    shown = {plain_channel(channel) for finding in diagnosis.findings for channel in finding.channels}
     for is_held_out, name in ((True, "held out"), (False, "in training; none was held out")):
         mean = mean_chi_square(diagnosis.fit, is_held_out)
         if mean:
-            told = ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES)
-            return f"chi-square per sample ({name}): {told}"
+            part = [f for f in diagnosis.fit if f.channel in shown and f.is_held_out == is_held_out]
+            is_part = 2 * len(part) < sum(f.is_held_out == is_held_out for f in diagnosis.fit)
+            own = mean_chi_square(part, is_held_out) if is_part else None
+            where = f"; where findings show most: {_course(own)}" if own else ""
+            return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"
     return "no recording was judged"
+
+
+def _course(mean: Mapping[str, float]) -> str:
+    return ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES)
 
 
 _STAGE = {"before": "before", "recalibrated": "recalibrated only", "after": "after"}

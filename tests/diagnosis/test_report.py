@@ -24,6 +24,7 @@ from diagnosis.report.json_file import as_json, read_json, write_json
 from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
 from diagnosis.report.schema import PUBLISHED, as_text, schema
+from diagnosis.report.sentences import improvement
 from diagnosis.report.series import Series
 from diagnosis.report.summary import LINES, print_summary
 from tests.diagnosis.report_examples import CONTACT, FINDINGS, HOSTILE, UNNAMED, diagnosis, fit, series
@@ -176,7 +177,8 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
     assert re.search(
         r"string current \[mA\], 6 channels27\.012\.03\.0081\.016\.01\.0030\.012\.02\.503\.00 to 3\.00", text
     )
-    assert "chi-square per sample (held out): 81.0 before, 16.0 recalibrated only, 1.00 after" in text
+    told = "81.0 before, 16.0 recalibrated only, 1.00 after"
+    assert f"chi-square per sample (held out), all channels: {told}" in text
 
 
 def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
@@ -253,3 +255,14 @@ def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path)
     assert (
         len(Page(read_page(tmp_path / "report.html")).addresses) == 7
     )  # with network, time line, waveform and next experiment
+
+
+def test_the_improvement_is_told_where_a_finding_shows_too() -> None:
+    told = diagnosis(Verdict.MISSING_PHYSICS)
+    finding = replace(told.findings[0], channels=("string[3].current (steps)",))
+    better = [replace(f, chi_square={**f.chi_square, "after": 0.5}) if f.channel == "string[3].current" else f
+              for f in told.fit]  # fmt: skip
+    said = improvement(replace(told, findings=(finding,), fit=tuple(better)))
+    assert said.endswith("where findings show most: 81.0 before, 16.0 recalibrated only, 0.500 after")
+    everywhere = replace(finding, channels=tuple(f.channel for f in told.fit))
+    assert "where findings" not in improvement(replace(told, findings=(everywhere,)))
