@@ -151,9 +151,17 @@ def _of_resistance() -> Iterator[CandidateTerm]:
     """Resistance of coils, what strings take in series, what a supply gives."""
     yield _term(
         ("electrical", "resistance_step", "an instant"),
-        "R = R_0 + a * reference_resistance * step(t - instant)",
-        (_amplitude("1", 0.9, 0.02, 0.2), _INSTANT),
-        {"resistance": "R += a * reference_resistance * share_after(instant, t_begin, t_end);"},
+        "R = max(R_0 + a * reference_resistance * step(t - instant), 1e-3 * reference_resistance)",
+        (
+            Parameter("a", "1", -1.0, 50.0, "what is left is positive", (0.02, -0.02, 0.2, -0.5), is_amplitude=True),
+            _INSTANT,
+        ),
+        {
+            "resistance": """
+            const double after = R + a * reference_resistance * share_after(instant, t_begin, t_end);
+            R = a != 0.0 ? most(after, 1e-3 * reference_resistance) : R;
+        """
+        },
     )
     amperes, words = VARIABLES["amperes"]
     lines, states = _delayed(amperes)
