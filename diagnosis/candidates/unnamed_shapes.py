@@ -104,6 +104,11 @@ def _of_force() -> Iterator[CandidateTerm]:
         {"length": "extension = clip(extension_before, extension - a / stiffness, extension + a / stiffness);"},
     )
     yield _term(
+        ("mechanical", "length_delayed", "itself, delayed"), "a * d(extension_marker) = extension - extension_marker",
+        (_amplitude("s", 100.0, 0.5, 2.0, 10.0, is_passive=True),),
+        {"length": "extension += (extension_before - extension) * exp(-dt / most(a, 1e-9));"},
+    )  # fmt: skip
+    yield _term(
         ("mechanical", "length_sign_motion", "direction of the motion"),
         "abs(extension_marker - extension) <= a",
         (_amplitude("m", 0.005, 5e-5, 5e-4, is_passive=True),),
