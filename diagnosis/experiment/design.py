@@ -15,7 +15,7 @@ from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
 from diagnosis.experiment.separation import DECISIVE
-from diagnosis.judge.judge import UNSEPARATED, probabilities
+from diagnosis.judge.judge import UNSEPARATED, bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -80,7 +80,8 @@ def open_explanations(outcome: Outcome) -> Open | None:
     chances = probabilities((outcome.best, *others))
     # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
     gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
-    near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or gaps[i] < UNSEPARATED]
+    is_alike = [g < UNSEPARATED and not bends_into(e, outcome.best) for g, e in zip(gaps, others)]
+    near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or is_alike[i]]
     near = near[: MOST - 1]
     found = (outcome.best, *(others[i] for i in near))
     return Open(found, probabilities(found)) if near else None

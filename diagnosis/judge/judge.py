@@ -15,6 +15,8 @@ from diagnosis.simulator.models import DiagnosisModel
 NORMAL_95 = 1.959963984540054
 #: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
 UNSEPARATED = 6.0
+#: Probability beyond which another explanation is open.
+OPEN = 0.05
 #: Structure beyond so many times its limit is more than the small errors that every model of a rig has.
 EVIDENT = 1.2
 #: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
@@ -80,6 +82,14 @@ def probabilities(rivals: tuple[Explanation, ...]) -> Array:
     return np.asarray(weights / weights.sum())
 
 
+def bends_into(rival: Explanation, best: Explanation) -> bool:
+    """Whether a rival is a law without a name and with a free shape where the best has names: it can bend into those.
+
+    That it then explains as much is no ambiguity, and no experiment would part the two.
+    """
+    return all(t.is_named for t in best.terms) and not all(t.is_named for t in rival.terms)
+
+
 def findings(model: DiagnosisModel, outcome: Outcome) -> tuple[Finding, ...]:
     """Effects of the accepted explanation, the largest gain first."""
     best = outcome.best
@@ -92,7 +102,8 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
     fit = outcome.best.fit
     alternatives, probability = _alternatives(outcome, term)
     own = max((a.gain for a in alternatives if a.effect == term.identifier), default=0.0)
-    near = [a for a in alternatives if a.gain > own - UNSEPARATED or a.probability > 0.05]
+    bends = {t.identifier for e in outcome.rivals if bends_into(e, outcome.best) for t in e.terms if not t.is_named}
+    near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
     return Finding(
         unit=term.unit,

@@ -17,7 +17,7 @@ from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.judge import probabilities
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Point, TermParameter
 from diagnosis.search.search import Explanation, Outcome, recalibrate
 from diagnosis.search.structure import Structure
 from diagnosis.simulator.bank_model import BankModel
@@ -143,6 +143,20 @@ def test_only_explanations_with_a_chance_are_open(tmp_path: Path) -> None:
     assert near.chances.sum() == pytest.approx(1.0)
     far = replace(fits[1], cost=fits[1].cost + 50.0)
     assert open_explanations(outcome([fits[0], far], base, 0, 12.0)) is None
+
+
+def test_a_law_without_a_name_that_bends_into_a_named_one_is_no_rival_of_it(tmp_path: Path) -> None:
+    made = scenario(tmp_path)
+    random = np.random.default_rng(0)
+    _, fits = rivals(made, [measured(made, STRESS[0], off(made, random), random)], STRESS)
+    first, second = (next(iter(f.point.terms)) for f in fits)
+    shape = TermParameter("shape", "1", 0.0, 2.0, (1.0,))
+    bent = replace(second, is_named=False, parameters=(*second.parameters, shape))
+    values = (*fits[1].point.terms[second], 1.0)
+    free = replace(fits[1], point=Point(fits[1].point.base, {bent: values}), cost=fits[0].cost - 1.0)
+    assert open_explanations(outcome([fits[0], free], fits[0], 0, 12.0)) is None
+    nameless = replace(fits[0], point=Point(fits[0].point.base, {replace(first, is_named=False): (1.0,)}))
+    assert open_explanations(outcome([nameless, free], fits[0], 0, 12.0)) is not None
 
 
 def test_what_fits_as_well_is_open_though_it_has_more_parameters(tmp_path: Path) -> None:
