@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
+from diagnosis.judge.own_numbers import foretold
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.spread import spread_over_recordings
@@ -84,6 +85,12 @@ class Found:
     judge: DiagnosisModel | None
     points: Mapping[str, Point]
     held_out_points: Mapping[str, Point]
+
+    def foretell(self) -> dict[str, float]:
+        """See `diagnosis.judge.own_numbers.foretold`."""
+        assert self.judge is not None  # who asks has compared with held-out recordings
+        points = {stage: self.held_out_points[stage] for stage in ("recalibrated", "after")}
+        return foretold(self.judge, self.training, points)
 
 
 def diagnose(
@@ -160,7 +167,8 @@ def diagnose(
         left=remainders(outcome.best.fit.residuals, model.layout, model.groups()),
         next_experiment=experiment,
     )
-    return Found(confirmed(diagnosis), model, judge, points, carried)
+    found_so_far = Found(diagnosis, model, judge, points, carried)
+    return replace(found_so_far, diagnosis=confirmed(diagnosis, found_so_far.foretell))
 
 
 def _statement(word: Verdict, found: Sequence[object]) -> str:

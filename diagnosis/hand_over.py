@@ -40,7 +40,7 @@ def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
         held_out = [load_recording(r.path) for r in diagnosis.recordings if r.is_held_out]
         points = found.points, found.held_out_points
         diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
-        diagnosis = confirmed(diagnosis)
+        diagnosis = confirmed(diagnosis, found.foretell)
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

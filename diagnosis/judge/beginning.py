@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit import AnyArray
+from diagnosis.judge.own_numbers import OwnNumbers, own_numbers
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Point, Term
+from diagnosis.search.problem import Point
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel, RecordedRun
 from diagnosis.simulator.wrapped import WrappedModel
@@ -54,26 +55,6 @@ class BegunModel(WrappedModel):
         return self._runs
 
 
-class _OwnNumbers(WrappedModel):
-    """A model of which only some parameters are free; everything else, terms too, stays as it is."""
-
-    def __init__(self, inner: DiagnosisModel, point: Point, own: Sequence[int]) -> None:
-        super().__init__(inner)
-        self._point, self._own = point, list(own)
-        self.parameters = [inner.parameters[i] for i in own]
-
-    def inside(self, point: Point) -> Point:
-        base = self._point.base.copy()
-        base[self._own] = point.base
-        return Point(base, self._point.terms)
-
-    def base_jacobian(self, point: Point) -> Array:
-        return np.asarray(super().base_jacobian(point)[:, self._own])
-
-    def terms(self) -> list[Term]:
-        return []
-
-
 def begun(
     judge: DiagnosisModel, trained: DiagnosisModel, points: Mapping[str, Point], recordings: Sequence[Recording]
 ) -> tuple[DiagnosisModel, dict[str, Point]]:
@@ -91,8 +72,7 @@ def begun(
     """
     if not any(r.beginning > 0 for r in recordings):
         return judge, dict(points)
-    known = {p.name for p in trained.parameters}
-    own = [i for i, p in enumerate(judge.parameters) if p.name not in known or " of recording " in p.name]
+    own = own_numbers(judge, trained)
     first = np.concatenate(
         [
             s.channel.times[-len(s.samples) :] < s.channel.times[0] + r.beginning
@@ -102,7 +82,7 @@ def begun(
     )
     found = {}
     for stage, point in points.items():
-        free = _OwnNumbers(MaskedModel(judge, first), point, own)
+        free = OwnNumbers(MaskedModel(judge, first), point, own)
         values = fit(free, Point(point.base[own]), iterations=30).point.base
         base = point.base.copy()
         base[own] = values

@@ -236,6 +236,9 @@ class Diagnosis:
         held_out_by: What the fits of held-out recordings come from; empty if none was held out.
         differences: Held-out channels on which the fast simulation and the free run differ by more than a tenth of the
             noise, the most first.
+        foretold: Where the plain chi-square of held-out recordings speaks against the findings: -2 log of how well
+            they are foretold, `recalibrated` and `after`, with what belongs to their day alone (its surroundings, its
+            start) unknown within its prior; else empty.
     """
 
     verdict: Verdict
@@ -263,3 +266,4 @@ class Diagnosis:
     next_experiment: NextExperiment | None = None
     held_out_by: str = ""
     differences: tuple[Difference, ...] = ()
+    foretold: dict[str, float] = field(default_factory=dict)

@@ -59,8 +59,19 @@ def improvement(diagnosis: Diagnosis) -> str:
             is_part = 2 * len(part) < sum(f.is_held_out == is_held_out for f in diagnosis.fit)
             own = mean_chi_square(part, is_held_out) if is_part else None
             where = f"; where findings show most: {_course(own)}" if own else ""
-            return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"
+            return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}{_own_day(diagnosis)}"
     return "no recording was judged"
+
+
+def _own_day(diagnosis: Diagnosis) -> str:
+    """Why a larger chi-square does not refute: what belongs to the held-out day alone."""
+    if not diagnosis.foretold:
+        return ""
+    without, with_them = (number(diagnosis.foretold[stage]) for stage in ("recalibrated", "after"))
+    return (
+        "; with what belongs to that day alone (its surroundings, its start) unknown, -2 log of the prediction is "
+        f"{with_them} with the findings and {without} without"
+    )
 
 
 def _course(mean: Mapping[str, float]) -> str:
