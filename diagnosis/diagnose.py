@@ -32,6 +32,7 @@ from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
+from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, model_of
 from diagnosis.simulator.unit_laws import identifiers
@@ -114,6 +115,7 @@ def diagnose(
     known = means.catalogue()
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
     judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
+    is_fast = isinstance(model, BankModel)
     if isinstance(model, FabricModel):
         outcome = search_fabric(model, settings, on_progress)
         if isinstance(judge, FabricModel):
@@ -167,8 +169,10 @@ def diagnose(
         left=remainders(outcome.best.fit.residuals, model.layout, model.groups()),
         next_experiment=experiment,
     )
-    found_so_far = Found(diagnosis, model, judge, points, carried)
-    return replace(found_so_far, diagnosis=confirmed(diagnosis, found_so_far.foretell))
+    answer = Found(diagnosis, model, judge, points, carried)
+    if is_fast and judge is not None and not means.is_brief:
+        diagnosis = replace(diagnosis, foretold=answer.foretell())
+    return replace(answer, diagnosis=confirmed(diagnosis, answer.foretell))
 
 
 def _statement(word: Verdict, found: Sequence[object]) -> str:

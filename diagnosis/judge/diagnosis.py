@@ -236,9 +236,9 @@ class Diagnosis:
         held_out_by: What the fits of held-out recordings come from; empty if none was held out.
         differences: Held-out channels on which the fast simulation and the free run differ by more than a tenth of the
             noise, the most first.
-        foretold: Where the plain chi-square of held-out recordings speaks against the findings: -2 log of how well
-            they are foretold, `recalibrated` and `after`, with what belongs to their day alone (its surroundings, its
-            start) unknown within its prior; else empty.
+        foretold: -2 log of how well held-out recordings are foretold, `recalibrated` and `after`, with what belongs to
+            their day alone (its surroundings, its start) unknown within its prior; empty if it was not asked for: in
+            Bullet and with `--brief` it is asked for only where the plain chi-square speaks against the findings.
     """
 
     verdict: Verdict

@@ -64,14 +64,14 @@ def improvement(diagnosis: Diagnosis) -> str:
 
 
 def _own_day(diagnosis: Diagnosis) -> str:
-    """Why a larger chi-square does not refute: what belongs to the held-out day alone."""
-    if not diagnosis.foretold:
+    """The same with what belongs to the held-out day alone taken as unknown: it says nothing of the model."""
+    samples = sum(f.samples for f in diagnosis.fit if f.is_held_out)
+    if not diagnosis.foretold or not samples:
         return ""
-    without, with_them = (number(diagnosis.foretold[stage]) for stage in ("recalibrated", "after"))
-    return (
-        "; with what belongs to that day alone (its surroundings, its start) unknown, -2 log of the prediction is "
-        f"{with_them} with the findings and {without} without"
+    told = ", ".join(
+        f"{number(diagnosis.foretold[stage] / samples)} {_STAGE[stage]}" for stage in ("recalibrated", "after")
     )
+    return f"; with the room and the start of that day taken as unknown: {told}"
 
 
 def _course(mean: Mapping[str, float]) -> str:

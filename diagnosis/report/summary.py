@@ -55,7 +55,7 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     more = len(diagnosis.findings) - _FINDINGS
     if more > 0:
         yield f"  and {more} more in report.html"
-    yield from _wrapped("better   ", improvement(diagnosis), width, 3)
+    yield from _wrapped("better   ", improvement(diagnosis), width, 4)
     yield from _fit(diagnosis, width)
     yield from _wrapped("sure     ", sureness(diagnosis), width, 2)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)

@@ -1,0 +1,57 @@
+"""The example of docs/diagnosis.md gives what the page says, all files included."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from cosim.cli import app
+
+ROOT = Path(__file__).resolve().parents[2]
+RIG = ROOT / "docs" / "examples" / "rig"
+#: What was concealed in the readings [1/K].
+ALPHA = 0.0011
+
+
+@pytest.fixture(scope="module")
+def answer(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    folder = Path(shutil.copytree(RIG, tmp_path_factory.mktemp("example") / "my_rig"))
+    out = folder / "answer"
+    arguments = ["diagnose", str(folder / "scenario.yaml"), "--recording", str(folder / "monday")]
+    result = CliRunner().invoke(app, [*arguments, "--held-out", str(folder / "tuesday"), "--out", str(out)])
+    assert result.exit_code == 0, result.output
+    return result.output, out
+
+
+def test_the_effect_and_its_strength_are_found(answer: tuple[str, Path]) -> None:
+    told = json.loads((answer[1] / "diagnosis.json").read_text())
+    assert told["verdict"] == "missing physics"
+    (finding,) = told["findings"]
+    assert (finding["effect"], finding["place"]) == ("temperature_dependent_resistance", "all coils")
+    assert finding["ambiguous_with"] == []
+    (alpha,) = finding["parameters"]
+    assert alpha["lower"] < ALPHA < alpha["upper"]
+    assert alpha["upper"] - alpha["lower"] < 0.2 * ALPHA
+
+
+def test_held_out_readings_are_foretold_within_their_noise(answer: tuple[str, Path]) -> None:
+    told = json.loads((answer[1] / "diagnosis.json").read_text())
+    samples = sum(f["samples"] for f in told["fit"] if f["is_held_out"])
+    # 1 is noise alone; some 3500 readings scatter it by 0.024, and noise is stated to a few per cent.
+    assert told["foretold"]["after"] / samples == pytest.approx(1.0, abs=0.1)
+    assert told["foretold"]["recalibrated"] > 1.3 * told["foretold"]["after"]
+
+
+def test_every_file_of_the_page_is_there_and_the_terminal_shows_what_the_page_shows(answer: tuple[str, Path]) -> None:
+    output, out = answer
+    for name in ("report.html", "diagnosis.json", "amended/scenario.yaml", "amended_without_terms/scenario.yaml"):
+        assert (out / name).is_file(), name
+    page = (ROOT / "docs" / "diagnosis.md").read_text()
+    shown = page.split("The terminal shows, among more:")[1].split("```")[1].strip().splitlines()
+    said = [line.rstrip() for line in output.splitlines()]
+    for line in shown:
+        assert line.rstrip() in said, line
