@@ -11,12 +11,12 @@ Springer 2009, section 7.10.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cosim.unit import AnyArray, Array
-from diagnosis.search.fit import fit
+from diagnosis.search.fit import Columns, Fit, fit
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.search import Explanation
 
@@ -30,8 +30,8 @@ SMALLEST = 1e-6
 WORTH = 0.3
 #: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
 PATIENCE = 2
-#: Most Jacobians of a fit to a part; it starts from the fit to the whole.
-ITERATIONS = 8
+#: Most steps of a fit to a part, which starts from the fit to the whole, and how often it takes derivatives anew.
+ITERATIONS, REFRESHES = 8, 1
 
 
 def blocks(layout: Layout, count: int = BLOCKS) -> list[AnyArray]:
@@ -94,7 +94,8 @@ class Validation:
         residuals = np.zeros(len(self._model.layout.time))
         losses = []
         for part, stretch in zip(self._parts, self._stretches):
-            point = fit(part, explanation.fit.point, ITERATIONS).point
+            near = _seen(explanation.fit, ~stretch)
+            point = fit(part, explanation.fit.point, ITERATIONS, near, refreshes=REFRESHES).point
             own = self._model.residuals([point])[0][stretch]
             residuals[stretch] = own
             losses.append(float(np.mean(own**2)))
@@ -119,6 +120,13 @@ class Validation:
         if not found or min(self._losses[-PATIENCE:]) >= min(self._losses[:-PATIENCE], default=np.inf):
             return []
         return [f.explanation for f in sorted(found, key=lambda f: f.explanation.cost)]
+
+
+def _seen(whole: Fit, seen: AnyArray) -> Fit:
+    """A fit as one sees it who knows a part of the residuals, shape (residuals,)."""
+    residuals = np.where(seen, whole.residuals, 0.0)
+    values = whole.columns.values * seen.astype(whole.columns.values.dtype)[:, None]
+    return replace(whole, residuals=residuals, columns=Columns.of(values, whole.columns.at, residuals))
 
 
 def chosen(found: Sequence[Foretold], plain: Collection[Term], margin: float) -> Foretold:
