@@ -23,6 +23,8 @@ from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 FAR = 2.0
 #: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
 BEAM, REFITS, MOST_TERMS = 3, 8, 4
+#: Derivatives of residuals by parameters from which a search is not widened: many channels tell more, and cost more.
+MANY = 1_000_000
 #: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
 EXCHANGED = 4
 #: Parameters of laws that belong to one recording: another day has another draught and another drift.
@@ -83,7 +85,9 @@ def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
     """Search plain laws, and all where none of them foretells better; take what foretells best."""
-    wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
+    wide = replace(settings, stops_at_noise=False)
+    if len(model.layout.time) * len(model.parameters) < MANY:
+        wide = replace(wide, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
     known: list[Foretold] = []
     outcomes = []
     every = distinct(model, model.terms())

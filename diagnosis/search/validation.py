@@ -23,7 +23,7 @@ from diagnosis.search.search import Explanation
 #: Stretches of time that a recording is cut into.
 BLOCKS = 5
 #: Explanations that are validated, the best fits first.
-VALIDATED = 10
+VALIDATED = 6
 #: Mean square of residuals, in that of the noise, below which stretches are all alike.
 SMALLEST = 1e-6
 #: Share of the largest gain that an explanation must have to be validated.
@@ -31,7 +31,7 @@ WORTH = 0.3
 #: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
 PATIENCE = 2
 #: Most steps of a fit to a part, which starts from the fit to the whole, and how often it takes derivatives anew.
-ITERATIONS, REFRESHES = 8, 1
+ITERATIONS, REFRESHES = 8, 0
 
 
 def blocks(layout: Layout, count: int = BLOCKS) -> list[AnyArray]:
