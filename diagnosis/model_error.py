@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 
 import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.fit import fit
 from diagnosis.search.grow import grow, polished
-from diagnosis.search.problem import Layout, Term
+from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
 from diagnosis.search.validation import Foretold, Validation, chosen
@@ -23,8 +24,10 @@ from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 FAR = 2.0
 #: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
 BEAM, REFITS, MOST_TERMS = 3, 8, 4
-#: Derivatives of residuals by parameters from which a search is not widened: many channels tell more, and cost more.
+#: Derivatives of residuals by parameters from which it is not searched again: many channels tell more, and cost more.
 MANY = 1_000_000
+#: Rivals of what the first search found that are weighed then.
+WEIGHED = 4
 #: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
 EXCHANGED = 4
 #: Parameters of laws that belong to one recording: another day has another draught and another drift.
@@ -54,7 +57,10 @@ def search_with_model_error(
         return outcome, model
     on_progress("searching again: no model meets the readings within their noise")
     found = TemperedModel(model, factor)
-    outcome = _validated(found, settings, on_progress)
+    if len(model.layout.time) * len(model.parameters) < MANY:
+        outcome = _validated(found, settings, on_progress)
+    else:
+        outcome = _weighed(found, outcome, on_progress)
     raw = model.residuals([outcome.best.fit.point])[0]
     larger = _pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
@@ -85,9 +91,7 @@ def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
     """Search plain laws, and all where none of them foretells better; take what foretells best."""
-    wide = replace(settings, stops_at_noise=False)
-    if len(model.layout.time) * len(model.parameters) < MANY:
-        wide = replace(wide, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS)
+    wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
     known: list[Foretold] = []
     outcomes = []
     every = distinct(model, model.terms())
@@ -109,6 +113,36 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
     left = structure(explanation.fit.residuals, model.layout, model.groups())
     return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+
+
+def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], None]) -> Outcome:
+    """Of what the first search found, the part that foretells: its terms and every choice of them, and its rivals."""
+    margin = first.margin
+    terms = first.best.terms
+    points = [
+        reduce(Point.without, [t for t in terms if t not in kept], first.best.fit.point)
+        for count in range(1, len(terms) + 1)
+        for kept in itertools.combinations(terms, count)
+    ]
+    points += [e.fit.point for e in first.rivals if set(e.terms) != set(terms)][:WEIGHED]
+    base = recalibrate(model)
+    fitted = [Explanation(base), *(Explanation(fit(model, p, widths=base.widths)) for p in points)]
+    validation = Validation(model, partial(MaskedModel, model))
+    known = []
+    for number, explanation in enumerate(fitted):
+        on_progress(f"validating explanation {number + 1} of {len(fitted)}")
+        known.append(validation.foretold(explanation))
+    plain = plain_terms(model, [t for e in fitted for t in e.terms])
+    best = shrink(model, chosen(known, set(plain), margin).explanation, margin)
+    near = sorted((e for e in (best, *fitted) if len(e.terms) == len(best.terms)), key=lambda e: e.fit.cost)
+    return replace(
+        first,
+        base=base,
+        base_structure=structure(base.residuals, model.layout, model.groups()),
+        best=best,
+        left=structure(best.fit.residuals, model.layout, model.groups()),
+        rivals=tuple(_once(near)),
+    )
 
 
 def _exchanged(
