@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from diagnosis import model_error
+from diagnosis.model_error import search_with_model_error
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.search.search import Explanation
+from diagnosis.search.search import Explanation, Settings, search
 from diagnosis.search.validation import BLOCKS, Foretold, Validation, blocks, chosen
-from diagnosis.simulator.tempered import correlation_time, inflation
+from diagnosis.simulator.tempered import TemperedModel, correlation_time, inflation
+from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
 
 TIMES = np.linspace(0.0, 10.0, 200)
 LAYOUT = Layout(np.zeros(200, dtype=int), TIMES, ("bath.temperature",), ("thermal",))
@@ -119,3 +123,36 @@ def test_among_those_that_foretell_alike_the_readings_decide_and_each_term_pays_
     assert chosen(both, plain, 1.1 * gain).explanation is start
     refuted = Foretold(bend, readings, losses * 3.0)
     assert chosen([both[0], refuted], plain, 20.0).explanation is start
+
+
+class Rig(LineModel):
+    """A line model with all that a diagnosis asks of one."""
+
+    runs = (SimpleNamespace(series=()),)
+    simulations = 0
+
+    def terms(self) -> list[Term]:
+        return list(TERMS)
+
+    def groups(self) -> dict[str, np.ndarray]:
+        return {}
+
+    def where(self, found: Term) -> tuple[None, SimpleNamespace]:
+        return None, SimpleNamespace(label=found.place)
+
+
+def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # A slow error that no law has: the search fills its gaps until it may have no more terms.
+    rig = Rig(0.3 + 0.5 * TIME + 3.0 * TIME**2 + 0.6 * np.sin(9.0 * TIME), seed=1)
+    first = search(rig, TERMS, Settings(), rig.groups())
+    assert {BEND, WAVE} < set(first.best.terms)
+    monkeypatch.setattr(model_error, "MANY", 1)
+    said: list[str] = []
+    outcome, model = search_with_model_error(rig, Settings(), said.append)
+    assert isinstance(model, TemperedModel)
+    assert BEND in outcome.best.terms and WAVE not in outcome.best.terms
+    # The same term against errors as large as they are: worth a tenth of what noise alone would make of it.
+    assert outcome.margin < outcome.best.gains[BEND] < 0.1 * first.best.gains[BEND]
+    assert sum(text.startswith("looking for effect 1") for text in said) == 1
