@@ -55,3 +55,15 @@ def test_every_file_of_the_page_is_there_and_the_terminal_shows_what_the_page_sh
     said = [line.rstrip() for line in output.splitlines()]
     for line in shown:
         assert line.rstrip() in said, line
+
+
+@pytest.mark.parametrize("part", ["actuator", "load"])
+def test_amended_fmus_are_valid_in_both_versions_of_fmi(answer: tuple[str, Path], part: str, tmp_path: Path) -> None:
+    amended = answer[1] / "amended"
+    second = tmp_path / f"{part}_fmi2.fmu"
+    build = ["fmu", "build", str(amended / "sources" / part), "--coils", "2", "--fmi", "2", "--out", str(second)]
+    assert CliRunner().invoke(app, build).exit_code == 0
+    for fmu in (amended / f"amended_{part}_fmi3.fmu", second):
+        result = CliRunner().invoke(app, ["fmu", "validate", str(fmu)])
+        assert result.exit_code == 0, result.output
+        assert "every check passes" in result.output
