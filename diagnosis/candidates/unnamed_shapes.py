@@ -26,7 +26,8 @@ _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordin
 #: Generic terms whose law is that of a named candidate.
 _SAME = {
     "series_step": "loose_contact", "series_linear": "contact_resistance", "series_cube": "self_heating_lead",
-    "supply_linear": "supply_source_resistance", "force_sign_motion": "slide_friction",
+    "supply_linear": "supply_source_resistance", "supply_hinge": "supply_current_limit",
+    "force_sign_motion": "slide_friction",
     "length_sign_motion": "backlash", "heat_excess_times_step": "draught",
     "shift_linear_pull": "stress_dependent_transformation",
 }  # fmt: skip

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import LinAlgError
 
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 from diagnosis.search.bounded import bounded_step
 from diagnosis.search.problem import Model, Point, Term
 
@@ -17,6 +17,8 @@ from diagnosis.search.problem import Model, Point, Term
 HUBER = 4.0
 #: Deviations beyond which residuals are all the same.
 RUNAWAY = 1e6
+#: Share of the way to its bound within which a parameter lies at it.
+AT_BOUND = 1e-4
 #: Relative step of the differences by which a term's parameters are varied.
 STEP = 1e-3
 #: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
@@ -81,6 +83,7 @@ class Fit:
         is_converged: Whether the search for the minimum ended there.
         widths: Deviation of the prior of each parameter, in its own deviations: 1 unless the recordings show that coils
             scatter more than was stated, shape (parameters,).
+        held: Which parameters lie at a bound, shape (parameters,); None: none.
     """
 
     point: Point
@@ -90,6 +93,7 @@ class Fit:
     term_columns: Array
     is_converged: bool
     widths: Array
+    held: AnyArray | None = None
 
     @cached_property
     def jacobian(self) -> Array:
@@ -154,6 +158,11 @@ class _Objective:
         found = self.model.residuals([self.point(x)])[0]
         # A model that cannot be simulated, or runs away, is a bad one; its square must still be a number.
         return np.clip(np.where(np.isfinite(found), found, RUNAWAY), -RUNAWAY, RUNAWAY)
+
+    def held(self, x: Array) -> AnyArray:
+        """Which parameters of the model lie at a bound: bounded steps end there, but for rounding."""
+        base, width = x[: self.count], self.upper[: self.count]
+        return np.asarray(np.abs(base) >= (1.0 - AT_BOUND) * width)
 
     def cost(self, x: Array, residuals: Array) -> float:
         return cost(residuals, x[: self.count], self.widths)
@@ -238,7 +247,9 @@ def fit(
             taken += 1
             columns, poor, damping = Columns.of(objective.base_columns(x), x[:count], here), 0, 1e-3
         terms = objective.term_columns(x, here)
-    return Fit(objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths)
+    return Fit(
+        objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths, objective.held(x)
+    )
 
 
 def _descend(

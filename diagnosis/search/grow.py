@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.explanation import Explanation, Settings
-from diagnosis.search.fit import Fit, cost, fit, fit_best
+from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
 from diagnosis.search.problem import Model, Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
 from diagnosis.search.structure import structure
+from diagnosis.search.switches import costs_at, is_strained, nominal_of, switch_scores
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
-#: Prior deviations beyond which a recalibration has been pulled away by what is missing, and fits start afresh too.
-STRAINED = 4.0
 #: Explanations within this of the best are fitted to the end, and at most so many.
 CLOSE, MOST_POLISHED = 12.0, 5
 #: ... or within this share of what was gained, for the first fits are rough.
@@ -121,7 +121,11 @@ def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, 
     first = score(model, base, near, draws, settings.seed)
     places = list(dict.fromkeys(s.term.place for s in first.ranked[:40]))[:PLACES]
     more = unnamed_at(terms, places, near)
-    return first.joined(score(model, base, more, draws, settings.seed)) if more else first
+    whole = first.joined(score(model, base, more, draws, settings.seed)) if more else first
+    switched = switch_scores(model, base, [t for t in terms if t.is_named])
+    known = {s.term for s in switched}
+    ranked = sorted((*switched, *(s for s in whole.ranked if s.term not in known)), key=lambda s: -s.gain)
+    return replace(whole, ranked=ranked)
 
 
 def _choice(ranked: Sequence[Score], count: int) -> list[Score]:
@@ -156,17 +160,11 @@ def _trial(model: Model, before: Fit, candidate: Score) -> Fit:
     points = list(_starts(before, candidate))
     if not points:
         return fit(model, here, TRIAL, before, refreshes=0)
-    costs = _costs(model, before, [here, *points])
+    costs = costs_at(model, before, [here, *points])
     other = int(np.argmin(costs[1:]))
     if costs[1 + other] > costs[0] and not candidate.term.parameters[0].is_switch:
         return fit(model, here, TRIAL, before, refreshes=0)
     return fit_best(model, [here, points[other]], TRIAL, before, 0)
-
-
-def _costs(model: Model, base: Fit, points: Sequence[Point]) -> list[float]:
-    """-2 log posterior at points, with the prior's widths of a fit; infinite where a simulation failed."""
-    values = model.residuals(points)
-    return [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
 
 
 def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
@@ -179,10 +177,9 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
         yield from (before.point.plus(term, (size, *shape)) for size in first.starts)
     for moved in _other_instants(before.point):  # what came first may have come at a wrong instant
         yield from (moved.plus(term, (size, *shape)) for size in sizes)
-    if np.max(np.abs(before.point.base / before.widths), initial=0.0) > STRAINED:
-        nominal = Point(np.zeros_like(before.point.base), before.point.terms)
+    if is_strained(before):
         for size in sizes:
-            yield nominal.plus(term, (size, *shape))
+            yield nominal_of(before).plus(term, (size, *shape))
 
 
 def _instants(parameter: TermParameter) -> list[float]:
@@ -204,7 +201,7 @@ def _best_instants(model: Model, base: Fit, point: Point) -> Point:
     points = [point, *_other_instants(point)]
     if len(points) == 1:
         return point
-    return points[int(np.argmin(_costs(model, base, points)))]
+    return points[int(np.argmin(costs_at(model, base, points)))]
 
 
 def _other_shapes(before: Fit, candidate: Score, sizes: Sequence[float]) -> Iterator[Point]:

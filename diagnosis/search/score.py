@@ -42,7 +42,8 @@ class Projection:
     """Removes from a direction what a change of the fitted parameters would do as well.
 
     What is left of a direction s is s - J N^-1 J' s with the fitted parameters' derivatives J (residuals and prior) and
-    N = J' J; lengths and products of what is left need J' s alone.
+    N = J' J; lengths and products of what is left need J' s alone. A parameter that was pulled to its bound does
+    nothing as well: it stays there.
 
     Args:
         base: The fit.
@@ -51,13 +52,17 @@ class Projection:
     def __init__(self, base: Fit) -> None:
         self.weights = huber_weights(base.residuals)
         self.residuals = self.weights * base.residuals
-        self._count = len(base.point.base)
-        self._prior = np.zeros(base.jacobian.shape[1])
-        self._prior[: self._count] = base.point.base / base.widths**2
-        self._widths = base.widths
+        free = np.ones(len(base.point.base), dtype=bool) if base.held is None else ~base.held
+        self._count = int(np.count_nonzero(free))
+        kept = np.concatenate([free, np.ones(base.jacobian.shape[1] - len(free), dtype=bool)])
+        self._prior = np.zeros(len(kept))
+        self._prior[: len(free)] = base.point.base / base.widths**2
+        self._prior = self._prior[kept]
+        self._widths = base.widths[free]
         kind = base.jacobian.dtype
-        self._jacobian = base.jacobian * self.weights.astype(kind)[:, None]
-        self._factor = _factored(base.information)
+        jacobian = base.jacobian if kept.all() else base.jacobian[:, kept]
+        self._jacobian = jacobian * self.weights.astype(kind)[:, None]
+        self._factor = _factored(base.information[np.ix_(kept, kept)])
         slope = np.asarray(self._jacobian.T @ self.residuals.astype(kind), dtype=np.float64) + self._prior
         self._pull = cho_solve(self._factor, slope)
 

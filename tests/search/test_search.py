@@ -1,13 +1,16 @@
 """What the search accepts, rejects and says by how much; on a model in closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point
-from diagnosis.search.score import score
+from diagnosis.search.score import Projection, score
 from diagnosis.search.search import Settings, recalibrate, search, spread
 from diagnosis.search.structure import structure
+from diagnosis.search.switches import is_strained, switch_scores
 from tests.search.line_model import BEND, LID, STEP, TERMS, TIME, WAVE, LineModel
 
 LINE = 0.3 + 0.5 * TIME
@@ -97,3 +100,34 @@ def test_a_strength_against_its_sign_gains_nothing():
     base = fit(model, Point(np.zeros(2)))
     ranked = score(model, base, [LID]).ranked
     assert all(0.0 <= s.values[0] <= 1.0 for s in ranked)
+
+
+def test_what_a_parameter_at_its_bound_would_do_is_seen():
+    """An offset that may move by 6 deviations and would need 7 stays at its bound: more is no recalibration."""
+    free, held = (recalibrate(LineModel(offset + 0.5 * TIME)) for offset in (3.0, 7.0))
+    assert held.point.base[0] == pytest.approx(6.0, rel=1e-3)
+    column = held.columns.values[:, :1].T
+    for base, least, most in ((free, 0.0, 1e-3), (held, 0.15, 0.3)):
+        projection = Projection(base)
+        projection.noise(2, 0)
+        seen = projection.look(np.asarray(column))
+        # of a constant a line through the origin leaves a quarter, 1 - (1/2)^2 / (1/3); large residuals weigh less
+        assert least <= seen.left[0] / seen.whole[0] <= most
+
+
+def test_a_switch_is_found_from_the_nominal_point_where_the_base_was_pulled_away():
+    """Readings cut off at 0.9 of a line that rises to 5.3: recalibrated, the line itself stays near the ceiling."""
+    model = LineModel(np.minimum(0.3 + 5.0 * TIME, 0.9))
+    model.parameters = [replace(p, nominal=n) for p, n in zip(model.parameters, (0.3, 5.0))]
+    model.signal = lambda point: LineModel.signal(model, Point(point.base + np.array([0.3, 5.0]), point.terms))
+    base = recalibrate(model)
+    assert is_strained(base)
+    found = switch_scores(model, base, TERMS)
+    assert [s.term for s in found] == [LID]
+    assert found[0].values[1] == 0.9
+    assert search(model, TERMS, Settings()).best.terms == (LID,)
+
+
+def test_switches_are_left_to_straight_lines_where_the_base_holds():
+    model = LineModel(LINE)
+    assert switch_scores(model, recalibrate(model), TERMS) == []
