@@ -157,14 +157,13 @@ def _is_law_at(candidate: Score, best: Score) -> bool:
 def _trial(model: Model, before: Fit, candidate: Score) -> Fit:
     """Fit all again with a term more, from what the straight line says and from the best of other starts."""
     here = before.point.plus(candidate.term, candidate.values)
-    points = list(_starts(before, candidate))
-    if not points:
-        return fit(model, here, TRIAL, before, refreshes=0)
-    costs = costs_at(model, before, [here, *points])
-    other = int(np.argmin(costs[1:]))
-    if costs[1 + other] > costs[0] and not candidate.term.parameters[0].is_switch:
-        return fit(model, here, TRIAL, before, refreshes=0)
-    return fit_best(model, [here, points[other]], TRIAL, before, 0)
+    points, starts = list(_starts(before, candidate)), [here]
+    if points:
+        costs = costs_at(model, before, [here, *points])
+        other = int(np.argmin(costs[1:]))
+        if costs[1 + other] <= costs[0] or candidate.term.parameters[0].is_switch:
+            starts.append(points[other])
+    return fit_best(model, starts, TRIAL, before, refreshes=0)
 
 
 def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
