@@ -7,7 +7,7 @@ takes the part of it that lies after the instant, so that the heat does not depe
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,10 +97,25 @@ class CurrentLimit:
     share: float = 1.0
 
 
+@dataclass(frozen=True)
+class SlowSource:
+    """A source whose voltage follows what is set behind a first-order delay: tau dV/dt = V_set - V; 0 V at the start.
+
+    A step feels the mean over it, with the exact exponential (the same in the bank's term `unnamed_supply_delayed`).
+
+    Args:
+        supply: Source, from 1.
+        delay: tau [s].
+    """
+
+    supply: int
+    delay: float
+
+
 #: Current [A] below which a `Drop` fades.
 FADING = 0.01
 
-Element = Contact | Lead | Drop | SourceResistance | CurrentLimit
+Element = Contact | Lead | Drop | SourceResistance | CurrentLimit | SlowSource
 
 
 def check(elements: Sequence[Element], strings: int, sources: int) -> None:
@@ -117,6 +132,10 @@ def check(elements: Sequence[Element], strings: int, sources: int) -> None:
                 raise ValueError(f"elements: {name} of {what} {place} is {number:g}; it must be 0 or positive")
         if isinstance(element, CurrentLimit) and (element.limit == 0.0 or element.share > 1.0):
             raise ValueError(f"elements: the limit of supply {place} must be above 0 A and its share at most 1")
+    slow = [e.supply for e in elements if isinstance(e, SlowSource)]
+    twice = sorted({n for n in slow if slow.count(n) > 1})
+    if twice:
+        raise ValueError(f"elements: supply {twice[0]} has more than one slow_source; give it one delay")
 
 
 @dataclass(frozen=True)
@@ -135,34 +154,27 @@ class Series:
 
     def contacts(self, begin: int, end: int) -> Array:
         """Resistance of the contacts of each string over a step [ohm], shape (strings,)."""
-        found = np.zeros(self.strings)
-        for element in self.elements:
-            if isinstance(element, Contact):
-                found[element.string - 1] += element.at(begin, end)
-        return found
+        return _summed(self.strings, ((e.string, e.at(begin, end)) for e in self.elements if isinstance(e, Contact)))
 
     def rises(self) -> Array:
         """Sum of the rises of each string's leads [ohm/A^2], shape (strings,)."""
-        found = np.zeros(self.strings)
-        for element in self.elements:
-            if isinstance(element, Lead):
-                found[element.string - 1] += element.rise
-        return found
+        return _summed(self.strings, ((e.string, e.rise) for e in self.elements if isinstance(e, Lead)))
 
     def drops(self) -> Array:
         """Sum of the voltages that each string takes whatever its current [V], shape (strings,)."""
-        found = np.zeros(self.strings)
-        for element in self.elements:
-            if isinstance(element, Drop):
-                found[element.string - 1] += element.voltage
-        return found
+        return _summed(self.strings, ((e.string, e.voltage) for e in self.elements if isinstance(e, Drop)))
 
     def source_resistances(self) -> Array:
         """[ohm], shape (sources,)."""
+        own = ((e.supply, e.resistance) for e in self.elements if isinstance(e, SourceResistance))
+        return _summed(self.sources, own)
+
+    def delays(self) -> Array:
+        """Delay of each source [s], 0 where it is ideal, shape (sources,)."""
         found = np.zeros(self.sources)
         for element in self.elements:
-            if isinstance(element, SourceResistance):
-                found[element.supply - 1] += element.resistance
+            if isinstance(element, SlowSource):
+                found[element.supply - 1] = element.delay
         return found
 
     def lowered(self, voltage: Array, current: Array) -> Array:
@@ -180,3 +192,11 @@ class Series:
                 if free > element.limit:
                     found[n] = voltage[n] * (1.0 + element.share * (element.limit / free - 1.0))
         return found
+
+
+def _summed(count: int, numbers: Iterable[tuple[int, float]]) -> Array:
+    """Sum of the numbers at each place (counted from 1), shape (count,)."""
+    found = np.zeros(count)
+    for place, number in numbers:
+        found[place - 1] += number
+    return found

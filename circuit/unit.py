@@ -21,7 +21,18 @@ from circuit.netlist import (
     source_name,
 )
 from circuit.ngspice import Circuit, NgspiceError
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable
+from cosim.unit import (
+    Array,
+    ArrayStore,
+    Causality,
+    Coordinate,
+    StepOutcome,
+    StepStatus,
+    Unit,
+    UnitError,
+    Variable,
+    seconds,
+)
 
 INPUTS = ("supply_voltage", "resistance")
 
@@ -33,7 +44,7 @@ SETTLED = 1e-13
 
 
 class CircuitUnit(Unit):
-    """A network of coils solved by ngspice; it has no memory, so its outputs follow its inputs at once.
+    """A network of coils solved by ngspice; its outputs follow its inputs at once, but for sources that are slow.
 
     ngspice solves only when an input differs from that of the last solution; `solves` counts. Each solution is held
     against Kirchhoff's and Ohm's laws (`circuit.kirchhoff`).
@@ -71,6 +82,8 @@ class CircuitUnit(Unit):
         self._in_use = np.concatenate([np.ones(network.sources, dtype=bool), self._whole])
         self._series, self._rises = network.series, network.series.rises()
         self._drops = self._series.drops()
+        self._delays = self._series.delays()
+        self._behind = np.zeros(network.sources)  # voltage of the sources that are slow [V]
         self._by_current = (self._rises > 0.0) | (self._drops > 0.0)
         self._with_contacts = [n - 1 for n in network.strings_with_contacts()]
         self._elements += [f"{contact_name(n + 1)} gain" for n in self._with_contacts]
@@ -126,12 +139,14 @@ class CircuitUnit(Unit):
         return StepOutcome(StepStatus.OK, time + size)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
-        """All inputs and outputs, and the inputs that the outputs belong to."""
-        return {"solved": self._solved.copy(), **{n: a.copy() for n, a in self._store.arrays.items()}}
+        """All inputs and outputs, the inputs that the outputs belong to, and the voltage of slow sources."""
+        memory = {"behind": self._behind.copy()} if self._delays.any() else {}
+        return {"solved": self._solved.copy(), **memory, **{n: a.copy() for n, a in self._store.arrays.items()}}
 
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
         """Go on from a checkpoint; UnitError if it belongs to another network."""
-        for name, array in (*self._store.arrays.items(), ("solved", self._solved)):
+        memory = [("behind", self._behind)] if self._delays.any() else []
+        for name, array in (*self._store.arrays.items(), ("solved", self._solved), *memory):
             if name not in state or state[name].shape != array.shape:
                 raise UnitError(
                     self.name, f"the checkpoint's {name} does not fit this network", time, "resume the same scenario"
@@ -147,7 +162,7 @@ class CircuitUnit(Unit):
     def _follow_inputs(self, begin: int, time: int) -> None:
         arrays = self._store.arrays
         contacts = self._series.contacts(begin, time)
-        voltage = arrays["supply_voltage"].reshape(-1)
+        voltage = self._slowed(arrays["supply_voltage"].reshape(-1), seconds(time - begin))
         wanted = np.concatenate([voltage, arrays["resistance"], contacts[self._with_contacts]])
         if np.array_equal(wanted[self._in_use], self._solved[self._in_use]):
             return
@@ -158,6 +173,17 @@ class CircuitUnit(Unit):
             raise UnitError(self.name, violation, time, "keep the resistances of a string within 12 orders of size")
         self._publish(solution)
         self._solved[...] = wanted
+
+    def _slowed(self, voltage: Array, size: float) -> Array:
+        """Mean over a step of `size` [s] of the voltage of every source; slow ones are behind what is set."""
+        is_slow = self._delays > 0.0
+        if not is_slow.any() or np.isnan(voltage).any():
+            return voltage
+        delay = np.where(is_slow, self._delays, 1.0)
+        gap, decay = self._behind - voltage, np.exp(-size / delay)
+        mean = voltage + gap * ((1.0 - decay) * delay / size if size > 0.0 else 1.0)
+        self._behind[...] = np.where(is_slow, voltage + gap * decay, 0.0)
+        return np.where(is_slow, mean, voltage)
 
     def _check_inputs(self, time: int) -> None:
         for name in INPUTS:

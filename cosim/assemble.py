@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from circuit.elements import Contact, CurrentLimit, Drop, Lead, SourceResistance
+from circuit.elements import Contact, CurrentLimit, Drop, Lead, SlowSource, SourceResistance
 from circuit.elements import Element as CircuitPart
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
@@ -33,6 +33,7 @@ from cosim.components import (
     PendulumComponent,
     ProgrammeComponent,
     ProgrammeOutput,
+    SlowSourceElement,
     SourceResistanceElement,
     nanoseconds,
 )
@@ -212,6 +213,8 @@ def _element_of(given: CircuitElement) -> CircuitPart:
         return Drop(given.string, given.voltage.to("V"))
     if isinstance(given, SourceResistanceElement):
         return SourceResistance(given.supply, given.resistance.to("ohm"))
+    if isinstance(given, SlowSourceElement):
+        return SlowSource(given.supply, given.delay.to("s"))
     return CurrentLimit(given.supply, given.limit.to("A"), given.share)
 
 

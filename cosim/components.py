@@ -119,8 +119,16 @@ class CurrentLimitElement(Strict):
     share: float = Field(default=1.0, ge=0.0, le=1.0, description="1: the limit holds; less: it gives way.")
 
 
+class SlowSourceElement(Strict):
+    """A source whose voltage follows what is set behind a first-order delay."""
+
+    kind: Literal["slow_source"]
+    supply: Count = 1
+    delay: Annotated[PhysicalValue, In("s", minimum=0.0)]
+
+
 CircuitElement = Annotated[
-    ContactElement | LeadElement | DropElement | SourceResistanceElement | CurrentLimitElement,
+    ContactElement | LeadElement | DropElement | SourceResistanceElement | CurrentLimitElement | SlowSourceElement,
     Field(discriminator="kind"),
 ]
 

@@ -31,10 +31,6 @@ def _series_drop(n: int, v: Values) -> dict[str, Any]:
     return {"kind": "drop", "string": n, "voltage": quantity(v["a"], "V")}
 
 
-def _series(n: int, v: Values) -> dict[str, Any]:
-    return {"kind": "contact", "string": n, "resistance": quantity(v["a"], "ohm")}
-
-
 def _source(n: int, v: Values) -> dict[str, Any]:
     return {"kind": "source_resistance", "supply": n, "resistance": quantity(v["R_source"], "ohm")}
 
@@ -51,10 +47,15 @@ _ELEMENTS: Mapping[str, Callable[[int, Values], dict[str, Any]]] = {
     "supply_source_resistance": _source,
     "supply_current_limit": _limit,
     "unnamed_series_constant": _series_drop,
-    "unnamed_series_linear": _series,
+    "unnamed_series_linear": lambda n, v: _contact(n, {"R_contact": v["a"]}),
     "unnamed_series_step": lambda n, v: _loose(n, {"R_contact": v["a"], "instant": v["instant"]}),
     "unnamed_series_cube": lambda n, v: _lead(n, {"rise": v["a"]}),
     "unnamed_supply_linear": lambda n, v: _source(n, {"R_source": v["a"]}),
+    "unnamed_supply_delayed": lambda n, v: {
+        "kind": "slow_source",
+        "supply": n,
+        "delay": quantity(v["a"], "s"),
+    },
     "unnamed_supply_hinge": lambda n, v: _limit(n, {"limit": v["limit"], "share": v["a"]}),
 }
 

@@ -35,7 +35,7 @@ typedef struct {
     double *resistance, *current, *power, *heat, *conductance, *capacity, *ambient;
     double *shift, *scale, *fraction, *added, *heating, *cooling, *heating_before, *cooling_before, *crossing;
     double *remembered, *phase, *stiffness, *tension, *rest, *extension, *extension_before, *length;
-    double *string_resistance, *string_current, *supply_voltage, *supply_resistance, *current_limit, *limited, *supply_current;
+    double *string_resistance, *string_current, *source_voltage, *supply_voltage, *supply_resistance, *current_limit, *limited, *supply_current;
     double *state, *state_rate;
 } Step;
 

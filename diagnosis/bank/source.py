@@ -23,6 +23,7 @@ READABLE: Mapping[str, str] = {
 #: What the lines of a hook may change: name to C expression.
 WRITABLE: Mapping[str, Mapping[str, str]] = {
     "resistance": {"R": "s->resistance[i]"},
+    "source": {"V": "s->source_voltage[i]"},
     "string": {"R_string": "s->string_resistance[i]"},
     "supply": {
         "V": "s->supply_voltage[i]", "R_supply": "s->supply_resistance[i]", "I_limit": "s->current_limit[i]",

@@ -65,8 +65,10 @@ static void solve_circuit(Step *s)
 {
     const Plan *plan = s->plan;
     const int turns = HAS_CURRENT_FEEDBACK(plan) ? 12 : 1;
+    memcpy(s->source_voltage, plan->voltage + s->row * s->sources, s->sources * sizeof(double));
+    HOOK_source(s);
     for (int n = 0; n < turns; n++) {
-        memcpy(s->supply_voltage, plan->voltage + s->row * s->sources, s->sources * sizeof(double));
+        memcpy(s->supply_voltage, s->source_voltage, s->sources * sizeof(double));
         solve_once(s);
     }
     for (int64_t n = 0; n < s->strings; n++) {

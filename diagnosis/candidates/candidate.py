@@ -17,8 +17,9 @@ StateKind = Literal["continuous", "memory", "shared"]
 
 #: Hooks over one axis each, in the order in which a step comes to them.
 HOOK_AXES: Mapping[str, Axis] = {
-    "resistance": "coil", "string": "string", "supply": "source", "pairs": "coil", "heat": "coil", "state": "coil",
-    "gather": "coil", "shared": "coil", "stiffness": "coil", "play": "coil", "load": "coil", "length": "coil",
+    "resistance": "coil", "source": "source", "string": "string", "supply": "source", "pairs": "coil",
+    "heat": "coil", "state": "coil", "gather": "coil", "shared": "coil",
+    "stiffness": "coil", "play": "coil", "load": "coil", "length": "coil",
     "accept": "coil", "channel": "channel", "sensor": "channel",
 }  # fmt: skip
 

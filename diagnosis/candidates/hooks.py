@@ -7,6 +7,7 @@ from collections.abc import Mapping
 #: Hook: what it may change, when it comes.
 HOOKS: Mapping[str, str] = {
     "resistance": "resistance of a coil, before the circuit is solved",
+    "source": "voltage of a source, once in a step, before the circuit is solved",
     "string": "what lies in series with a string",
     "supply": "a source: its voltage, inner resistance and limit",
     "pairs": "heat between coils that touch: set `exchange` [W/K]; parameters end in `_a`, `_b`",

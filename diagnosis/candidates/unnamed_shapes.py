@@ -20,6 +20,7 @@ _PASSIVE = "it only takes energy"
 _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 _EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
 _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 500.0))
+_COOLING = Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
 
 
@@ -123,7 +124,7 @@ def _of_heat() -> Iterator[CandidateTerm]:
     excess, words = VARIABLES["excess"]
     yield _term(
         ("thermal", "heat_linear_excess", f"{words}, linear"), f"heat = -a * ({excess})",
-        (Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True),),
+        (_COOLING,),
         {"heat": "conductance += a / 30.0;"}, _EVERY,
     )  # fmt: skip
     yield _term(
@@ -138,8 +139,7 @@ def _of_heat() -> Iterator[CandidateTerm]:
     yield _term(
         ("thermal", "heat_excess_times_step", f"{words} after an instant"),
         f"heat = -a * ({excess}) * step(t - instant)",
-        (Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True),
-         _INSTANT),
+        (_COOLING, _INSTANT),
         {"heat": "conductance += a / 30.0 * share_after(instant, t_begin, t_end);"},
     )  # fmt: skip
     stretch, words = VARIABLES["stretch"]
@@ -206,6 +206,15 @@ def _of_resistance() -> Iterator[CandidateTerm]:
         (Parameter("a", "1", 0.0, 1.0, _PASSIVE, (0.5, 1.0, 0.2), is_amplitude=True),
          Parameter("limit", "A", 0.01, 1000.0, "a threshold is positive", (2.0, 0.3, 0.7, 1.2, 3.0, 5.0))),
         {"supply": "I_limit = a > 0.0 ? limit : I_limit;\nlimited = a > 0.0 ? a : limited;"}, ("supply", "all"),
+    )  # fmt: skip
+    yield _term(
+        ("electrical", "supply_delayed", "voltage of the supply, delayed"), "a * d(V_terminal) = V - V_terminal",
+        (_amplitude("s", 100.0, 0.1, 0.5, 2.0, 10.0, is_passive=True),),
+        {"source": """
+            const double decay = exp(-dt / most(a, 1e-9)), gap = behind_begin - V;
+            behind = V + gap * decay;
+            V += gap * (1.0 - decay) * a / dt;
+        """}, ("supply", "all"), (State("behind", "V", "0.0", "memory"),),
     )  # fmt: skip
 
 

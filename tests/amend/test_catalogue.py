@@ -19,11 +19,11 @@ from tests.amend import bench
 SAME = 1e-9
 TERMS = bench.model_terms()
 NAMED = [t for t in TERMS if t.is_named]
-#: One unnamed term of each equation, with and without a state of its own.
+#: One unnamed term of each equation, with and without a state of its own, and the memory of a source.
 UNNAMED = [
     t for t in TERMS if t.identifier in (
         "unnamed_heat_excess_times_stretch", "unnamed_resistance_delayed_stretch", "unnamed_stiffness_linear_rate",
-        "unnamed_length_delayed_phase",
+        "unnamed_length_delayed_phase", "unnamed_supply_delayed",
     )
 ]  # fmt: skip
 REST = [t for t in TERMS if t not in NAMED and t not in UNNAMED]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from circuit.elements import FADING, Contact, CurrentLimit, Drop, Lead, SourceResistance
+from circuit.elements import FADING, Contact, CurrentLimit, Drop, Lead, SlowSource, SourceResistance
 from circuit.netlist import Network
 from circuit.unit import CircuitUnit
 from cosim.unit import Array
@@ -101,3 +101,32 @@ def test_an_element_without_place_or_sense_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=said):
         Network((2, 2), elements=(element,))
+
+
+def test_a_slow_source_comes_up_and_dies_away_with_its_exponential_and_goes_on_from_a_checkpoint() -> None:
+    network = Network((2,), elements=(SlowSource(1, 0.5),))
+    unit = CircuitUnit("circuit", network)
+    unit.set("supply_voltage", np.array(6.0))
+    unit.set("resistance", np.full(2, 2.0))
+    unit.initialise(0)
+    assert float(unit.get("string_current")[0]) == 0.0  # 0 V at the start
+    state = {}
+    for n in range(40):
+        unit.do_step(50 * n * MS, 50 * MS)
+        begin, end = 0.05 * n, 0.05 * (n + 1)
+        mean = 6.0 - 6.0 * 0.5 * (math.exp(-begin / 0.5) - math.exp(-end / 0.5)) / 0.05
+        # The mean of the exponential, as a sum over steps: rounding of 40 of them.
+        assert float(unit.get("string_current")[0]) == pytest.approx(mean / 4.0, rel=1e-11)
+        state = state or ({k: v.copy() for k, v in unit.checkpoint().items()} if n == 9 else {})
+    other = CircuitUnit("other", network)
+    other.resume(state, 500 * MS)
+    other.do_step(500 * MS, 50 * MS)
+    mean = 6.0 - 6.0 * 0.5 * (math.exp(-1.0) - math.exp(-1.1)) / 0.05
+    assert float(other.get("string_current")[0]) == pytest.approx(mean / 4.0, rel=1e-11)
+    unit.terminate()
+    other.terminate()
+
+
+def test_a_supply_with_two_delays_is_refused() -> None:
+    with pytest.raises(ValueError, match="more than one slow_source"):
+        Network((2,), elements=(SlowSource(1, 0.5), SlowSource(1, 0.1)))
