@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ import yaml
 from proving.effects.effect import Effect
 from proving.effects.measurement import Clipping, SensorFault
 from proving.programme import Programme
-from proving.recording import Bank, write_clean, write_recording
+from proving.recording import Banks, write_clean, write_recording
 from proving.rig import Rig
 from proving.sensors import Sensors, drawn_sensors, read
 from proving.setups import Setup
@@ -60,7 +60,7 @@ class Case:
 
         Args:
             cases: Folder that the diagnosis is given; the case gets a folder of its own.
-            answers: Folder that it is not given.
+            answers: Folder that it is not given; beside an effect outside the catalogue it gets the twin's recordings.
             rng: Source of noise.
 
         Raises:
@@ -68,18 +68,12 @@ class Case:
         """
         folder = cases / self.identifier
         folder.mkdir(parents=True, exist_ok=True)
-        names = [f"training_{n + 1}" for n in range(len(self.training))]
-        names += [f"held_out_{n + 1}" for n in range(len(self.held_out))]
         is_noise_told = bool(rng.random() < 0.6)
-        written: dict[str, Sequence[Bank]] = {}
-        for name, programme in zip(names, [*self.training, *self.held_out]):
-            trace = _run(self, programme)
-            if not written:
-                _spoil(self, trace.signal)
-            banks = [(s, read(s, trace, programme.stop, rng)) for s in self.sensors.values()]
-            title = f"{self.setup.name}, {name.replace('_', ' ')}"
-            write_recording(folder / name, title, self.setup.overrides(programme), banks, is_noise_told)
-            written[name] = banks
+        other, same = twin(self), deepcopy(rng)  # before sensors are spoiled and numbers are drawn
+        written = _record(self, folder, rng, is_noise_told)
+        if self.kind == "outside":
+            _record(other, answers / other.identifier, same, is_noise_told)
+        names = list(written)
         (folder / "scenario.yaml").write_text((_SCENARIOS / f"{self.setup.name}.yaml").read_text())
         task = {
             "scenario": "scenario.yaml", "training": names[: len(self.training)],
@@ -90,6 +84,32 @@ class Case:
         (answers / f"{self.identifier}.json").write_text(json.dumps(_answer(self), indent=1) + "\n")
         held_out = {n: b for n, b in written.items() if n.startswith("held_out")}
         write_clean(answers / f"{self.identifier}.npz", held_out)
+
+
+def twin(case: Case) -> Case:
+    """The same rig with the same sensors and nothing wrong with them: no effects, no faults.
+
+    A model that knows the effects of the case exactly has still to cope with all of this. With the same random numbers
+    the twin has the same noise and loses the same readings.
+    """
+    name = f"{case.identifier}_twin"
+    return replace(case, identifier=name, effects=[], faults=[], sensors=deepcopy(case.sensors))
+
+
+def _record(case: Case, folder: Path, rng: np.random.Generator, is_noise_told: bool) -> dict[str, Banks]:
+    """Runs and writes every recording of a case; its faults spoil its sensors."""
+    names = [f"training_{n + 1}" for n in range(len(case.training))]
+    names += [f"held_out_{n + 1}" for n in range(len(case.held_out))]
+    written: dict[str, Banks] = {}
+    for name, programme in zip(names, [*case.training, *case.held_out]):
+        trace = _run(case, programme)
+        if not written:
+            _spoil(case, trace.signal)
+        banks = [(s, read(s, trace, programme.stop, rng)) for s in case.sensors.values()]
+        title = f"{case.setup.name}, {name.replace('_', ' ')}"
+        write_recording(folder / name, title, case.setup.overrides(programme), banks, is_noise_told)
+        written[name] = banks
+    return written
 
 
 def _run(case: Case, programme: Programme) -> Trace:

@@ -14,10 +14,12 @@ from proving.sensors import Readings, Sensors
 
 #: Sensors of one kind with what they read.
 Bank = tuple[Sensors, Readings]
+#: All of them in one recording.
+Banks = Sequence[Bank]
 
 
 def write_recording(
-    folder: Path, title: str, overrides: Mapping[str, Any], banks: Sequence[Bank], is_noise_told: bool
+    folder: Path, title: str, overrides: Mapping[str, Any], banks: Banks, is_noise_told: bool
 ) -> None:  # fmt: skip
     """Writes one recording: recording.yaml and a CSV for each kind of sensor.
 
@@ -79,7 +81,7 @@ def _column(name: str) -> str:
     return "_".join([quantity, *digits])
 
 
-def write_clean(file: Path, recordings: Mapping[str, Sequence[Bank]]) -> None:
+def write_clean(file: Path, recordings: Mapping[str, Banks]) -> None:
     """Writes what the sensors would have read without noise, rounding and loss; for scoring alone.
 
     Args:
