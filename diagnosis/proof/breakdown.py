@@ -16,7 +16,10 @@ from diagnosis.proof.wilson import Share
 UNITS = ("electrical", "thermal", "stiffness", "mechanical", "measurement")
 STRENGTHS = ("weak", "medium", "strong")
 #: Columns of the comparison of methods.
-METHODS = ("recalibrated only", "gaussian process", "sparse regression", "diagnosis", "knows the effect", "noise alone")
+METHODS = (
+    "recalibrated only", "gaussian process", "sparse regression", "diagnosis", "knows the effect", "without the effect",
+    "noise alone",
+)  # fmt: skip
 
 
 def _fraction(effects: Sequence[EffectScore], asked: Callable[[EffectScore], bool | None]) -> str:
@@ -126,7 +129,8 @@ def _held_out(result: CaseResult) -> tuple[float | str | None, ...]:
     reference = result.reference
     others = [reference.baselines.get(n, "") for n in METHODS[1:3]]
     oracle = "" if reference.oracle is None else reference.oracle
-    return (reference.recalibrated, *others, result.score.held_out.after, oracle, reference.floor)
+    twin = "" if reference.twin is None else reference.twin
+    return (reference.recalibrated, *others, result.score.held_out.after, oracle, twin, reference.floor)
 
 
 def _median(values: Sequence[float | str]) -> float | None:

@@ -114,14 +114,20 @@ def _refer(folder: Folder, cases: Sequence[str], crew: Workers, has_baselines: b
     progress = Progress("compared", len(cases), len(cases) - len(left))
 
     def given(case: str) -> tuple[Any, ...]:
-        files: Files = {p.name: p.read_bytes() for p in (folder.answer(case), folder.answer(case, ".npz"))}
-        return case, files_of(folder.case(case)), files, has_baselines
+        return case, files_of(folder.case(case)), answer_files(folder, case), has_baselines
 
     for case, reference in crew.results(make_reference, _later(left, given)):
         if isinstance(reference, Lost):
             reference = Reference(case, failure=reference.message)
         _write(folder.reference(case), json.dumps(asdict(reference), indent=1))
         progress.finished(case, reference.failure)
+
+
+def answer_files(folder: Folder, case: str) -> Files:
+    """Everything that the proving ground says about a case: answer, clean readings, and recordings of a twin."""
+    files = {p.name: p.read_bytes() for p in (folder.answer(case), folder.answer(case, ".npz"))}
+    twin = folder.answer(case, "_twin")
+    return files | {f"{twin.name}/{name}": content for name, content in files_of(twin).items()}
 
 
 def _later(cases: Sequence[str], given: Callable[[str], tuple[Any, ...]]) -> dict[str, Given]:

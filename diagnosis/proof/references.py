@@ -26,14 +26,15 @@ def make_reference(case: str, files: Files, answer: Files, has_baselines: bool) 
     Args:
         case: Its name.
         files: Its scenario, task and recordings.
-        answer: `<case>.json` and `<case>.npz`.
+        answer: `<case>.json` and `<case>.npz`, and the recordings of the twin in `<case>_twin/` where there is one.
         has_baselines: Whether other methods are tried too.
     """
     with tempfile.TemporaryDirectory(prefix="cosim_prove_") as name:
         write_files(files, Path(name) / case)
         write_files(answer, Path(name) / "answers")
         try:
-            return _reference(Path(name) / case, Path(name) / "answers", has_baselines)
+            found = _reference(Path(name) / case, Path(name) / "answers", has_baselines)
+            return _with_twin(found, Path(name) / case, Path(name) / "answers" / f"{case}_twin")
         except NoBank as reason:
             return Reference(case, failure=f"no reference: {reason}")
 
@@ -63,6 +64,25 @@ def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
         values, terms, seconds = baselines(data, base)
         found = replace(found, baselines=values, terms=terms, seconds={**found.seconds, **seconds})
     return found
+
+
+def _with_twin(found: Reference, case: Path, recordings: Path) -> Reference:
+    """The same with what the recalibrated model of the twin leaves in the twin's held-out recordings, if there are any.
+
+    Args:
+        found: Without it.
+        case: Has the scenario and the task, which are the twin's too.
+        recordings: The twin's, by the names of the case's.
+    """
+    if not recordings.is_dir():
+        return found
+    begin = clock.perf_counter()
+    for name in ("scenario.yaml", "task.yaml"):
+        (recordings / name).write_bytes((case / name).read_bytes())
+    data = read_data(recordings)
+    fits = held_out_fits(data, {"twin": recalibrate(data.model).point})
+    value = _mean(fits, judging_samples(data), "twin")
+    return replace(found, twin=value, seconds={**found.seconds, "twin": clock.perf_counter() - begin})
 
 
 def _mean(fits: list[ChannelFit], samples: Mapping[str, int], stage: str) -> float:

@@ -98,7 +98,8 @@ def row(result: CaseResult) -> dict[str, object]:
         **{name.removeprefix("is_"): joined(name) for name in
            ("is_unit_right", "is_place_right", "is_time_right", "is_named", "is_in_class", "is_misnamed")},
         "spare": scored.spare, "after": held.after, "ratio": held.ratio, "share": held.share,
-        "recalibrated": reference.recalibrated, "oracle": reference.oracle, "floor": reference.floor,
-        "training_gain": reference.training_gain, **{f"baseline_{n}": v for n, v in reference.baselines.items()},
+        "recalibrated": reference.recalibrated, "oracle": reference.oracle, "twin": reference.twin,
+        "floor": reference.floor, "training_gain": reference.training_gain,
+        **{f"baseline_{n}": v for n, v in reference.baselines.items()},
         "sparse_terms": reference.terms, "reference_failure": reference.failure,
     }  # fmt: skip

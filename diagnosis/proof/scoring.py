@@ -218,7 +218,8 @@ def _share(after: float | None, answer: Answer, reference: Reference) -> tuple[f
     """Share of the possible gain; only for effects without a name, and where there is something to gain."""
     if answer.kind not in ("outside", "leave_one_out") or reference.recalibrated is None:
         return None, None
-    best = reference.oracle if reference.oracle is not None else reference.floor
+    # Noise alone, which no model of the effect can reach, serves where nothing better is known: proofs without twins.
+    best = next((v for v in (reference.oracle, reference.twin, reference.floor) if v is not None), None)
     if best is None or (reference.recalibrated - best) * sum(reference.samples.values()) < LEAST_GAIN:
         return None, None
     if after is None:

@@ -58,8 +58,8 @@ def answer(*effects: Concealed, kind: str = "single", verdicts: tuple[str, ...] 
 
 #: The true term explains 100 in the training recordings; 300 held-out samples.
 REFERENCE = Reference(
-    "case_0001", {"coil[1,1].temperature": 100, "coil[2,3].temperature": 200}, 3.0, 1.0, 0.95, 100.0,
-    {"gaussian process": 2.0, "sparse regression": None}, 21.0,
+    "case_0001", {"coil[1,1].temperature": 100, "coil[2,3].temperature": 200}, recalibrated=3.0, oracle=1.0, floor=0.95,
+    training_gain=100.0, baselines={"gaussian process": 2.0, "sparse regression": None}, terms=21.0,
 )  # fmt: skip
 
 

@@ -102,8 +102,26 @@ def test_kinds_rigs_and_methods_are_told_apart() -> None:
     (rig,) = by_rig(RESULTS)
     assert rig[2:5] == (6, Share(2, 6), Share(1, 2))
     methods = {r[0]: r for r in by_method(RESULTS)}
-    # recalibrated, process, SINDy (ran away), diagnosis, knows, noise; then runs away and terms
-    assert methods["single"][2:] == (3.0, 2.0, float("inf"), 1.0, 1.0, 0.95, 3, 21.0)
+    # recalibrated, process, SINDy (ran away), diagnosis, knows, without the effect, noise; then runs away and terms
+    assert methods["single"][2:] == (3.0, 2.0, float("inf"), 1.0, 1.0, None, 0.95, 3, 21.0)
+
+
+def test_a_twin_stands_beside_noise_alone(tmp_path: Path) -> None:
+    case = replace(RIGHT, kind="outside", reference=replace(REFERENCE, oracle=None, twin=1.2))
+    ((*_, knows, without, noise, _, _),) = by_method([case])
+    assert (knows, without, noise) == (None, 1.2, 0.95)
+    write_all([case, RIGHT], {"cases": 2, "seed": 1}, tmp_path)
+    rows = list(csv.DictReader((tmp_path / "results.csv").read_text().splitlines()))
+    assert [(r["twin"], r["floor"]) for r in rows] == [("1.2", "0.95"), ("", "0.95")]
+    assert "| knows the effect | without the effect | noise alone |" in (tmp_path / "tables.md").read_text()
+
+
+def test_results_of_a_proof_without_twins_can_be_read(tmp_path: Path) -> None:
+    write_all([RIGHT], {"cases": 1, "seed": 1}, tmp_path)
+    content = json.loads((tmp_path / "results.json").read_text())
+    del content["cases"][0]["reference"]["twin"]
+    (tmp_path / "results.json").write_text(json.dumps(content))
+    assert read_results(tmp_path)[1] == [RIGHT]
 
 
 def test_files_hold_every_case_and_can_be_read_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

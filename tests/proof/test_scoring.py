@@ -159,6 +159,38 @@ def test_of_an_unnamed_effect_the_share_of_the_possible_gain_counts(after, share
     assert held.is_share_enough is is_enough
 
 
+OUTSIDE = answer(replace(RADIATION, effect="wet_film", is_in_catalogue=False), kind="outside")
+UNKNOWN = replace(REFERENCE, oracle=None, training_gain=None)
+
+
+@pytest.mark.parametrize(
+    ("twin", "after", "share", "is_enough"),
+    [
+        (1.5, 1.7, 1.3 / 1.5, True),  # (3.0 - 1.7) / (3.0 - 1.5)
+        (1.5, 1.9, 1.1 / 1.5, False),
+        (None, 1.7, 1.3 / 2.05, False),  # a proof without twins: of 3.0 - 0.95, which is noise alone
+        (None, 1.3, 1.7 / 2.05, True),
+    ],
+)
+def test_outside_the_catalogue_the_gain_that_is_possible_ends_at_the_twin(twin, after, share, is_enough) -> None:
+    held = score(diagnosis(finding(), after=after), OUTSIDE, SMALL, replace(UNKNOWN, twin=twin), DURATION).held_out
+    assert held.share == pytest.approx(share, rel=1e-12)
+    assert held.is_share_enough is is_enough
+
+
+@pytest.mark.parametrize(("twin", "is_asked"), [(2.97, False), (2.95, True)])
+def test_no_share_is_asked_for_where_the_twin_leaves_nothing_to_gain(twin: float, is_asked: bool) -> None:
+    # 0.03 * 300 samples = 9 < 12 < 15 = 0.05 * 300, though noise alone is at 0.95
+    held = score(None, OUTSIDE, SMALL, replace(UNKNOWN, twin=twin), DURATION).held_out
+    assert held.is_share_enough is (False if is_asked else None)
+
+
+def test_the_model_that_knows_the_effect_goes_before_a_twin() -> None:
+    truth = answer(replace(RADIATION, is_hidden=True), kind="leave_one_out")
+    held = score(diagnosis(finding(), after=2.0), truth, SMALL, replace(REFERENCE, twin=2.0), DURATION).held_out
+    assert held.share == pytest.approx(0.5, rel=1e-12)  # of 3.0 - 1.0
+
+
 def test_where_there_is_nothing_to_gain_no_share_is_asked_for() -> None:
     truth = answer(replace(RADIATION, is_hidden=True), kind="leave_one_out")
     none = replace(REFERENCE, recalibrated=1.03)  # 0.03 * 300 samples = 9 < 12
