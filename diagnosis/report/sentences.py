@@ -68,14 +68,12 @@ def _own_day(diagnosis: Diagnosis) -> str:
     samples = sum(f.samples for f in diagnosis.fit if f.is_held_out)
     if not diagnosis.foretold or not samples:
         return ""
-    told = ", ".join(
-        f"{number(diagnosis.foretold[stage] / samples)} {_STAGE[stage]}" for stage in ("recalibrated", "after")
-    )
-    return f"; with the room and the start of that day taken as unknown: {told}"
+    told = {stage: value / samples for stage, value in diagnosis.foretold.items()}
+    return f"; with the room and the start of that day taken as unknown: {_course(told)}"
 
 
 def _course(mean: Mapping[str, float]) -> str:
-    return ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES)
+    return ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES if stage in mean)
 
 
 _STAGE = {"before": "before", "recalibrated": "recalibrated only", "after": "after"}

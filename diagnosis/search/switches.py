@@ -6,14 +6,13 @@ simulated currents may all lie below the ceiling that cut the readings off; from
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 
 import numpy as np
 
 from diagnosis.search.fit import Fit, cost
 from diagnosis.search.problem import Model, Point, Term
-from diagnosis.search.score import BATCH, Score
+from diagnosis.search.score import BATCH, Score, shapes
 
 #: Prior deviations beyond which a recalibration has been pulled away by what is missing.
 STRAINED = 4.0
@@ -52,7 +51,7 @@ def switch_scores(model: Model, base: Fit, terms: Sequence[Term]) -> list[Score]
         (term, (term.parameters[0].upper, *rest))
         for term in terms
         if term.parameters[0].is_switch and term not in base.point.terms
-        for rest in itertools.product(*(p.starts for p in term.parameters[1:]))
+        for _, *rest in shapes(term)
     ]
     nominal = nominal_of(base)
     best: dict[Term, Score] = {}
