@@ -16,6 +16,12 @@ _SWITCH = 4.0
 _CURVED = 0.1
 #: A sensor rounds where at least this share of neighbouring readings are equal.
 _TIES = 0.05
+#: So many equal readings in a row, at the end of the range, are a sensor that clips (or a supply that is off).
+_STUCK = 4
+#: Share of equal neighbours among the other readings beyond which a sensor rounds by more than its noise.
+_TWINS = 0.2
+#: Readings that must remain beside those for an estimate without them.
+_ENOUGH = 16
 #: Times that dither is drawn, to average its own scatter out.
 _DRAWS = 8
 
@@ -26,8 +32,9 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     Each reading is compared with the line through its two neighbours (with unequal spacing too), which removes value
     and slope; where the cubic through four neighbours leaves less, the signal is curved and that one counts. Readings
     around switches, where the signal itself bends, are recognised by their size and left out: differences alone would
-    count them as noise. Rounded readings are dithered with one step of uniform noise, whose variance is taken off
-    again: the distances of rounded readings take few values, and their median would jump between them.
+    count them as noise. Readings that stand still at the end of the range have no noise and are left out too: a clipped
+    channel would be trusted far too much. Rounded readings are dithered with one step of uniform noise, whose variance
+    is taken off again: the distances of rounded readings take few values, and their median would jump between them.
 
     Args:
         times: Shape (samples,) [s], rising.
@@ -46,9 +53,10 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     floor = max(step / np.sqrt(12.0), LEAST * spread, 1e-9 * size, float(np.finfo(float).tiny))
     if len(values) < 3:
         return float(floor)
-    found = _deviation(times, values, step, 1)
-    if len(values) >= 16:
-        finer = _deviation(times, values, step, 2)
+    is_free = ~_is_stuck(values)
+    found = _deviation(times, values, step, 1, is_free)
+    if len(values) >= _ENOUGH:
+        finer = _deviation(times, values, step, 2, is_free)
         found = finer if finer < (1.0 - _CURVED) * found else found
     return float(max(found, floor))
 
@@ -70,15 +78,33 @@ def find_quantum(values: Array) -> float:
     return float(np.mean(gaps[(gaps >= smallest) & (gaps < 1.5 * smallest)]))
 
 
-def _deviation(times: Array, values: Array, quantum: float, reach: int) -> float:
-    """Deviation from the bends, with `reach` neighbours on each side."""
+def _is_stuck(values: Array) -> AnyArray:
+    """Whether each reading is one of a row of equal ones at the end of the range, shape (samples,).
+
+    Where other neighbours are equal too, the sensor rounds by more than its noise: then a row tells nothing.
+    """
+    is_equal = np.diff(values) == 0.0
+    edges = np.flatnonzero(~is_equal) + 1
+    found = np.zeros(len(values), dtype=bool)
+    for first, last in zip((0, *edges), (*edges, len(values))):
+        is_end = values[first] in (np.max(values), np.min(values))
+        found[first:last] = is_end and last - first >= _STUCK
+    others = is_equal[~(found[1:] | found[:-1])]
+    return found if others.size and np.mean(others) < _TWINS else np.zeros_like(found)
+
+
+def _deviation(times: Array, values: Array, quantum: float, reach: int, is_free: AnyArray) -> float:
+    """Deviation from the bends, with `reach` neighbours on each side; of windows that are free, if there are enough."""
+    count = len(values) - 2 * reach
+    chosen = np.all([is_free[k : k + count] for k in range(2 * reach + 1)], axis=0)
+    chosen = chosen if chosen.sum() >= _ENOUGH else np.ones(count, dtype=bool)
     if not quantum:
-        return _scale(_bends(times, values, reach))
+        return _scale(_bends(times, values, reach)[chosen])
     random = np.random.default_rng(0)
     variances = []
     for _ in range(_DRAWS):
         dithered = values + quantum * (random.random(len(values)) - 0.5)
-        variances.append(_scale(_bends(times, dithered, reach)) ** 2)
+        variances.append(_scale(_bends(times, dithered, reach)[chosen]) ** 2)
     return float(np.sqrt(max(float(np.mean(variances)) - quantum**2 / 12.0, 0.0)))
 
 

@@ -253,6 +253,17 @@ def test_noise_is_never_below_rounding_and_never_zero():
     assert estimate_noise(times[:2], np.array([1.0, 2.0])) > 0.0
 
 
+@pytest.mark.parametrize("quantum", [0.0, 0.05])
+def test_readings_that_stand_still_at_the_end_of_the_range_do_not_lower_the_estimate(quantum):
+    times, values = heating(0.3, quantum, 1)
+    free = estimate_noise(times, values, quantum)
+    clipped = np.minimum(values, np.quantile(values, 0.5))
+    assert np.mean(clipped == clipped.max()) > 0.45
+    # Half of 200 readings are left, and those next to the ceiling have lost a part of their noise; with the readings
+    # at the ceiling it would be a third.
+    assert estimate_noise(times, clipped, quantum) == pytest.approx(free, rel=0.25)
+
+
 def test_wild_readings_do_not_raise_the_estimate():
     times, values = heating(0.3, 0.0, 1)
     calm = estimate_noise(times, values)
