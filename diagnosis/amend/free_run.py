@@ -22,6 +22,7 @@ from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES
 from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
 from diagnosis.bank.plan import Plan
+from diagnosis.bank.source import reads_current
 from diagnosis.candidates.registry import catalogue
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -66,13 +67,16 @@ def read_run(
     """
     inputs = translation.drive.on_grid(np.asarray(results["time"].values, dtype=np.float64))
     plan = Plan(translation.layout, inputs, times, is_midpoint=True)
-    traces = {q: _trace(results, translation, q, inputs) for q in plan.times}
     terms = tuple(t for t in catalogue() if t.axis == "channel")
     parameters = BankParameters()
     if changes is not None:
         found = {s.term.identifier: dict(s.values) for s in changes.of(Part.SENSOR)}
         parameters = BankParameters(dict(changes.sensors), found)
-    packing = Packing(translation.layout, terms, active_terms(terms, parameters))
+    active = active_terms(terms, parameters)
+    is_current_read = any(reads_current(t) for t in terms if t.identifier in active)
+    wanted = {*plan.times, *(("current",) if is_current_read and translation.circuit is not None else ())}
+    traces = {q: _trace(results, translation, q, inputs) for q in wanted}
+    packing = Packing(translation.layout, terms, active)
     # The bank reads these traces in place of its own, so that both go through the same sensors.
     pointers = (ctypes.c_void_p * len(QUANTITIES))(*(traces[q].ctypes.data if q in traces else 0 for q in QUANTITIES))
     plan.structure.traces = ctypes.addressof(pointers)

@@ -46,6 +46,7 @@ typedef struct {
     double offset, lag, share;
     const double *time;
     double *value;
+    double *current; /* in the coil that the channel reads; NULL: no term asks for it, or the channel is of no coil */
 } Sensor;
 
 #define COIL(name) (s->coil + (int64_t)FIELD_##name * s->width)

@@ -13,6 +13,8 @@ from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES, Array, BankLayout
 
 _POINTER = ctypes.c_void_p
+#: What record.c reports in place of a step where a sensor reads a current that nothing tells.
+_NO_CURRENT = -2
 
 
 class PlanLayout(ctypes.Structure):
@@ -91,7 +93,16 @@ class Plan:
         self._offsets = dict(zip(QUANTITIES, offsets))
 
     def time_after(self, step: int) -> float:
-        """End of a step [s]."""
+        """End of a step [s] in which a simulation failed.
+
+        Raises:
+            ValueError: There was none: a sensor reads the current in its coil, and the strings' currents are unknown.
+        """
+        if step == _NO_CURRENT:
+            raise ValueError(
+                "a sensor reads the current in its coil, but the currents of the strings are unknown here: the bank is "
+                "given its power, or traces without `current`"
+            )
         return float(self._time[step + 1])
 
     def split(self, out: Array) -> dict[str, Array]:

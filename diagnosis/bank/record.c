@@ -2,6 +2,9 @@
 
 #define SCAN_POINTS 8192
 
+/* What `run` returns beside the number of a step. */
+enum { RAN = -1, NO_CURRENT = -2 };
+
 /* Cooling branch less heating branch at x [degC]. */
 static inline double branch_gap(const double *up, const double *down, double x)
 {
@@ -162,8 +165,31 @@ static void lag_column(const Plan *plan, int is_flow, double lag, double *column
     }
 }
 
-static void sample_channel(const Step *s, int q, const double *trace, Sensor *sensor, double *column, double *raw)
+static int64_t string_of(const Plan *plan, int64_t coil)
 {
+    int64_t n = 0;
+    while (plan->first[n + 1] <= coil) {
+        n++;
+    }
+    return n;
+}
+
+/* Current of the coil that a channel reads, by its clock; the lag of a sensor lies before what picks the current up. */
+static void sample_current(const Plan *plan, const double *trace, int64_t element, int64_t partner, Sensor *sensor)
+{
+    const int64_t own = string_of(plan, element), other = string_of(plan, partner);
+    int64_t hint = 0, a, b;
+    for (int64_t n = 0; n < sensor->samples; n++) {
+        const double w = locate(plan, 1, sensor->time[n] - sensor->offset, &hint, &a, &b);
+        const double *low = trace + a * plan->strings, *high = trace + b * plan->strings;
+        const double here = low[own] + w * (high[own] - low[own]), there = low[other] + w * (high[other] - low[other]);
+        sensor->current[n] = here + sensor->share * (there - here);
+    }
+}
+
+static void sample_channel(const Step *s, int q, double *const *traces, Sensor *sensor, double *column, double *raw)
+{
+    const double *trace = traces[q];
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), element = sensor->channel - quantity_channel(s, q);
     const int is_flow = quantity_is_flow[q];
@@ -193,10 +219,13 @@ static void sample_channel(const Step *s, int q, const double *trace, Sensor *se
             sensor->value[n] = column[a] + w * (column[b] - column[a]);
         }
     }
+    if (sensor->current) {
+        sample_current(plan, traces[QUANTITY_current], element, partner, sensor);
+    }
     HOOK_sensor(sensor);
 }
 
-static void sample(const Step *s, int q, const double *trace, double *out, double *work)
+static void sample(const Step *s, int q, double *const *traces, double *out, double *work)
 {
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
@@ -205,7 +234,7 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
         int64_t hint = 0, a, b;
         for (int64_t n = 0; n < samples; n++) {
             const double w = locate(plan, quantity_is_flow[q], time[n] - s->late[q], &hint, &a, &b);
-            const double *low = trace + a * elements, *high = trace + b * elements;
+            const double *low = traces[q] + a * elements, *high = traces[q] + b * elements;
             for (int64_t i = 0; i < elements; i++) {
                 out[n * elements + i] = gain * (low[i] + w * (high[i] - low[i]));
             }
@@ -213,10 +242,11 @@ static void sample(const Step *s, int q, const double *trace, double *out, doubl
         return;
     }
     double *column = work, *raw = work + plan->steps + 1, *value = raw + plan->steps + 1;
+    double *current = READS_CURRENT(plan) && plan->strings && quantity_is_of_coils[q] ? value + samples : NULL;
     for (int64_t i = 0; i < elements; i++) {
         Sensor sensor = {.set = s->set, .channel = quantity_channel(s, q) + i, .samples = samples, .time = time,
-                         .value = value};
-        sample_channel(s, q, trace, &sensor, column, raw);
+                         .value = value, .current = current};
+        sample_channel(s, q, traces, &sensor, column, raw);
         for (int64_t n = 0; n < samples; n++) {
             out[n * elements + i] = gain * value[n];
         }
@@ -259,7 +289,7 @@ static double *place(Step *s, double *memory)
     return memory + 2 * STATES * s->width;
 }
 
-/* Fills the traces. Returns -1, or the step in which a temperature or an extension stopped being finite. */
+/* Fills the traces. Returns RAN, or the step in which a temperature or an extension stopped being finite. */
 static int64_t simulate(Step *s, double *const *trace)
 {
     const Plan *plan = s->plan;
@@ -276,7 +306,7 @@ static int64_t simulate(Step *s, double *const *trace)
         keep(s, trace, k + 1);
     }
     keep_start(s, trace);
-    return -1;
+    return RAN;
 }
 
 /* Traces of another simulation, to be read as this one is. */
@@ -289,7 +319,14 @@ static void copy_traces(const Step *s, double *const *trace)
     }
 }
 
-/* Simulates one set. Returns -1, or the step in which a temperature or an extension stopped being finite. */
+/* Whether the currents are known that terms of the sensors ask for. */
+static int has_current(const Plan *plan)
+{
+    const int is_known = plan->traces ? plan->traces[QUANTITY_current] != NULL : plan->has_circuit;
+    return !READS_CURRENT(plan) || !plan->strings || is_known;
+}
+
+/* Simulates one set. Returns RAN, NO_CURRENT, or the step in which something stopped being finite. */
 static int64_t run(const Plan *plan, const double *set, double *out, double *memory)
 {
     Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
@@ -301,25 +338,29 @@ static int64_t run(const Plan *plan, const double *set, double *out, double *mem
     s->slow = s->late + QUANTITIES;
     s->wrong = s->slow + QUANTITIES;
     memory = place(s, memory);
+    if (!has_current(plan)) {
+        return NO_CURRENT;
+    }
     double *trace[QUANTITIES];
     for (int q = 0; q < QUANTITIES; q++) {
-        trace[q] = plan->samples[q] ? memory : NULL;
-        memory += plan->samples[q] ? (plan->steps + 1) * quantity_elements(s, q) : 0;
+        const int is_kept = plan->samples[q] || (q == QUANTITY_current && READS_CURRENT(plan));
+        trace[q] = is_kept ? memory : NULL;
+        memory += is_kept ? (plan->steps + 1) * quantity_elements(s, q) : 0;
     }
     if (plan->traces) {
         copy_traces(s, trace);
     } else {
         const int64_t step = simulate(s, trace);
-        if (step >= 0) {
+        if (step != RAN) {
             return step;
         }
     }
     for (int q = 0; q < QUANTITIES; q++) {
-        if (trace[q]) {
-            sample(s, q, trace[q], out + plan->out_offset[q], memory);
+        if (plan->samples[q]) {
+            sample(s, q, trace, out + plan->out_offset[q], memory);
         }
     }
-    return -1;
+    return RAN;
 }
 
 /* Simulates `sets` parameter sets one after the other; the number of the first that failed and its step are reported.
@@ -333,7 +374,7 @@ int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t 
         size += (plan->steps + 1) * (plan->coils + plan->strings + 1);
         most_samples = plan->samples[q] > most_samples ? plan->samples[q] : most_samples;
     }
-    size += 2 * (plan->steps + 1) + most_samples;
+    size += 2 * (plan->steps + 1) + 2 * most_samples;
     double *memory = malloc(size * sizeof(double));
     if (!memory) {
         return 2;
@@ -341,7 +382,7 @@ int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t 
     int result = 0;
     for (int64_t n = 0; n < sets && !result; n++) {
         const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory);
-        if (step >= 0) {
+        if (step != RAN) {
             failure[0] = n;
             failure[1] = step;
             result = 1;

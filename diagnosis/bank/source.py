@@ -75,10 +75,12 @@ def _numbers(terms: Sequence[CandidateTerm]) -> str:
 def _quantities() -> str:
     arrays = ", ".join(f"s->{q.array}" for q in QUANTITIES.values())
     size = {"coil": "s->coils", "string": "s->strings", "supply": "(s->sources > 0)"}
+    of_coils = ", ".join(str(int(q.axis == "coil")) for q in QUANTITIES.values())
     cases = " ".join(f"case {n}: return {size[q.axis]};" for n, q in enumerate(QUANTITIES.values()))
     flows = ", ".join(str(int(q.is_flow)) for q in QUANTITIES.values())
     return f"""#define QUANTITY_ARRAYS {arrays}
 static const int quantity_is_flow[QUANTITIES] = {{{flows}}};
+static const int quantity_is_of_coils[QUANTITIES] = {{{of_coils}}};
 static int64_t quantity_elements(const Step *s, int q)
 {{
     switch (q) {{ {cases} }}
@@ -96,6 +98,11 @@ static int64_t quantity_channel(const Step *s, int quantity)
 def words(text: str) -> set[str]:
     """Identifiers in C lines."""
     return set(re.findall(r"[A-Za-z_]\w*", text))
+
+
+def reads_current(term: CandidateTerm) -> bool:
+    """Whether it is one of a sensor that reads the current in the coil of its channel."""
+    return "I" in words(term.lines.get("sensor", ""))
 
 
 def _state_offset(term: CandidateTerm, number: int) -> str:
@@ -206,9 +213,11 @@ def _sensor_function(term: CandidateTerm, hook: str, head: str) -> str:
     if hook == "sensor":
         loop = "for (int64_t n = 0; n < sensor->samples; n++)"
         before += ["const double t = sensor->time[n];"] if "t" in used else []
+        before += ["const double I = sensor->current[n];"] if reads_current(term) else []
     body = "\n        ".join([*before, *term.lines[hook].strip().splitlines(), *after])
     arguments = "Sensor *sensor, const double *restrict p, int64_t channels"
-    return f"{head}{arguments})\n{{\n    {loop}\n    {{\n        {body}\n    }}\n}}\n"
+    guard = "if (!sensor->current) { return; }" if reads_current(term) else ""
+    return f"{head}{arguments})\n{{\n    {guard}\n    {loop}\n    {{\n        {body}\n    }}\n}}\n"
 
 
 def _start(term: CandidateTerm) -> str:
@@ -245,6 +254,8 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
     out.append(f"#define HAS_PAIRS(plan) ({' || '.join(paired) or '0'})")
     sensors = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if t.axis == "channel"]
     out.append(f"#define HAS_SENSOR(plan) ({' || '.join(sensors) or '0'})")
+    reading = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if reads_current(t)]
+    out.append(f"#define READS_CURRENT(plan) ({' || '.join(reading) or '0'})")
     return "\n".join(out) + "\n"
 
 

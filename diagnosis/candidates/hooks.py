@@ -38,7 +38,11 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "T_end": ("K", "temperature at the end of the step; before the heat balance is solved, its begin"),
     "T_ambient": ("K", "temperature of the surroundings of the coil"),
     "P": ("W", "electrical power in the coil over the step; in `resistance` that of the step before"),
-    "I": ("A", "current; in `resistance` and `string` that of the last solution"),
+    "I": (
+        "A",
+        "current; in `resistance` and `string` that of the last solution; in `sensor` that of the channel's coil at "
+        "the time of the sample, without the sensor's lag",
+    ),
     "dTdt": ("K/s", "rate of the temperature: mean over the step; in `resistance` and `heat` over the step before"),
     "energy": ("J", "electrical energy since the start"),
     "phase": ("1", "share of austenite: (remembered - heating_d) / heating_a, from 0 to 1"),

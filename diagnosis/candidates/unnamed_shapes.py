@@ -219,17 +219,22 @@ def _of_resistance() -> Iterator[CandidateTerm]:
 
 
 def _of_value() -> Iterator[CandidateTerm]:
-    """A sensor that is not linear."""
-    fixed = (
-        Parameter("scale", "unit of the channel", 1e-9, 1000.0, "given", (10.0,), is_fixed=True),
-        Parameter("pivot", "unit of the channel", -1000.0, 1000.0, "given", (0.0, 295.15), is_fixed=True),
-    )
+    """A sensor that is not linear, or that reads something else of its coil too."""
+    scale = Parameter("scale", "unit of the channel", 1e-9, 1000.0, "given", (10.0,), is_fixed=True)
+    pivot = Parameter("pivot", "unit of the channel", -1000.0, 1000.0, "given", (0.0, 295.15), is_fixed=True)
     yield _term(
         ("measurement", "value_square", "the reading itself, square"),
         "value = truth + a * scale * ((truth - pivot) / scale)**2",
-        (_amplitude("1", 0.3, 0.01, 0.05), *fixed),
+        (_amplitude("1", 0.3, 0.01, 0.05), scale, pivot),
         {"sensor": "value += a * scale * ((value - pivot) / scale) * ((value - pivot) / scale);"},
         ("channel", "quantity"),
+    )  # fmt: skip
+    amperes = VARIABLES["amperes"][0]
+    # Up to a whole scale at the typical current: a thermocouple welded to a wire is off by kelvins per ampere.
+    yield _term(
+        ("measurement", "value_linear_amperes", "current in its coil, linear"),
+        f"value = truth + a * scale * ({amperes})", (_amplitude("1", 1.0, 0.01, 0.05), scale),
+        {"sensor": f"value += a * scale * ({amperes});"}, ("channel", "quantity"),
     )  # fmt: skip
 
 

@@ -92,6 +92,7 @@ def _largest(model: BankModel, point: Point, free: dict[str, Any]) -> float:
         ("open_coil@coil[1,2]",),
         ("slide_friction@all coils", "sensor_gain@coil[1,1].temperature", "sensor_lag@every extension"),
         ("wrong_identity",),
+        ("unnamed_value_linear_amperes@coil[2,1].temperature",),
     ],
     ids=lambda w: ", ".join(w) or "recalibrated",
 )
@@ -104,6 +105,34 @@ def test_a_free_run_gives_what_the_bank_predicts(
     assert _largest(model, point, free_run(amended, recording, model.runs[0].times)) < TOLERANCE
     before = free_run_of(bench.scenario(), recording, model.runs[0].times)
     assert _largest(model, point, before) > 10 * TOLERANCE
+
+
+def test_a_free_run_tells_a_sensor_the_current_of_its_coil_though_no_current_is_recorded(
+    model: BankModel, recording: Recording, tmp_path: Path
+) -> None:
+    """With and without the term the run is the same: what the sensor adds is the run's own current, by its law."""
+    term = "unnamed_value_linear_amperes@coil[2,1].temperature"
+    amended = amend(bench.scenario(), model, _point(model, term), tmp_path / "on")
+    plain = amend(bench.scenario(), model, _point(model), tmp_path / "off")
+    times = model.runs[0].times["temperature"]
+    found = free_run(amended, recording, {"temperature": times})["temperature"]
+    # clocks of quantities are late each in its own way: here the currents are read by that of the temperatures
+    without = free_run(plain, recording, {"temperature": times})["temperature"]
+    change = found - without
+    assert not change[:, [0, 1, 3]].any()
+    sensors = yaml.safe_load((tmp_path / "on" / "sensors.yaml").read_text())["sensors"]
+    own = next(s for s in sensors if "channel" in s)
+    assert own == {
+        "channel": "coil[2,1].temperature", "effect": "unnamed_value_linear_amperes",
+        "law": "value = truth + a * scale * (I / 0.4)", "parameters": {"a": "-0.01", "scale": "10"},
+    }  # fmt: skip
+    late = next((s["parameters"]["clock_offset"] for s in sensors if s.get("quantity") == "temperature"), "0 s")
+    moments = times - float(late.split()[0])
+    current = free_run(plain, recording, {"current": moments.clip(0.0)})["current"][:, 1]
+    own_clock = next((s for s in sensors if s.get("quantity") == "current"), None)
+    assert own_clock is None  # so that the currents above are those at the moments asked for
+    assert np.abs(change[:, 2]).max() > 0.05
+    assert change[:, 2] == pytest.approx(-0.01 * 10.0 * current / 0.4, abs=1e-12)  # rounding of 300 K
 
 
 def _under(recording: Recording, components: dict[str, Any]) -> Recording:

@@ -17,6 +17,7 @@ SOME = (
     "second_mass", "latent_heat", "contact_resistance", "loose_contact", "supply_source_resistance", "neighbour_heat",
     "shared_mass", "uneven_cooling", "phase_dependent_resistance", "fatigue", "viscous_damping", "creep", "sensor_lag",
     "sensor_gain", "sensor_bias", "wrong_identity", "unnamed_heat_delayed_phase", "unnamed_length_linear_rate",
+    "unnamed_value_linear_amperes",
 )  # fmt: skip
 
 
