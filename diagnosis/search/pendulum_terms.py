@@ -47,6 +47,7 @@ _LAWS = (
         TermParameter("tilt", "rad", -0.2, 0.2, (1e-3, -1e-3, 1e-2, -1e-2)),)),
 )  # fmt: skip
 
+#: A spring stores energy, so its stiffness is not negative: a fit that may be found two other terms in its place.
 _HANGING = math.pi
 #: Rates at which a periodic torque is looked for [rad/s]: closer than what 12 s can tell apart.
 _RATES = tuple(0.5 * n for n in range(2, 41))
@@ -56,9 +57,9 @@ _UNNAMED = (
         TermParameter("cubic_drag", "N*m*s^3", 0.0, 0.01, (1e-7, 1e-6, 1e-5)),)),
     _Law("torque_of_position", "torque with the position",
          "torque = -spring_stiffness * (angle - spring_rest)", (
-        TermParameter("spring_stiffness", "N*m", -0.05, 0.05, (1e-3, -1e-3, 5e-3)),
+        TermParameter("spring_stiffness", "N*m", 0.0, 0.05, (1e-3, 5e-3)),
         TermParameter("spring_rest", "rad", _HANGING - 2.0, _HANGING + 2.0,
-                      (_HANGING - 1.0, _HANGING, _HANGING + 1.0)))),
+                      (_HANGING, _HANGING - 0.3, _HANGING + 0.3)))),
     _Law("torque_of_rate_in_a_band", "torque with the rate near the lowest position",
          "torque = -band_damping * exp(-((angle - pi) / band_width)**2) * w", (
         TermParameter("band_damping", "N*m*s", 0.0, 0.05, (1e-4, 1e-3)),
