@@ -28,8 +28,8 @@ _ON_RIGS = """*All right*: verdict, units, elements, times and names. Time is th
 _ON_METHODS = """Median chi-square per sample of held-out recordings. All methods have the same recordings; the Gaussian
 process and sparse regression start from the recalibrated model. *Terms* are those that SINDy reports per channel. *Ran
 away*: forecasts of SINDy that grew without bound. *Without the effect*, of cases outside the catalogue: the
-recalibrated model on recordings of the same rig with the same noise and no effect. No model of the effect can be asked
-for more, since what else the model lacks stays. *Noise alone*: the readings less what they would be without noise.
+recalibrated model on recordings of the same rig with the same noise and no effect. No model of the effect is asked for
+more, since what else the model lacks stays. *Noise alone*: the readings less what they would be without noise.
 """
 
 
