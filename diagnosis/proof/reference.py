@@ -17,7 +17,8 @@ class Reference:
         oracle: Of the model that knows the effects: recalibrated with the true terms at the true places; None where
             the catalogue has no such terms.
         twin: Of the recalibrated model of the twin: the same rig without the effect, its recordings read with the same
-            noise. Near what a model that knew the effect exactly would reach, but no bound. None where the ground wrote no twin.
+            noise. Near what a model that knew the effect exactly would reach, but no bound. None where the ground wrote
+            no twin.
         floor: Of the readings without their noise: nothing can do better but by chance.
         training_gain: Fall of -2 log posterior by the true terms in the training recordings, or None.
         baselines: Of other methods, by name; None where a forecast runs away.
