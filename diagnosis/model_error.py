@@ -10,7 +10,7 @@ from functools import partial, reduce
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.fit import fit
+from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
@@ -78,15 +78,7 @@ def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
     base = recalibrate(model)
     best = shrink(model, Explanation(fit(model, outcome.best.fit.point)), outcome.margin)
     near = [e for e in outcome.rivals if len(e.terms) == len(best.terms)]
-    rivals = sorted([best, *(Explanation(fit(model, e.fit.point)) for e in near)], key=lambda e: e.fit.cost)
-    return replace(
-        outcome,
-        base=base,
-        base_structure=structure(base.residuals, model.layout, model.groups()),
-        best=best,
-        left=structure(best.fit.residuals, model.layout, model.groups()),
-        rivals=tuple(_once(rivals)),
-    )
+    return _settled(model, outcome, base, best, [Explanation(fit(model, e.fit.point)) for e in near])
 
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
@@ -110,9 +102,7 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
     on_progress("trying others in the place of what was found")
     near += _exchanged(model, explanation, plain, wide, outcome.margin)
-    rivals = sorted([explanation, *near], key=lambda e: e.fit.cost)
-    left = structure(explanation.fit.residuals, model.layout, model.groups())
-    return replace(outcome, best=explanation, left=left, rivals=tuple(_once(rivals)))
+    return _settled(model, outcome, outcome.base, explanation, near)
 
 
 def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], None]) -> Outcome:
@@ -134,14 +124,20 @@ def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], 
         known.append(validation.foretold(explanation))
     plain = plain_terms(model, [t for e in fitted for t in e.terms])
     best = shrink(model, chosen(known, set(plain), margin).explanation, margin)
-    near = sorted((e for e in (best, *fitted) if len(e.terms) == len(best.terms)), key=lambda e: e.fit.cost)
+    return _settled(model, first, base, best, [e for e in fitted if len(e.terms) == len(best.terms)])
+
+
+def _settled(
+    model: TemperedModel, outcome: Outcome, base: Fit, best: Explanation, near: Sequence[Explanation]
+) -> Outcome:
+    """The outcome with another base, another best explanation, and its rivals, each once and best first."""
     return replace(
-        first,
+        outcome,
         base=base,
         base_structure=structure(base.residuals, model.layout, model.groups()),
         best=best,
         left=structure(best.fit.residuals, model.layout, model.groups()),
-        rivals=tuple(_once(near)),
+        rivals=tuple(_once(sorted([best, *near], key=lambda e: e.fit.cost))),
     )
 
 
