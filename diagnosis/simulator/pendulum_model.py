@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import MISSING, dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -21,12 +22,10 @@ from diagnosis.search.cosim_run import Changes
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
 from diagnosis.search.problem import Point, Term
 from diagnosis.simulator.pendulum_batch import arm, is_available, swings
+from mechanics.pendulum_design import PendulumDesign, behind_play
 
-#: Numbers of a design that a scenario need not give, as in mechanics/pendulum_design.py.
-_DEFAULTS = {
-    **dict.fromkeys(PENDULUM_UNITS, 0.0), "gravity": 9.80665, "stribeck_speed": 0.05, "band_width": 0.25,
-    "spring_rest": math.pi, "initial_angle": math.pi,
-}  # fmt: skip
+#: Numbers of a design that a scenario need not give.
+_DEFAULTS: Mapping[str, float] = {f.name: f.default for f in fields(PendulumDesign) if f.default is not MISSING}
 _Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
 #: Residuals that are kept: a fit asks again for those where it stands.
 KEPT = 64
@@ -74,7 +73,7 @@ class PendulumModel(CosimModel):
         parameters = {component: dict(own) for component, own in found.parameters.items()}
         for own in parameters.values():
             if "mass" in own and "central_inertia" not in own:
-                values = self._grid(number).values
+                values = self._grids[number].values
                 central = values["central_inertia"] * own["mass"].to("kg") / values["mass"]
                 own["central_inertia"] = PhysicalValue(central, "kg*m^2")
         return Changes(parameters, found.shifts)
@@ -98,9 +97,14 @@ class PendulumModel(CosimModel):
             jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         return jacobian
 
+    @cached_property
+    def _known(self) -> dict[_Key, Array]:
+        """Residuals that are kept."""
+        return {}
+
     def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
         """Residuals of single recordings."""
-        known: dict[_Key, Array] = self.__dict__.setdefault("_known", {})
+        known = self._known
         keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
         new = {key: one for key, one in zip(keys, wanted) if key not in known}
         for key, values in zip(new, self._swung(list(new.values()))):
@@ -128,7 +132,7 @@ class PendulumModel(CosimModel):
         numbers = [self._numbers(point, number) for point, number in wanted]
         together: dict[tuple[float, float, int], list[int]] = {}
         for i, ((_, number), values) in enumerate(zip(wanted, numbers)):
-            grid = self._grid(number)
+            grid = self._grids[number]
             if _is_possible(values):
                 together.setdefault((grid.micro, grid.macro, len(grid.times)), []).append(i)
         found: list[list[Array] | None] = [None] * len(wanted)
@@ -137,20 +141,20 @@ class PendulumModel(CosimModel):
                 if np.isfinite(course).all():
                     found[i] = self._read(*wanted[i], {
                         "arm_angle": course[:, 0], "angular_velocity": course[:, 1],
-                        "angle": behind_play(course[:, 0], numbers[i]["backlash"]),
+                        "angle": encoded(course[:, 0], numbers[i]["backlash"]),
                     })  # fmt: skip
         return found
 
     def _numbers(self, point: Point, number: int) -> dict[str, float]:
         """All numbers of the arm, SI."""
-        values = dict(self._grid(number).values)
+        values = dict(self._grids[number].values)
         for own in self.changes_at(point, number).parameters.values():
             values.update({n: v.to(PENDULUM_UNITS[n]) for n, v in own.items()})
         return values
 
     def _read(self, point: Point, number: int, course: Mapping[str, Array]) -> list[Array]:
         """What the sensors read of a course."""
-        found, grid = [], self._grid(number)
+        found, grid = [], self._grids[number]
         for channel in self.recordings[number].channels.values():
             times, values = grid.times, course[channel.target.quantity]
             late, gain = 0.0, 0.0
@@ -168,11 +172,10 @@ class PendulumModel(CosimModel):
             found.append(middle + (1.0 + gain) * (sample(series, channel.times - late) - middle))
         return found
 
-    def _grid(self, number: int) -> _Grid:
-        known: dict[int, _Grid] = self.__dict__.setdefault("_grids", {})
-        if number not in known:
-            known[number] = _grid_of(self.scenarios[number])
-        return known[number]
+    @cached_property
+    def _grids(self) -> list[_Grid]:
+        """Of every recording."""
+        return [_grid_of(scenario) for scenario in self.scenarios]
 
 
 def _grid_of(scenario: Scenario) -> _Grid:
@@ -201,16 +204,13 @@ def _is_possible(values: Mapping[str, float]) -> bool:
     return positive and all(math.isfinite(v) for v in values.values()) and values["central_inertia"] >= 0.0
 
 
-def behind_play(angle: Array, play: float) -> Array:
-    """Encoder behind a play of this full width [rad], from its middle, shape as given.
-
-    Source: play operator, A. Visintin, Differential Models of Hysteresis, Springer 1994, chapter III.
-    """
+def encoded(angle: Array, play: float) -> Array:
+    """Encoder behind a play of this full width [rad], from its middle, shape as given."""
     if play <= 0.0:
         return angle
     found, stands = np.empty_like(angle), float(angle[0])
     for i, now in enumerate(angle.tolist()):
-        stands = min(max(stands, now - 0.5 * play), now + 0.5 * play)
+        stands = behind_play(stands, now, play)
         found[i] = stands
     return found
 
