@@ -76,7 +76,7 @@ def diagnose(
                 write_json(found.diagnosis, out / "diagnosis.json")
                 print_summary(found.diagnosis, Console())
                 return
-            diagnosis = hand_over(found, base, out)
+            diagnosis = hand_over(found, base, judges, out)
     except KeyboardInterrupt:
         rest = (
             f"`--resume` goes on from its {kept.count()} simulations"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,19 +14,20 @@ from diagnosis.diagnose import Found
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.confirmed import confirmed
 from diagnosis.judge.diagnosis import Diagnosis
-from diagnosis.recording.recording import load_recording
+from diagnosis.recording.recording import Recording
 from diagnosis.report.json_file import write_json
 from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
 from diagnosis.simulator.models import strings_of
 
 
-def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
+def hand_over(found: Found, scenario: Scenario, held_out: Sequence[Recording], out: Path) -> Diagnosis:
     """Write the amended model, next_experiment/scenario.yaml where one was designed, report.html and diagnosis.json.
 
     Args:
         found: The diagnosis and its models.
         scenario: What was diagnosed.
+        held_out: Recordings that judged, as the diagnosis was given them.
         out: Folder; made where it does not exist.
 
     Returns:
@@ -37,7 +39,6 @@ def hand_over(found: Found, scenario: Scenario, out: Path) -> Diagnosis:
     diagnosis = found.diagnosis
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
-        held_out = [load_recording(r.path) for r in diagnosis.recordings if r.is_held_out]
         points = found.points, found.held_out_points
         diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
         diagnosis = confirmed(diagnosis, found.foretell)
