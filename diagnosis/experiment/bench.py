@@ -13,7 +13,8 @@ from diagnosis.bank.inputs import Drive
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.experiment.separation import Bordered, Separation, distance, root, separation
 from diagnosis.recording.recording import Channel, Recording
-from diagnosis.search.fit import STEP, Fit
+from diagnosis.search.fit import Fit
+from diagnosis.search.objective import STEP
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.runs import Run, deviation

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.fit import Fit, huber_weights
+from diagnosis.search.fit import Fit
+from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
 
 #: Strength at which an effect is simulated, as a share of its middle start value.

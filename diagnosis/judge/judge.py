@@ -6,7 +6,8 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
-from diagnosis.search.fit import HUBER, Fit, cost
+from diagnosis.search.fit import Fit
+from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.simulator.models import DiagnosisModel

@@ -14,7 +14,7 @@ from scipy.ndimage import median_filter
 
 from cosim.unit import AnyArray, Array
 from diagnosis.locate.panel import Noise, Panel
-from diagnosis.search.fit import HUBER
+from diagnosis.search.posterior import HUBER
 from diagnosis.search.structure import LEVEL, WINDOWS
 
 #: Simulated nulls from which the limit is taken.

@@ -18,7 +18,8 @@ from diagnosis.proof.answer import Answer, Concealed
 from diagnosis.proof.ground import read_task
 from diagnosis.proof.place import Rig, found_place, read_rig, true_place
 from diagnosis.recording.recording import Recording, load_recording
-from diagnosis.search.fit import Fit, cost, fit
+from diagnosis.search.fit import Fit, fit
+from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Point, Term, TermParameter
 from diagnosis.simulator.bank_model import BankModel
 

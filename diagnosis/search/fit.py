@@ -11,16 +11,10 @@ from scipy.linalg import LinAlgError
 
 from cosim.unit import AnyArray, Array
 from diagnosis.search.bounded import bounded_step
-from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.objective import Objective
+from diagnosis.search.posterior import huber_weights
+from diagnosis.search.problem import Model, Point
 
-#: Residuals beyond this many deviations count linearly (Huber): one wild reading must not look like physics.
-HUBER = 4.0
-#: Deviations beyond which residuals are all the same.
-RUNAWAY = 1e6
-#: Share of the way to its bound within which a parameter lies at it.
-AT_BOUND = 1e-4
-#: Relative step of the differences by which a term's parameters are varied.
-STEP = 1e-3
 #: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
 TOLERANCE = 1e-6
 #: Derivatives by the model's own parameters are taken anew after a step that gains less than this share of its promise.
@@ -31,12 +25,6 @@ MOVED, NEAR = 1.5, 0.2
 REWEIGHED = 0.005
 #: Most times that a fit near another takes them anew: it is a trial, and what is good is fitted to the end.
 REFRESHES = 3
-
-
-def huber_weights(residuals: Array) -> Array:
-    """Square roots of the weights with which residuals enter a linearised fit."""
-    size = np.abs(residuals)
-    return np.sqrt(np.where(size > HUBER, HUBER / np.maximum(size, HUBER), 1.0))
 
 
 @dataclass(frozen=True)
@@ -118,84 +106,6 @@ class Fit:
         return np.asarray(inverse / np.outer(scale, scale))
 
 
-def cost(residuals: Array, base: Array, widths: Array | float = 1.0) -> float:
-    """-2 log posterior: Huber's function of the residuals and the squares of the prior's z, up to a constant."""
-    size = np.abs(residuals)
-    prior = float(np.sum((base / widths) ** 2))
-    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2)) + prior)
-
-
-class _Objective:
-    """Residuals and their derivatives over z and the parameters of the terms, in scaled coordinates."""
-
-    def __init__(self, model: Model, terms: Sequence[Term], widths: Array) -> None:
-        self.model, self.terms, self.widths = model, list(terms), widths
-        self.count = len(model.parameters)
-        free = [p for t in terms for p in t.parameters]
-        self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
-        bound = np.array([p.bounds for p in model.parameters]) * widths
-        least = [p.upper if p.is_switch else p.lower for p in free]
-        self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
-        self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
-
-    def point(self, x: Array) -> Point:
-        values = x[self.count :] * self.scale
-        terms, begin = {}, 0
-        for term in self.terms:
-            end = begin + len(term.parameters)
-            terms[term] = tuple(float(v) for v in values[begin:end])
-            begin = end
-        return Point(x[: self.count], terms)
-
-    def vector(self, point: Point) -> Array:
-        values = [v for t in self.terms for v in point.terms[t]]
-        x = np.concatenate([point.base, np.array(values) / self.scale if values else np.zeros(0)])
-        width = self.upper - self.lower
-        inside = 1e-9 * np.where(np.isfinite(width), width, 1.0)
-        return np.asarray(np.clip(x, self.lower + inside, self.upper - inside))
-
-    def residuals(self, x: Array) -> Array:
-        found = self.model.residuals([self.point(x)])[0]
-        # A model that cannot be simulated, or runs away, is a bad one; its square must still be a number.
-        return np.clip(np.where(np.isfinite(found), found, RUNAWAY), -RUNAWAY, RUNAWAY)
-
-    def held(self, x: Array) -> AnyArray:
-        """Which parameters of the model lie at a bound: bounded steps end there, but for rounding."""
-        base, width = x[: self.count], self.upper[: self.count]
-        return np.asarray(np.abs(base) >= (1.0 - AT_BOUND) * width)
-
-    def cost(self, x: Array, residuals: Array) -> float:
-        return cost(residuals, x[: self.count], self.widths)
-
-    def base_columns(self, x: Array) -> Array:
-        """Derivatives by z, shape (residuals, parameters)."""
-        found = self.model.base_jacobian(self.point(x))
-        is_sane = np.abs(found) < RUNAWAY * RUNAWAY
-        return found if is_sane.all() else np.where(is_sane, found, 0.0)
-
-    def term_columns(self, x: Array, here: Array) -> Array:
-        """Derivatives by the terms' scaled parameters, shape (residuals, term parameters)."""
-        steps, moved = [], []
-        for i in range(self.count, len(x)):
-            step = STEP * max(abs(x[i]), 1.0)
-            step = step if x[i] + step < self.upper[i] else -step
-            other = x.copy()
-            other[i] += step
-            moved.append(self.point(other))
-            steps.append(step)
-        if not moved:
-            return np.zeros((len(here), 0))
-        found = ((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T
-        return np.where(np.abs(found) < RUNAWAY * RUNAWAY, found, 0.0)
-
-
-def _scale(starts: Sequence[float], width: float) -> float:
-    sizes = [abs(s) for s in starts if s]
-    if sizes:
-        return float(np.median(sizes))
-    return width if np.isfinite(width) else 1.0
-
-
 def fit(
     model: Model, start: Point, iterations: int = 60, near: Fit | None = None, widths: Array | None = None,
     refreshes: int = REFRESHES,
@@ -222,7 +132,7 @@ def fit(
     """
     if widths is None:
         widths = np.ones(len(model.parameters)) if near is None else near.widths
-    objective = _Objective(model, list(start.terms), widths)
+    objective = Objective(model, list(start.terms), widths)
     x = objective.vector(start)
     here = objective.residuals(x)
     count = objective.count
@@ -253,7 +163,7 @@ def fit(
 
 
 def _descend(
-    objective: _Objective, now: tuple[Array, Array, float], slopes: tuple[Columns, Array], damping: float
+    objective: Objective, now: tuple[Array, Array, float], slopes: tuple[Columns, Array], damping: float
 ) -> tuple[Array, Array, float, float, float]:
     """One accepted step, or none where no damping brings the cost down.
 

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.fit import HUBER
+from diagnosis.search.posterior import HUBER
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.structure import WINDOWS
 

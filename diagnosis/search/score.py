@@ -10,7 +10,8 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.unit import AnyArray, Array
-from diagnosis.search.fit import Fit, huber_weights
+from diagnosis.search.fit import Fit
+from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
 
 #: Strength at which a term is simulated, as a share of its first start value: small enough for a straight line.

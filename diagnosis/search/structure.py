@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import ndtri  # scipy.stats takes a second to load
 
 from cosim.unit import Array
-from diagnosis.search.fit import HUBER
+from diagnosis.search.posterior import HUBER
 from diagnosis.search.problem import Layout
 
 #: Samples per window.

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.search.fit import Fit, cost
+from diagnosis.search.fit import Fit
+from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.score import BATCH, Score, shapes
 

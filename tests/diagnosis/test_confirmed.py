@@ -9,7 +9,7 @@ from diagnosis.judge.confirmed import confirmed, held_out_chi_square
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
 from diagnosis.judge.own_numbers import foretold
 from diagnosis.report.sentences import improvement
-from diagnosis.search.fit import cost
+from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Point
 from tests.diagnosis.report_examples import diagnosis as example
 from tests.search.line_model import TIME, LineModel

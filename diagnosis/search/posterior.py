@@ -1,0 +1,23 @@
+"""-2 log posterior of residuals and parameters, with readings that are wild counted less (Huber)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cosim.unit import Array
+
+#: Residuals beyond this many deviations count linearly (Huber): one wild reading must not look like physics.
+HUBER = 4.0
+
+
+def huber_weights(residuals: Array) -> Array:
+    """Square roots of the weights with which residuals enter a linearised fit."""
+    size = np.abs(residuals)
+    return np.sqrt(np.where(size > HUBER, HUBER / np.maximum(size, HUBER), 1.0))
+
+
+def cost(residuals: Array, base: Array, widths: Array | float = 1.0) -> float:
+    """-2 log posterior: Huber's function of the residuals and the squares of the prior's z, up to a constant."""
+    size = np.abs(residuals)
+    prior = float(np.sum((base / widths) ** 2))
+    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2)) + prior)
