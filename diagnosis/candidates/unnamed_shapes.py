@@ -30,8 +30,13 @@ _SAME = {
     "supply_linear": "supply_source_resistance", "supply_hinge": "supply_current_limit",
     "force_sign_motion": "slide_friction",
     "length_sign_motion": "backlash", "heat_excess_times_step": "draught",
-    "shift_linear_pull": "stress_dependent_transformation",
+    "shift_linear_pull": "stress_dependent_transformation", "shift_constant": "transformation_shift",
+    "force_linear_stretch": "supply_wire_stiffness", "length_linear_excess": "thermal_contraction",
+    "resistance_linear_excess": "temperature_dependent_resistance",
+    "resistance_linear_phase": "phase_dependent_resistance",
 }  # fmt: skip
+#: Temperature above that of the data sheet: what laws of a metal are written in.
+_WARMTH = "(T - reference_temperature) / 30.0"
 
 
 def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False) -> Parameter:
@@ -72,6 +77,9 @@ def _of_shift() -> Iterator[CandidateTerm]:
         identity: tuple[Unit, str, str] = ("stiffness", f"shift_{form}_{variable}", f"{words}, {form}")
         law = f"shift = a * ({phi.replace('fabs', 'abs')})"
         yield _term(identity, law, (size,), {"stiffness": f"shift += a * ({phi});"})
+    yield _term(
+        ("stiffness", "shift_constant", "no variable, constant"), "shift = a", (size,), {"stiffness": "shift += a;"}
+    )
     formula, words = VARIABLES["excess"]
     lines, states = _delayed(formula)
     yield _term(
@@ -98,6 +106,17 @@ def _of_force() -> Iterator[CandidateTerm]:
         (_amplitude("N/m", 5000.0, 20.0, 100.0, 500.0, is_passive=True),
          Parameter("onset", "m", 0.0, 0.05, "a threshold that is reached", (0.004, 0.002, 0.003, 0.006))),
         {"length": "extension -= a * most(extension - onset, 0.0) / (stiffness + a);"},
+    )  # fmt: skip
+    yield _term(
+        ("mechanical", "force_linear_stretch", "extension, linear"),
+        "tension = stiffness * extension + a * (extension - reach)",
+        (_amplitude("N/m", 300.0, 3.0, 15.0, 60.0, is_passive=True),
+         Parameter("reach", "m", -0.05, 0.05, "extension at which it is slack", (0.0, 0.003, -0.003))),
+        {"length": "extension -= a * (extension - reach) / (stiffness + a);"},
+    )  # fmt: skip
+    yield _term(
+        ("mechanical", "length_linear_excess", "temperature, linear"), f"extension = extension_0 + a * {_WARMTH}",
+        (_amplitude("m", 0.006, 6e-5, 6e-4),), {"length": f"extension += a * {_WARMTH};"},
     )  # fmt: skip
     yield _term(
         ("mechanical", "force_sign_motion", "direction of the motion"),
@@ -169,6 +188,14 @@ def _of_resistance() -> Iterator[CandidateTerm]:
         """
         },
     )
+    for name, phi, words in (
+        ("linear_excess", _WARMTH, "temperature, linear"), ("linear_phase", "phase", "share of austenite, linear"),
+    ):  # fmt: skip
+        yield _term(
+            ("electrical", f"resistance_{name}", words), f"R = R_0 + a * reference_resistance * {phi}",
+            (_amplitude("1", 0.5, 0.015, 0.06),),
+            {"resistance": f"R += a * reference_resistance * {phi};"},
+        )  # fmt: skip
     amperes, words = VARIABLES["amperes"]
     lines, states = _delayed(amperes)
     yield _term(

@@ -14,10 +14,13 @@ TIMES = np.linspace(0.0, STOP, 121)
 TWICE = [t for t in catalogue() if t.same_as]
 QUANTITIES = ("temperature", "current", "extension", "stiffness")
 #: Strength of the generic term for one of the named term, where they count in other units.
-FACTORS = {"backlash": 0.5, "draught": 30.0 * COIL_FIELDS["conductance"][0]}
+FACTORS = {
+    "backlash": 0.5, "draught": 30.0 * COIL_FIELDS["conductance"][0], "thermal_contraction": -30.0,
+    "temperature_dependent_resistance": 30.0,
+}  # fmt: skip
 
 #: What shapes a law, in both: an instant [s], and a limit [A] below what the network draws.
-SHAPES = {"instant": 0.4 * STOP, "limit": 1.0}
+SHAPES = {"instant": 0.4 * STOP, "limit": 1.0, "reach": 0.002}
 
 
 @pytest.mark.parametrize("term", [pytest.param(t, id=t.identifier) for t in TWICE])
@@ -39,7 +42,7 @@ def test_a_generic_term_with_the_law_of_a_named_one_says_the_same(term):
 
 
 def test_a_generic_term_is_tried_only_where_the_named_one_is_not_in_the_catalogue():
-    assert len(TWICE) == 9
+    assert len(TWICE) == 14
     assert all(candidate(t.same_as).is_named for t in TWICE)
     tried = {t.identifier for t in rig.perfect_model().terms()}
     assert tried.isdisjoint(t.identifier for t in TWICE)
