@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from diagnosis.bank.layout import QUANTITIES, Array, BankLayout
+from diagnosis.bank.source import reads_current
 from diagnosis.candidates.candidate import CandidateTerm, PlaceKind
 
 #: Typical size of each quantity's departures and the value that gain and clipping count from; fixed, not fitted.
@@ -72,7 +73,9 @@ def places(term: CandidateTerm, layout: BankLayout, measured: Sequence[str] = ()
 def _of_kind(kind: PlaceKind, term: CandidateTerm, layout: BankLayout, measured: Sequence[str]) -> Iterator[Place]:
     size = layout.size(term.axis)
     if term.axis == "channel":
-        for quantity in measured:
+        # Heaters have no current; in a channel of strings or of the supply what follows the current is a gain.
+        has_current = [q for q in measured if layout.strings and QUANTITIES[q].axis == "coil"]
+        for quantity in has_current if reads_current(term) else measured:
             yield from _channels(kind, quantity, term, layout)
     elif kind in ("all", "powered"):
         if size and not (kind == "powered" and layout.strings):

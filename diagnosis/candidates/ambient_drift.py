@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             "a room changes by kelvins within minutes",
             (0.01, -0.01, 0.05, -0.05),
             is_amplitude=True,
+            negligible=5e-4,
         ),
     ),
     places=("all", "string"),

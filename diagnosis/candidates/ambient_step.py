@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="Heat balance with another surrounding temperature (Newton's law of cooling)",
     parameters=(
         Parameter(
-            "step_size", "K", -30.0, 30.0, "a door, a lamp, an air conditioner", (2.0, -2.0, 8.0), is_amplitude=True
+            "step_size",
+            "K",
+            -30.0,
+            30.0,
+            "a door, a lamp, an air conditioner",
+            (2.0, -2.0, 8.0),
+            is_amplitude=True,
+            negligible=0.1,
         ),
         Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
     ),

@@ -11,7 +11,11 @@ CANDIDATE = CandidateTerm(
         "G. Tao and P. V. Kokotovic, Adaptive Control of Systems with Actuator and Sensor "
         "Nonlinearities, Wiley 1996, chapter 2"
     ),
-    parameters=(Parameter("gap", "m", 0.0, 0.005, "a gap is positive", (5e-05, 0.0002, 0.001), is_amplitude=True),),
+    parameters=(
+        Parameter(
+            "gap", "m", 0.0, 0.005, "a gap is positive", (5e-05, 0.0002, 0.001), is_amplitude=True, negligible=2e-5
+        ),
+    ),
     places=("coil", "all", "string"),
     lines={
         "length": "extension = clip(extension_before, extension - 0.5 * gap, extension + 0.5 * gap);",

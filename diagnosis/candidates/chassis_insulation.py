@@ -19,6 +19,7 @@ CANDIDATE = CandidateTerm(
             "a covered surface loses less heat, and never none",
             (0.1, 0.3, 0.5),
             is_amplitude=True,
+            negligible=0.02,
         ),
     ),
     places=("coil", "string", "all"),

@@ -26,6 +26,10 @@ Each file states the law, its source, unit and bounds of every parameter with th
 act, what it leaves in the residuals, what it is confused with, and the C lines that put it into the running model. The
 first parameter is the strength: 0 switches the effect off. `step(x)` is 0 before and 1 after 0; `d(x)` is the rate
 of x (or, where the law holds at any rate, its change). A parameter named `instant` is an instant of the recording.
+
+Every rig has a little of everything, and enough readings show it. So a strength may have a size below which it is no
+finding: what coils of one lot differ by (2 K of transformation temperature), what a room does by itself (0.1 K, 2 % of
+the cooling), what is less than a hundredth of a load, of a length or of a resistance.
 """
 _UNNAMED = """## Unnamed terms
 

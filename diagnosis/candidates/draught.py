@@ -12,7 +12,16 @@ CANDIDATE = CandidateTerm(
         "Heat and Mass Transfer, 7th ed., Wiley 2011, section 1.2.2"
     ),
     parameters=(
-        Parameter("amount", "1", -0.8, 5.0, "heat transfer stays positive", (0.2, -0.2, 0.6, 1.5), is_amplitude=True),
+        Parameter(
+            "amount",
+            "1",
+            -0.8,
+            5.0,
+            "heat transfer stays positive",
+            (0.2, -0.2, 0.6, 1.5),
+            is_amplitude=True,
+            negligible=0.02,
+        ),
         Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
     ),
     places=("all", "string", "coil"),

@@ -20,6 +20,7 @@ CANDIDATE = CandidateTerm(
             "cycling fades the effect; it never adds to it",
             (0.01, 0.04, 0.12),
             is_amplitude=True,
+            negligible=0.005,
         ),
     ),
     places=("all", "coil"),

@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             "between none and nearly all of the material",
             (0.05, 0.2, 0.5),
             is_amplitude=True,
+            negligible=0.02,
         ),
     ),
     places=("coil", "string", "all"),

@@ -12,7 +12,16 @@ CANDIDATE = CandidateTerm(
         "0.2226 1/s heating, 0.14 1/s cooling"
     ),
     parameters=(
-        Parameter("share", "1", 0.0, 0.95, "heat transfer stays positive", (0.1, 0.37, 0.6), is_amplitude=True),
+        Parameter(
+            "share",
+            "1",
+            0.0,
+            0.95,
+            "heat transfer stays positive",
+            (0.1, 0.37, 0.6),
+            is_amplitude=True,
+            negligible=0.02,
+        ),
     ),
     places=("all", "coil", "string"),
     lines={

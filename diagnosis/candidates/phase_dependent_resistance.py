@@ -20,6 +20,7 @@ CANDIDATE = CandidateTerm(
             "resistance stays positive; NiTi about -0.13 (0.89 against 1.02 microohm m)",
             (-0.05, -0.13, 0.05, 0.15),
             is_amplitude=True,
+            negligible=0.005,
         ),
     ),
     places=("coil", "string", "all"),

@@ -12,7 +12,16 @@ CANDIDATE = CandidateTerm(
         "quasi-static: a play operator"
     ),
     parameters=(
-        Parameter("friction", "N", 0.0, 5.0, "friction only takes energy", (0.01, 0.05, 0.2), is_amplitude=True),
+        Parameter(
+            "friction",
+            "N",
+            0.0,
+            5.0,
+            "friction only takes energy",
+            (0.01, 0.05, 0.2),
+            is_amplitude=True,
+            negligible=0.005,
+        ),
     ),
     places=("coil", "all", "string"),
     lines={

@@ -19,6 +19,7 @@ CANDIDATE = CandidateTerm(
             "stress favours martensite, so the temperatures rise",
             (0.5, 2.0, 6.0, 15.0),
             is_amplitude=True,
+            negligible=0.5,
         ),
     ),
     places=("all", "coil"),

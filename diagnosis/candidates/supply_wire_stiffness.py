@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="Hooke's law, springs in parallel",
     parameters=(
         Parameter(
-            "wire", "N/m", 0.0, 300.0, "a spring that stores what it takes", (3.0, 15.0, 60.0), is_amplitude=True
+            "wire",
+            "N/m",
+            0.0,
+            300.0,
+            "a spring that stores what it takes",
+            (3.0, 15.0, 60.0),
+            is_amplitude=True,
+            negligible=0.5,
         ),
         Parameter("reach", "m", -0.05, 0.05, "extension at which the wires are slack", (0.0, 0.003, -0.003)),
     ),

@@ -20,6 +20,7 @@ CANDIDATE = CandidateTerm(
             "free convection rises with the temperature difference; heat flows from hot to cold",
             (0.002, 0.006, 0.02),
             is_amplitude=True,
+            negligible=3e-4,
         ),
     ),
     places=("all", "coil", "string"),

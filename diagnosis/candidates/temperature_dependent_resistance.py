@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             "resistance stays positive from 100 K to 600 K; pure metals reach 4e-3",
             (0.0005, -0.0005, 0.002, 0.004),
             is_amplitude=True,
+            negligible=5e-5,
         ),
     ),
     places=("coil", "string", "all"),

@@ -20,6 +20,7 @@ CANDIDATE = CandidateTerm(
             "expansion of metals or a two-way effect, either sign",
             (2e-06, -2e-06, 2e-05, -2e-05),
             is_amplitude=True,
+            negligible=1e-6,
         ),
     ),
     places=("all", "coil", "string"),

@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             "the component along the coil is never more than the weight",
             (0.01, 0.05, 0.2),
             is_amplitude=True,
+            negligible=0.01,
         ),
     ),
     places=("all", "string", "coil"),

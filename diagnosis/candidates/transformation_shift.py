@@ -13,7 +13,14 @@ CANDIDATE = CandidateTerm(
     ),
     parameters=(
         Parameter(
-            "offset", "K", -30.0, 30.0, "a batch differs by some kelvins", (3.0, -3.0, 8.0, -8.0), is_amplitude=True
+            "offset",
+            "K",
+            -30.0,
+            30.0,
+            "a batch differs by some kelvins",
+            (3.0, -3.0, 8.0, -8.0),
+            is_amplitude=True,
+            negligible=2.0,
         ),
     ),
     places=("coil", "string", "all"),

@@ -20,6 +20,7 @@ CANDIDATE = CandidateTerm(
             "heat transfer stays positive at every coil",
             (0.1, -0.1, 0.3, -0.3),
             is_amplitude=True,
+            negligible=0.02,
         ),
     ),
     places=("row_gradient", "column_gradient"),

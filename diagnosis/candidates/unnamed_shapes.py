@@ -39,10 +39,11 @@ _SAME = {
 _WARMTH = "(T - reference_temperature) / 30.0"
 
 
-def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False) -> Parameter:
+def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False, negligible: float = 0.0) -> Parameter:
     starts = sizes if is_passive else tuple(sign * s for s in sizes for sign in (1.0, -1.0))
     reason = _PASSIVE if is_passive else _REASON
-    return Parameter("a", unit, 0.0 if is_passive else -bound, bound, reason, starts, is_amplitude=True)
+    lower = 0.0 if is_passive else -bound
+    return Parameter("a", unit, lower, bound, reason, starts, is_amplitude=True, negligible=negligible)
 
 
 def _term(
@@ -67,7 +68,7 @@ def _delayed(formula: str) -> tuple[dict[str, str], tuple[State, ...]]:
 
 def _of_shift() -> Iterator[CandidateTerm]:
     """Shift of the transformation temperatures [K]."""
-    size = _amplitude("K", 40.0, 0.5, 4.0)
+    size = _amplitude("K", 40.0, 0.5, 4.0, negligible=0.5)  # no rig knows it better
     for form, variable in (
         ("linear", "rate"), ("absolute", "rate"), ("linear", "time"), ("linear", "energy"), ("linear", "power"),
         ("linear", "stretch"), ("linear", "pull"),

@@ -6,7 +6,9 @@ import pytest
 from diagnosis.bank.inputs import Drive, Programme, grid
 from diagnosis.bank.layout import COIL_FIELDS, BankLayout
 from diagnosis.bank.parameters import BankParameters
+from diagnosis.bank.places import places
 from diagnosis.bank.sensitivities import Direction, sensitivities
+from diagnosis.candidates.registry import candidate
 from tests.diagnosis_bank.rigs import LOADED, NETWORK, ROOM, STOP, VOLTAGE, full_bank, heater, network_inputs
 
 TERM = "unnamed_value_linear_amperes"
@@ -152,3 +154,12 @@ def test_heaters_without_a_circuit_have_no_current_to_pick_up():
     found = bank.simulate(BankParameters().with_term(TERM, a=0.2, scale=SCALE), inputs, times)
     without = bank.simulate(BankParameters(), inputs, times)
     assert np.array_equal(found["temperature"], without["temperature"])
+
+
+def test_it_is_offered_for_channels_of_coils_with_a_circuit_alone():
+    term, measured = candidate(TERM), ("temperature", "current", "supply_current", "extension")
+    found = places(term, NETWORK, measured)
+    assert len(found) == 2 * (12 + 1)
+    assert {p.label.split(".")[-1].split()[-1] for p in found} == {"temperature", "extension"}
+    assert {p.label: p.fixed for p in found}["every extension"] == {"scale": 1e-3}
+    assert places(term, BankLayout(2), ("temperature",)) == []
