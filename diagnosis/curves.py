@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from diagnosis.diagnose import Found
-from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
 from diagnosis.report.fits import is_channel, plain_channel
 from diagnosis.report.series import Series
 from diagnosis.search.problem import Point
@@ -23,13 +23,14 @@ def curves(found: Found) -> list[Series]:
     return drawn + _part(found, found.training, found.points, False)
 
 
-def _order(found: Found, fits: Sequence[ChannelFit]) -> list[int]:
-    """Numbers of the channels to draw: for each finding the one that shows it most, then what is met worst."""
+def drawn_channels(diagnosis: Diagnosis, fits: Sequence[ChannelFit]) -> list[int]:
+    """Numbers of the channels to draw: for each finding the one that shows it most, what is left, what is met worst."""
     worst = sorted(range(len(fits)), key=lambda i: -fits[i].chi_square["recalibrated"])
     telling = []
-    for finding in found.diagnosis.findings:
-        best = [i for shown in finding.channels for i in worst if is_channel(shown, fits[i].channel, fits[i].recording)]
-        alike = [i for shown in finding.channels for i in worst if fits[i].channel == plain_channel(shown)]
+    left = [(one.channel,) for one in diagnosis.left[:1]]
+    for channels in (*(f.channels for f in diagnosis.findings), *left):
+        best = [i for shown in channels for i in worst if is_channel(shown, fits[i].channel, fits[i].recording)]
+        alike = [i for shown in channels for i in worst if fits[i].channel == plain_channel(shown)]
         telling += (best or alike)[:1]
     return list(dict.fromkeys([*telling, *worst]))[:DRAWN]
 
@@ -38,7 +39,7 @@ def _part(found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_h
     fits = [f for f in found.diagnosis.fit if f.is_held_out is is_held_out]
     place = [(run, number) for run in range(len(model.runs)) for number in range(len(model.runs[run].series))]
     drawn = []
-    for i in _order(found, fits):
+    for i in drawn_channels(found.diagnosis, fits):
         run, number = place[i]
         series = model.runs[run].series[number]
         count = len(series.samples)

@@ -59,7 +59,9 @@ def _paint_experiment(figure: Figure, experiment: NextExperiment) -> None:
     shares = [100.0 * experiment.repeat_decides, 100.0 * experiment.decides]
     bars.barh([0, 1], shares, color=[COLD, WITH_MODEL], height=0.5)
     for y, share in enumerate(shares):
-        bars.text(min(share, 70.0) + 2.0, y, f"{share:.0f} %", va="center")
+        is_inside = share > 70.0
+        bars.text(72.0 if is_inside else share + 2.0, y, f"{share:.0f} %", va="center",
+                  color="white" if is_inside else "black")  # fmt: skip
     bars.set_yticks([0, 1], ["a repeat", "this one"])
     bars.set(xlim=(0.0, 100.0), ylim=(-0.6, 1.6), xlabel="decides in so many cases [%]")
 

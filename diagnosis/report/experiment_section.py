@@ -51,7 +51,9 @@ def isolability_section(told: Isolability) -> Html:
     """Statements, classes of faults, and channels that would help."""
     parts: list[str] = [listing(told.statements) if told.statements else element("p", "No statement was made.")]
     if told.extra_channels:
-        rows = [(clean(c.channel), str(c.classes), wrapped(c.statement)) for c in told.extra_channels[:_CHANNELS]]
+        # Each statement calls its own channel the one that helps most; what it would tell follows the colon.
+        rows = [(clean(c.channel), str(c.classes), wrapped(c.statement.rpartition(": ")[2]))
+                for c in told.extra_channels[:_CHANNELS]]  # fmt: skip
         parts += [element("p", "Channels that would help, the best first:"),
                   table(("channel", "classes told apart", ""), rows)]  # fmt: skip
     if told.classes:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from cosim.figures.style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Finding
+from diagnosis.judge.location import Remainder
 from diagnosis.report.display import axis, clean, difference
 from diagnosis.report.fits import is_channel
 from diagnosis.report.network import Network, concerned
@@ -119,12 +120,12 @@ def _shortened(text: str, most: int = 44) -> str:
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
-def series_figure(series: Series, findings: Sequence[Finding]) -> str:
-    """Measured values and the models' above, what the last two models leave below."""
-    return drawn(lambda f: _paint_series(f, series, findings), 8.4, 4.4)
+def series_figure(series: Series, findings: Sequence[Finding], left: Sequence[Remainder] = ()) -> str:
+    """Measured values and the models' above, what the last two models leave below; shaded: findings, what is left."""
+    return drawn(lambda f: _paint_series(f, series, findings, left), 8.4, 4.4)
 
 
-def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -> None:
+def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding], left: Sequence[Remainder]) -> None:
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     curves = series.curves
     scaled = axis(series.measured, series.unit)
@@ -143,24 +144,37 @@ def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding]) -
         residual = factor * (series.measured - values)
         keep = thinned(residual)
         lower.plot(series.times[keep], residual[keep], **{**_STAGES[name], "lw": 0.9})
-    lower.set_ylim(*_residual_limits(series, factor))
-    for n, finding in enumerate(findings):
-        # Intervals are times of the training: another programme has others.
-        shows = (
-            any(is_channel(c, series.channel, series.recording) for c in finding.channels) and not series.is_held_out
-        )
-        for a, b in finding.intervals if shows else ():
-            upper.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
-            lower.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
+    lower.set_ylim(*residual_limits(series, factor))
+    for axes in (upper, lower):
+        _shade(axes, series, findings, left)
     upper.set_ylabel(_labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
     lower.set_ylabel(_labelled("residual", of_difference))
     lower.set(xlabel="time [s]", xlim=_limits(series.times))
     figure.legend(loc="outside upper left", frameon=False, ncols=5, fontsize=8)
 
 
-def _residual_limits(series: Series, factor: float) -> tuple[float, float]:
-    """Of the axis below: all that the last two models leave; the model before them may leave the picture."""
-    last = [np.abs(series.measured - v) for v in list(series.curves.values())[-2:]]
+def is_left_in(left: Remainder, series: Series) -> bool:
+    """Whether something is left in this channel of this recording."""
+    return not series.is_held_out and is_channel(left.channel, series.channel, series.recording)
+
+
+def _shade(axes: Axes, series: Series, findings: Sequence[Finding], left: Sequence[Remainder]) -> None:
+    """Where findings show and where more than noise is left."""
+    if series.is_held_out:  # these are times of the training: another programme has others
+        return
+    for n, finding in enumerate(findings):
+        if any(is_channel(c, series.channel, series.recording) for c in finding.channels):
+            for a, b in finding.intervals:
+                axes.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
+    for one in left:
+        if is_left_in(one, series):
+            axes.axvspan(one.begin, one.end, color="black", alpha=0.15, lw=0)
+
+
+def residual_limits(series: Series, factor: float) -> tuple[float, float]:
+    """Of the axis below: all that fitted models leave; the model before them may leave the picture."""
+    fitted = (series.recalibrated, series.after)
+    last = [np.abs(series.measured - v) for v in fitted]
     sizes = [float(np.nanmax(v, initial=0.0)) for v in (*last, np.asarray(2.5 * np.asarray(series.deviation)))]
     size = factor * max([s for s in sizes if np.isfinite(s)], default=1.0) or 1.0
     return -1.08 * size, 1.08 * size

@@ -10,13 +10,15 @@ from diagnosis.report.markup import Html, element, folded, joined, listing, tabl
 from diagnosis.report.sentences import ambiguity, decisive, what, when, where
 
 
-def finding_section(order: int, finding: Finding) -> Html:
+def finding_section(order: int, finding: Finding, is_accepted: bool = True) -> Html:
     """Section of a finding.
 
     Args:
         order: Its place among the findings, from 0; gives its colour.
         finding: What was found.
+        is_accepted: Whether recordings held out do not speak against it.
     """
+    title = f"Finding {order + 1}" if is_accepted else f"Suggestion {order + 1}, not accepted"
     facts = [
         ("Where", where(finding)),
         ("When", when(finding, 12)),
@@ -27,7 +29,7 @@ def finding_section(order: int, finding: Finding) -> Html:
     ]
     return element(
         "section",
-        element("h2", f"Finding {order + 1}: {finding.statement}"),
+        element("h2", f"{title}: {finding.statement}"),
         element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
         _parameters(finding.parameters),
         element("p", ambiguity(finding)),

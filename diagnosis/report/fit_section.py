@@ -10,21 +10,23 @@ from diagnosis.report.display import UNKNOWN, difference, number
 from diagnosis.report.fits import STAGES, Row, rows, worst_first
 from diagnosis.report.markup import Html, element, folded, table
 
+TITLE = "How much better"
 #: Chi-square per sample up to which a channel counts as met, and above which it counts as missed.
 MET, MISSED = 1.2, 2.0
 _FIGURES = (*STAGES, *STAGES, *STAGES)
 _GROUPS = (("RMSE", 3), ("chi-square per sample", 3), ("whiteness", 3))
 
 
-def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = ()) -> Html:
+def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = (), title: str = TITLE) -> Html:
     """Section with a row for each recording and quantity; every channel for itself is folded away.
 
     Args:
         fits: Of every channel of every recording.
         spread: Of every channel over recordings.
+        title: Of the section.
     """
     if not fits:
-        return element("section", element("h2", "How much better"), element("p", "No recording was judged."))
+        return element("section", element("h2", title), element("p", "No recording was judged."))
     note = (
         "Before: the model as the scenario has it. Recalibrated: its own parameters fitted. After: with the findings. "
         "A chi-square per sample of about 1 is noise alone. Whiteness is the largest standardised sum of residuals "
@@ -35,7 +37,7 @@ def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = ()
     warning = "" if judged else element("p", "No recording was held out: a fit that judges itself proves little.")
     return element(
         "section",
-        element("h2", "How much better"),
+        element("h2", title),
         warning,
         table(("recording", "quantity", *_FIGURES, "after"),
               [_grouped(r) for r in rows(fits)], (("", 2), *_GROUPS, ("RMSE by channel", 1))),

@@ -30,6 +30,11 @@ def clean_lines(text: str) -> str:
     return "".join(c if c.isprintable() else " " for c in text)
 
 
+def coded(text: str) -> Html:
+    """Text in which what stands between backticks is code."""
+    return joined(element("code", part) if n % 2 else part for n, part in enumerate(text.split("`")))
+
+
 def image(source: str, about: str) -> Html:
     """A picture given as a data address."""
     return Html(f'<img src="{escape(source)}" alt="{escape(clean(about))}">')

@@ -6,20 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cosim.run_folder import write_atomically
-from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.report.display import clean, listed, number, percent, span
 from diagnosis.report.experiment_section import experiment_section, isolability_section
-from diagnosis.report.figures import network_figure, series_figure, timeline_figure
+from diagnosis.report.figures import is_left_in, network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
-from diagnosis.report.fit_section import fit_section
+from diagnosis.report.fit_section import TITLE, fit_section
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
-from diagnosis.report.markup import Html, element, image, joined, listing, table
+from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
 from diagnosis.report.network import Network, concerned, inferred
-from diagnosis.report.sentences import ADVICE, effort, improvement, structure, sureness, what, when, where
+from diagnosis.report.sentences import ADVICE, ambiguity, effort, improvement, structure, sureness, what, when, where
 from diagnosis.report.series import Series
+from diagnosis.report.undecided import is_refuted, model_note, remainder, suggested, what_decides, why
 
 #: Looks of the page; no font and no picture comes from elsewhere.
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+#: Windows in which something is left that are told at the top.
+_LEFT = 3
 #: Forbids the page to load anything, whatever a recording's title says.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
@@ -49,16 +52,19 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         element("title", f"{name}: {diagnosis.verdict.value}"),
         element("style", Html(STYLE)),
     )
+    # Where nothing was found, what is left is the answer.
+    left, is_first = [remainder_section(diagnosis.left)], not diagnosis.findings
     body = element(
         "body",
         _answer(diagnosis, name),
         _place_and_time(diagnosis, series, network),
-        *(finding_section(n, f) for n, f in enumerate(diagnosis.findings)),
+        *(finding_section(n, f, not is_refuted(diagnosis)) for n, f in enumerate(diagnosis.findings)),
+        *left[:is_first],
         _figures(diagnosis, series),
         waveform_section(diagnosis.waveforms),
         experiment_section(diagnosis.next_experiment),
-        remainder_section(diagnosis.left),
-        fit_section(diagnosis.fit, diagnosis.spread),
+        *left[is_first:],
+        fit_section(diagnosis.fit, diagnosis.spread, "How well it fits" if is_refuted(diagnosis) else TITLE),
         _certainty(diagnosis),
         location_section(diagnosis.locations),
         isolability_section(diagnosis.isolability),
@@ -75,18 +81,15 @@ def _section(title: str, *content: str) -> Html:
 def _answer(diagnosis: Diagnosis, name: str) -> Html:
     """Verdict, and where, when, what and how much better in a line each."""
     verdict = diagnosis.verdict.value
-    facts = [("How much better", improvement(diagnosis))]
-    if diagnosis.findings:
-        told = diagnosis.findings
-        facts = [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
-                 ("What", _each([what(f) for f in told])), *facts]  # fmt: skip
-        facts.append(("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases"))
+    facts = _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
-        facts.append(("Amended model", diagnosis.amended_model))
+        note = model_note(diagnosis)
+        facts.append(("Model", f"{diagnosis.amended_model} ({note})") if note else
+                     ("Amended model", diagnosis.amended_model))  # fmt: skip
     if diagnosis.held_out_by:
-        facts.append(("Judged by", f"{diagnosis.held_out_by}{_differ(diagnosis)}"))
+        facts.append(("Judged by", coded(diagnosis.held_out_by)))
     return element(
         "header",
         element("h1", name),
@@ -96,15 +99,36 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
     )  # fmt: skip
 
 
+def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    """Where, when, what and how much better; how much better alone where nothing was found."""
+    better, told = ("How much better", improvement(diagnosis)), diagnosis.findings
+    if not told:
+        return [better]
+    open_ones = [("Open", _each([ambiguity(f) for f in told]))] if any(f.ambiguous_with for f in told) else []
+    return [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
+            ("What", _each([what(f) for f in told])), *open_ones, better,
+            ("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases")]  # fmt: skip
+
+
+def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    """What is suggested or left, why that is not accepted, and what would decide."""
+    if is_refuted(diagnosis):
+        facts = [("Suggested", _each(suggested(diagnosis))), ("Not accepted", why(diagnosis))]
+    else:
+        left = [remainder(r) for r in diagnosis.left[:_LEFT]]
+        facts = [("What is left", _each(left))] if left else []
+        facts += [("Why", why(diagnosis)), ("How much better", improvement(diagnosis))]
+    told = what_decides(diagnosis)
+    return [*facts, ("What would decide", told)] if told else facts
+
+
 def _differ(diagnosis: Diagnosis) -> str:
     """Where the fast simulation, which was fitted, predicts something else than what judged."""
-    if not diagnosis.differences:
-        return ""
     most = diagnosis.differences[0]
-    by = f"{number(most.size)} deviations, {number(most.chi_square)} chi-square per sample"
     return (
-        f"; the fast simulation differs by more than a tenth of the noise on {len(diagnosis.differences)} channels, "
-        f"most on {most.channel} ({most.stage}): by {by}"
+        f"On {len(diagnosis.differences)} held-out channels the fast simulation, which was fitted, differs from what "
+        f"judged by more than a tenth of the noise; most on {most.channel} ({most.stage}): by {number(most.size)} "
+        f"deviations, and its chi-square per sample there is {number(most.chi_square)}."
     )
 
 
@@ -126,7 +150,7 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         about = f"intervals in which each finding shows, {number(begin)} to {number(end)} s"
         note = "Bars hold nine tenths of what each effect does to the channels."
         parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
-    return _section("Where and when", *parts)
+    return _section("Where and when it would act" if is_refuted(diagnosis) else "Where and when", *parts)
 
 
 def _caption(diagnosis: Diagnosis, network: Network) -> str:
@@ -147,14 +171,17 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     if not series:
         return Html("")
     drawn = []
+    if not diagnosis.findings:  # what is left is the answer
+        series = sorted(series, key=lambda s: not any(is_left_in(r, s) for r in diagnosis.left))
     for one in series:
         part = "held out" if one.is_held_out else "training"
         caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
-        picture = image(series_figure(one, diagnosis.findings), f"{caption}: measured and simulated")
+        picture = image(series_figure(one, diagnosis.findings, diagnosis.left), f"{caption}: measured and simulated")
         drawn.append(element("figure", element("figcaption", caption), picture))
     told = (
-        "Those in which findings show most, and those that are met worst. Above: measured and simulated. Below: "
-        "measured minus simulated. Shaded: where a finding shows in training."
+        "Those in which findings show most or most is left, and those that are met worst. Above: measured and "
+        "simulated. Below: measured minus simulated. Shaded in training: where a finding shows; grey: where more than "
+        "noise is left."
     )
     note = element("p", told, class_="note")
     return _section("Channels", note, *drawn)
@@ -173,6 +200,8 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
 def _certainty(diagnosis: Diagnosis) -> Html:
     moved = [f"{name}: {number(value)}" for name, value in diagnosis.recalibration.items()]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
+    if diagnosis.differences:
+        parts.append(element("p", _differ(diagnosis)))
     if moved:
         parts += [element("p", "Recalibration moved by more than two prior deviations (factors; changes in SI units "
                                "for parameters that are no factors):"), listing(moved)]  # fmt: skip

@@ -85,7 +85,9 @@ def sureness(diagnosis: Diagnosis) -> str:
     if not diagnosis.findings:
         return f"{margin}; none was accepted."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
-    return f"{margin}; found: {gains}. Chance alone gives the first in {percent(diagnosis.false_alarm_rate)} of cases."
+    chance = f"Chance alone gives the first in {percent(diagnosis.false_alarm_rate)} of cases"
+    against = ", but held-out recordings refute it" if diagnosis.verdict is Verdict.CANNOT_TELL else ""
+    return f"{margin}; found: {gains}. {chance}{against}."
 
 
 def structure(diagnosis: Diagnosis) -> str:

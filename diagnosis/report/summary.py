@@ -10,9 +10,10 @@ from rich.text import Text
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
 from diagnosis.judge.next_experiment import NextExperiment
-from diagnosis.report.display import clean, difference, interval, number, span
+from diagnosis.report.display import clean, difference, interval, number
 from diagnosis.report.fits import STAGES, Row, rows
 from diagnosis.report.sentences import ambiguity, decisive, effort, improvement, structure, sureness, what, when, where
+from diagnosis.report.undecided import is_refuted, model_note, remainder, what_decides, why
 
 #: Lines that a summary has at most.
 LINES = 30
@@ -38,9 +39,11 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
     lines = [top, *map(Text, others)]
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
     if diagnosis.next_experiment is not None:
-        foot += map(Text, _wrapped("next     ", _next(diagnosis.next_experiment), width, 4))
+        foot += map(Text, _wrapped("next     ", _next(diagnosis.next_experiment), width, 6))
     if diagnosis.amended_model:
-        foot += map(Text, _wrapped("amended  ", diagnosis.amended_model, width, 2))
+        note = model_note(diagnosis)
+        label, told = ("model    ", f" ({note})") if note else ("amended  ", "")
+        foot += map(Text, _wrapped(label, diagnosis.amended_model + told, width, 2))
     body = [Text(line) for line in _body(diagnosis, width)]
     room = LINES - len(lines) - len(foot)
     if len(body) > room:
@@ -50,24 +53,37 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
 
 
 def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
+    is_open = diagnosis.verdict is Verdict.CANNOT_TELL
+    if is_open:
+        yield from _undecided(diagnosis, width)
     for order, finding in enumerate(diagnosis.findings[:_FINDINGS], start=1):
-        yield from _finding(order, finding, width)
+        yield from _finding(order, finding, width, not is_open)
     more = len(diagnosis.findings) - _FINDINGS
     if more > 0:
         yield f"  and {more} more in report.html"
-    yield from _wrapped("better   ", improvement(diagnosis), width, 4)
+    if is_refuted(diagnosis):  # there the improvement is none, and the reason why
+        yield from _wrapped("fit      ", "before -> recalibrated only -> with what is suggested", width, 2)
+    else:
+        yield from _wrapped("better   ", improvement(diagnosis), width, 4)
     yield from _fit(diagnosis, width)
-    yield from _wrapped("sure     ", sureness(diagnosis), width, 2)
+    yield from _wrapped("sure     ", sureness(diagnosis), width, 3)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
-    for rest in diagnosis.left[:_STATEMENTS]:
-        told = (
-            f"{rest.channel}, {span(rest.begin, rest.end)}: z {number(rest.z)}, noise stays below {number(rest.limit)}"
-        )
-        yield from _wrapped("left in  ", told, width, 1)
+    for rest in diagnosis.left[: 0 if is_open and not diagnosis.findings else _STATEMENTS]:
+        yield from _wrapped("left in  ", remainder(rest), width, 2)
     for name, value in list(diagnosis.recalibration.items())[:_STATEMENTS]:
         yield from _wrapped("moved    ", f"{clean(name)}: {number(value)}", width, 1)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
-        yield from _wrapped("channels ", statement, width, 1)
+        yield from _wrapped("channels ", statement, width, 2)
+
+
+def _undecided(diagnosis: Diagnosis, width: int) -> Iterator[str]:
+    """What is left, why that is open, and what would decide."""
+    for rest in diagnosis.left[: 0 if diagnosis.findings else _STATEMENTS]:
+        yield from _wrapped("left in  ", remainder(rest), width, 2)
+    yield from _wrapped("why      ", why(diagnosis), width, 5)
+    told = what_decides(diagnosis)
+    if told:
+        yield from _wrapped("decide   ", told, width, 8)
 
 
 def _next(experiment: NextExperiment) -> str:
@@ -75,10 +91,10 @@ def _next(experiment: NextExperiment) -> str:
     return experiment.statement + where
 
 
-def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
+def _finding(order: int, finding: Finding, width: int, is_accepted: bool) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding), width, 1)
-    yield from _wrapped("  what   ", what(finding), width, 2)
+    yield from _wrapped("  what   ", ("" if is_accepted else "suggested, not accepted: ") + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
     told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
     yield from _wrapped("         ", ", ".join(told), width, 2)

@@ -1,0 +1,186 @@
+"""What a reader is told where the verdict is `cannot tell`, or where effects cannot be told from each other."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from diagnosis.curves import drawn_channels
+from diagnosis.judge.confirmed import confirmed
+from diagnosis.judge.diagnosis import Diagnosis, Difference, Finding, Verdict
+from diagnosis.judge.isolability import ExtraChannel, Isolability
+from diagnosis.judge.location import Remainder
+from diagnosis.report.figures import residual_limits, series_figure
+from diagnosis.report.markup import coded
+from diagnosis.report.page import write_html
+from diagnosis.report.series import Series
+from diagnosis.report.summary import LINES, print_summary
+from tests.diagnosis.report_examples import CONTACT, EXPERIMENT, LAG, diagnosis, series
+from tests.diagnosis.test_report import Page, read_page
+
+LEFT = Remainder("coil[2,5].temperature (steps)", 30.0, 42.0, -7.7, 4.9)
+
+
+def refuted() -> Diagnosis:
+    """A lag that training shows, and that makes the 42 channels held out worse: chi-square 1 becomes 4."""
+    worse = [replace(f, chi_square={"before": 9.0, "recalibrated": 1.0, "after": 4.0}, samples=100)
+             for f in diagnosis(Verdict.MEASUREMENT_FAULT).fit]  # fmt: skip
+    found = confirmed(replace(diagnosis(Verdict.MEASUREMENT_FAULT), fit=tuple(worse)))
+    assert found.verdict is Verdict.CANNOT_TELL
+    return found
+
+
+def unexplained() -> Diagnosis:
+    return replace(diagnosis(Verdict.CANNOT_TELL), left=(LEFT,))
+
+
+def page_of(told: Diagnosis, drawn: list[Series], folder: Path) -> str:
+    write_html(told, drawn, folder / "report.html")
+    return Page(read_page(folder / "report.html")).text
+
+
+def shades(one: Series, findings: Sequence[Finding] = (), left: Sequence[Remainder] = ()) -> int:
+    """Areas that a figure has more than the same without findings and remainders."""
+    with_them, without = (
+        base64.b64decode(address.partition(",")[2]).decode().count("<path")
+        for address in (series_figure(one, findings, left), series_figure(one, ()))
+    )
+    return with_them - without
+
+
+def lines_of(told: Diagnosis, width: int) -> list[str]:
+    stream = io.StringIO()
+    print_summary(told, Console(file=stream, width=width))
+    return stream.getvalue().splitlines()
+
+
+def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_path: Path) -> None:
+    text = page_of(unexplained(), [series()], tmp_path)
+    top = text[: text.index("Channels")]
+    for part in ("coil[2,5].temperature (steps), 30.0 to 42.0 s: 7.70 deviations, noise stays below 4.90",
+                 "no effect lowers -2 log posterior by more than chance may, 12.0",
+                 "driven alone, coil[2,5] departs most (thermal)",
+                 "Repeat that recording: what comes back", "out/amended/scenario.yaml (recalibrated, nothing added)",
+                 "noise alone stays below the limit in 99 of 100"):  # fmt: skip
+        assert part in top, part
+    assert "Amended model" not in text
+
+
+def test_units_that_depart_in_nothing_when_driven_alone_are_told_so(tmp_path: Path) -> None:
+    (location,) = unexplained().locations
+    quiet = replace(unexplained(), locations=(replace(location, z=4.5),))  # its limit is 4.6
+    assert "; no unit departs when it is driven alone" in page_of(quiet, [], tmp_path)
+    assert "driven alone" not in " ".join(lines_of(replace(quiet, locations=()), 100))
+
+
+def test_what_was_refuted_is_told_as_a_suggestion_and_not_as_found(tmp_path: Path) -> None:
+    text = page_of(refuted(), [series()], tmp_path)
+    top = text[: text.index("Where and when it would act")]
+    for part in ("Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); 10.0 to 95.0 s",
+                 "it makes what was held out fit worse: chi-square per sample (held out), all channels: 9.00 before, "
+                 "1.00 recalibrated only, 4.00 after", "Record a training programme once more",
+                 "out/amended/scenario.yaml (with what is suggested, which is not accepted)"):  # fmt: skip
+        assert part in top, part
+    assert f"Suggestion 1, not accepted: {LAG.statement}" in text
+    assert "but held-out recordings refute it" in text
+    for contradiction in ("False alarm", "How much better", "Finding 1", "Amended model"):
+        assert contradiction not in text, contradiction
+    accepted = page_of(diagnosis(Verdict.MEASUREMENT_FAULT), [], tmp_path)
+    for part in ("False alarm", "How much better", "Finding 1", "Amended model"):
+        assert part in accepted, part
+
+
+@pytest.mark.parametrize("width", [60, 80, 140])
+@pytest.mark.parametrize("told", [unexplained(), refuted()], ids=["unexplained", "refuted"])
+def test_the_summary_says_why_and_what_would_decide_before_anything_else(told: Diagnosis, width: int) -> None:
+    lines = lines_of(told, width)
+    assert len(lines) <= LINES
+    assert max(map(len, lines)) <= width
+    labels = [line[:8].strip() for line in lines if line[:8].strip()]
+    first = ["left in", "why", "decide"] if not told.findings else ["why", "decide"]
+    assert labels[1 : 1 + len(first)] == first
+    whole = " ".join(" ".join(lines).split())
+    wanted = "belongs to the rig" if not told.findings else "stands for something else."
+    assert wanted in whole
+    assert ("better   chi-square" in "\n".join(lines)) is (not told.findings)
+
+
+def test_an_experiment_that_was_designed_takes_the_place_of_a_repeat(tmp_path: Path) -> None:
+    text = page_of(replace(unexplained(), next_experiment=EXPERIMENT), [], tmp_path)
+    assert "Staircase for 60 s would decide." in text
+    assert "Repeat that recording" not in text
+    # What the held-out recordings refute is not among the rivals of an experiment: both are told.
+    assert "Record a training programme" in page_of(replace(refuted(), next_experiment=EXPERIMENT), [], tmp_path)
+
+
+def test_what_an_effect_cannot_be_told_from_stands_at_the_top(tmp_path: Path) -> None:
+    told = diagnosis(Verdict.MISSING_PHYSICS)
+    text = page_of(told, [], tmp_path)
+    top = text[: text.index("Where and when")]
+    assert "Open1: The recordings cannot tell it from: the model's own reference resistance." in top
+    alone = replace(told, findings=told.findings[1:])
+    assert "Open" not in page_of(alone, [], tmp_path)
+
+
+def test_the_channel_in_which_most_is_left_is_drawn_first_and_shaded(tmp_path: Path) -> None:
+    other = replace(series(), is_held_out=True)
+    mine = replace(series(), is_held_out=False)
+    text = page_of(unexplained(), [other, mine], tmp_path)
+    assert text.index("coil[2,5].temperature, steps (training)") < text.index("coil[2,5].temperature, steps (held out)")
+
+    assert shades(mine, left=(LEFT,)) == 2  # above and below
+    assert shades(other, left=(LEFT,)) == 0  # another programme has other times
+    assert shades(mine, left=(replace(LEFT, channel="coil[2,4].temperature (steps)"),)) == 0
+
+
+def test_findings_are_shaded_in_training_alone() -> None:
+    mine, held_out = (replace(series("string[3].current", "A", 0.4), is_held_out=h) for h in (False, True))
+    assert shades(mine, (CONTACT,)) == 2 * len(CONTACT.intervals)
+    assert shades(held_out, (CONTACT,)) == 0
+
+
+def test_channels_are_chosen_by_findings_then_by_what_is_left_then_by_the_worst_fit() -> None:
+    told = replace(refuted(), left=(replace(LEFT, channel="coil[4,4].temperature (steps)"),))
+    fits = [f for f in told.fit if f.is_held_out is False]
+    fits[7] = replace(fits[7], chi_square={**fits[7].chi_square, "recalibrated": 50.0})
+    assert [fits[i].channel for i in drawn_channels(told, fits)] == [
+        "coil[1,2].temperature", "coil[4,4].temperature", "coil[2,2].temperature",
+    ]  # fmt: skip
+
+
+def test_residuals_are_scaled_by_fitted_models_where_nothing_was_added() -> None:
+    times = np.arange(100.0)
+    flat = np.zeros(100)
+    one = Series("coil[1,1].temperature", "K", times, flat, flat + 50.0, flat + 0.6, flat + 0.6, 0.1)
+    # 0.6 K and a margin of 8 %; the model before them, 50 K off, leaves the picture.
+    assert residual_limits(one, 1.0) == pytest.approx((-0.648, 0.648), rel=1e-12)
+
+
+def test_how_the_fast_simulation_differs_stands_where_certainty_is_told(tmp_path: Path) -> None:
+    by = (Difference("steps", "coil[2,5].temperature", "before", 0.531, 111.0),)
+    text = page_of(replace(unexplained(), differences=by, held_out_by="free runs, `cosim run`"), [], tmp_path)
+    assert "Judged byfree runs, cosim run" in text
+    told = "most on coil[2,5].temperature (before): by 0.531 deviations, and its chi-square per sample there is 111."
+    assert text.index("How sure") < text.index(told)
+
+
+def test_code_between_backticks_is_marked_and_stays_escaped() -> None:
+    assert coded("run `a <b>` now") == "run <code>a &lt;b&gt;</code> now"
+    assert coded("a < b") == "a &lt; b"
+
+
+def test_only_the_best_extra_channel_is_called_so(tmp_path: Path) -> None:
+    extra = tuple(
+        ExtraChannel(name, 8, f"The extra channel that would help most is {name}: it would tell {what} from a sensor.")
+        for name, what in (("a second sensor", "heat"), ("a balance", "force"))
+    )
+    text = page_of(replace(unexplained(), isolability=Isolability((), (), extra)), [], tmp_path)
+    assert "it would tell force from a sensor." in text
+    assert "help most" not in text
