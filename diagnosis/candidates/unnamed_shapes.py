@@ -167,9 +167,9 @@ def _of_heat() -> Iterator[CandidateTerm]:
     yield _term(
         ("thermal", "heat_excess_times_change_of_stretch", "temperature above the surroundings times change of "
          "extension"),
-        f"heat = a * ({excess}) * abs({stretch} - delayed); tau * d(delayed) = {stretch} - delayed",
-        (watts, Parameter("tau", "s", 0.05, 1e3, "a delay is positive", (1.0, 5.0))),
-        {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed);", **lines}, states=states,
+        f"heat = a * ({excess}) * abs({stretch} - delayed) / tau; tau * d(delayed) = {stretch} - delayed",
+        (_amplitude("W*s", 20.0, 0.02, 0.1), Parameter("tau", "s", 0.05, 1e3, "a delay is positive", (1.0, 5.0, 0.2))),
+        {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed) / tau;", **lines}, states=states,
     )  # fmt: skip
 
 

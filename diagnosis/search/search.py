@@ -20,6 +20,8 @@ from diagnosis.search.structure import Structure, structure
 
 #: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
+#: Stated deviations beyond which a clock or a lag may be a wrong minimum.
+LATE = 1.5
 
 
 @dataclass(frozen=True)
@@ -62,9 +64,26 @@ def best_fits(before: Explanation, grown: Sequence[Explanation]) -> Sequence[Exp
 
 def recalibrate(model: Model) -> Fit:
     """Fit what the model already has, within its priors, to the end: an unconverged base makes false gains."""
-    found = fit(model, Point(np.zeros(len(model.parameters))), iterations=200)
+    found = with_clocks_set(model, fit(model, Point(np.zeros(len(model.parameters))), iterations=200))
     widths = spread(model.parameters, found.point.base)
     return fit(model, found.point, iterations=200, widths=widths)
+
+
+def with_clocks_set(model: Model, found: Fit) -> Fit:
+    """The better of a fit and of one that begins again with clocks and lags, the parameters in seconds, as stated.
+
+    A few readings near a switch can be explained twice: by a sensor that is slow, or by one that is early and slower
+    still. While everything else is off the fit may run into the wrong one, and no step leads out of it.
+
+    Args:
+        model: Model and training recordings.
+        found: Fit without terms.
+    """
+    clocks = np.array([p.unit == "s" for p in model.parameters], dtype=bool)
+    if not np.any(np.abs(found.point.base[clocks]) > LATE):
+        return found
+    again = fit(model, Point(np.where(clocks, 0.0, found.point.base)), iterations=200)
+    return min(found, again, key=lambda f: f.cost)
 
 
 def spread(parameters: Sequence[Parameter], base: Array) -> Array:
