@@ -134,7 +134,7 @@ def _equations(rig: Rig) -> _Equations:
     for coils in rig.strings.values():
         for coil in coils:
             _coil(rig, coil, found)
-    for quantity, element in rig.channels:
+    for quantity, element in sorted(rig.channels):  # a set has another order in every process
         variable = f"{VARIABLES[quantity]}:{element}"
         if variable in found.unknown:
             name = f"{element}.{quantity}" if element != "supply" else "supply.current"

@@ -1,5 +1,9 @@
 """What channels tell apart by the structure of the equations: the findings of the field notes."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 from diagnosis.isolability.isolability import extra_channels
@@ -66,3 +70,19 @@ def test_the_channel_that_would_help_most(quantities, best):
     found = extra_channels(own, analyse(own))
     assert best in [f.channel for f in found[:2]]
     assert found[0].classes >= found[-1].classes > 0
+
+
+def test_classes_have_the_same_order_in_every_process():
+    code = (
+        "from tests.isolability.test_structure import analyse, rig; "
+        "print(analyse(rig('supply_current', 'current', 'temperature', 'extension')).classes())"
+    )
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2", "3")
+    }  # fmt: skip
+    assert len(told) == 1
+    assert "sensor of supply.current" in told.pop()
