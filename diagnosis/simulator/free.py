@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,7 +22,9 @@ SHIFTS: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
-#: Deviation of the logarithm of a sensor's lag: of a stated bound a fifth is typical, a half not rare.
+#: Of a stated bound half is one deviation of a clock, a fifth the typical lag of a sensor.
+LATE_SHARE, LAG_SHARE = 0.5, 0.2
+#: Deviation of the logarithm of a sensor's lag.
 LAG_SPREAD = 0.9
 #: Deviation of the gain of an ammeter as bought (0.1 to 0.3 % of the reading).
 CALIBRATION = 0.002
@@ -32,8 +35,8 @@ class Clocks:
     """How late readings may be by what the recordings state of clocks and sensors; quantity to seconds.
 
     Args:
-        late: One standard deviation of the clock.
-        slow: Typical lag of the sensors.
+        late: How far the clock may be off.
+        slow: Largest lag of the sensors.
     """
 
     late: Mapping[str, float]
@@ -91,13 +94,17 @@ def free_parameters(
 
 
 def _sensors(clocks: Clocks) -> Iterator[Free]:
+    """Clocks and lags within what the recordings state; beyond it they are faults, and candidates."""
     for quantity, late in clocks.late.items():
         mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
-        label = f"delay of every {quantity}"
-        yield Free("clock_offset", mask, None, Parameter(label, "s", 0.0, late, is_relative=False))
-    for quantity, lag in clocks.slow.items():
+        deviation, label = LATE_SHARE * late, f"delay of every {quantity}"
+        clock = Parameter(label, "s", 0.0, deviation, is_relative=False, bounds=1.0 / LATE_SHARE)
+        yield Free("clock_offset", mask, None, clock)
+    for quantity, slow in clocks.slow.items():
         mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
-        yield Free("sensor_lag", mask, None, Parameter(f"lag of every {quantity}", "s", lag, LAG_SPREAD))
+        most = -math.log(LAG_SHARE) / LAG_SPREAD  # as far below the typical lag as the bound is above it
+        lag = Parameter(f"lag of every {quantity}", "s", LAG_SHARE * slow, LAG_SPREAD, bounds=most)
+        yield Free("sensor_lag", mask, None, lag)
 
 
 def _supply_gain(measured: Collection[str]) -> Iterator[Free]:

@@ -142,8 +142,8 @@ def clocks(runs: Sequence[Run]) -> Clocks:
     slow: dict[str, float] = {}
     for s in (s for run in runs for s in run.series):
         lag = s.channel.lag_bound if s.channel.lag_bound <= LONGEST_LAG else 0.0
-        slow[s.quantity] = max(slow.get(s.quantity, 0.0), 0.2 * lag)
-        late[s.quantity] = max(late.get(s.quantity, 0.0), 0.5 * s.channel.offset_bound)
+        slow[s.quantity] = max(slow.get(s.quantity, 0.0), lag)
+        late[s.quantity] = max(late.get(s.quantity, 0.0), s.channel.offset_bound)
     return Clocks({q: v for q, v in late.items() if v > 0.0}, {q: v for q, v in slow.items() if v > 0.0})
 
 
