@@ -20,7 +20,7 @@ from proving.setups import EFFECTS, SETUPS, SHARES, Setup
 
 #: Kind of case to its share.
 KINDS = {
-    "single": 0.36, "null": 0.16, "parameters": 0.06, "sensor": 0.1, "two": 0.12, "outside": 0.1, "leave_one_out": 0.1
+    "single": 0.35, "null": 0.2, "parameters": 0.08, "sensor": 0.09, "two": 0.1, "outside": 0.1, "leave_one_out": 0.08
 }  # fmt: skip
 #: Share of the cases (but sensor faults) that are a pendulum, and of the loads that MuJoCo swings where it can.
 PENDULUM_SHARE, MUJOCO_SHARE = 0.12, 0.7

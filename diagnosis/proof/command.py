@@ -23,7 +23,7 @@ def _names(text: str) -> tuple[str, ...]:
 
 
 def prove(
-    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 460,
+    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 360,
     seed: Annotated[int, typer.Option(min=0, help="Of all draws.")] = 1,
     kinds: Annotated[str, typer.Option(help="Only these kinds of cases, separated by commas.")] = "",
     setups: Annotated[str, typer.Option(help="Only these rigs, separated by commas.")] = "",
