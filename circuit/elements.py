@@ -171,11 +171,7 @@ class Series:
 
     def delays(self) -> Array:
         """Delay of each source [s], 0 where it is ideal, shape (sources,)."""
-        found = np.zeros(self.sources)
-        for element in self.elements:
-            if isinstance(element, SlowSource):
-                found[element.supply - 1] = element.delay
-        return found
+        return _summed(self.sources, ((e.supply, e.delay) for e in self.elements if isinstance(e, SlowSource)))
 
     def lowered(self, voltage: Array, current: Array) -> Array:
         """Voltages with which the limits are kept, by the currents that flow without; coils are linear in the voltage.

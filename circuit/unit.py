@@ -83,6 +83,8 @@ class CircuitUnit(Unit):
         self._series, self._rises = network.series, network.series.rises()
         self._drops = self._series.drops()
         self._delays = self._series.delays()
+        self._is_slow = self._delays > 0.0
+        self._has_slow = bool(self._is_slow.any())
         self._behind = np.zeros(network.sources)  # voltage of the sources that are slow [V]
         self._by_current = (self._rises > 0.0) | (self._drops > 0.0)
         self._with_contacts = [n - 1 for n in network.strings_with_contacts()]
@@ -140,18 +142,21 @@ class CircuitUnit(Unit):
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
         """All inputs and outputs, the inputs that the outputs belong to, and the voltage of slow sources."""
-        memory = {"behind": self._behind.copy()} if self._delays.any() else {}
-        return {"solved": self._solved.copy(), **memory, **{n: a.copy() for n, a in self._store.arrays.items()}}
+        return {n: a.copy() for n, a in self._memory().items()}
 
     def resume(self, state: Mapping[str, npt.NDArray[np.generic]], time: int) -> None:
         """Go on from a checkpoint; UnitError if it belongs to another network."""
-        memory = [("behind", self._behind)] if self._delays.any() else []
-        for name, array in (*self._store.arrays.items(), ("solved", self._solved), *memory):
+        for name, array in self._memory().items():
             if name not in state or state[name].shape != array.shape:
                 raise UnitError(
                     self.name, f"the checkpoint's {name} does not fit this network", time, "resume the same scenario"
                 )
             array[...] = state[name]
+
+    def _memory(self) -> dict[str, Array]:
+        """Live arrays that a checkpoint holds."""
+        slow = {"behind": self._behind} if self._has_slow else {}
+        return {"solved": self._solved, **slow, **self._store.arrays}
 
     def terminate(self) -> None:
         """Free the circuit in ngspice."""
@@ -176,10 +181,9 @@ class CircuitUnit(Unit):
 
     def _slowed(self, voltage: Array, size: float) -> Array:
         """Mean over a step of `size` [s] of the voltage of every source; slow ones are behind what is set."""
-        is_slow = self._delays > 0.0
-        if not is_slow.any() or np.isnan(voltage).any():
+        if not self._has_slow or np.isnan(voltage).any():
             return voltage
-        delay = np.where(is_slow, self._delays, 1.0)
+        is_slow, delay = self._is_slow, np.where(self._is_slow, self._delays, 1.0)
         gap, decay = self._behind - voltage, np.exp(-size / delay)
         mean = voltage + gap * ((1.0 - decay) * delay / size if size > 0.0 else 1.0)
         self._behind[...] = np.where(is_slow, voltage + gap * decay, 0.0)

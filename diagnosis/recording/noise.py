@@ -84,11 +84,10 @@ def _is_stuck(values: Array) -> AnyArray:
     Where other neighbours are equal too, the sensor rounds by more than its noise: then a row tells nothing.
     """
     is_equal = np.diff(values) == 0.0
-    edges = np.flatnonzero(~is_equal) + 1
-    found = np.zeros(len(values), dtype=bool)
-    for first, last in zip((0, *edges), (*edges, len(values))):
-        is_end = values[first] in (np.max(values), np.min(values))
-        found[first:last] = is_end and last - first >= _STUCK
+    edges = np.concatenate([[0], np.flatnonzero(~is_equal) + 1, [len(values)]])
+    row, length = values[edges[:-1]], np.diff(edges)
+    is_end = (row == np.max(values)) | (row == np.min(values))
+    found = np.repeat(is_end & (length >= _STUCK), length)
     others = is_equal[~(found[1:] | found[:-1])]
     return found if others.size and np.mean(others) < _TWINS else np.zeros_like(found)
 

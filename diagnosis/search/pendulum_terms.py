@@ -47,11 +47,11 @@ _LAWS = (
         TermParameter("tilt", "rad", -0.2, 0.2, (1e-3, -1e-3, 1e-2, -1e-2)),)),
 )  # fmt: skip
 
-#: A spring stores energy, so its stiffness is not negative: a fit that may be found two other terms in its place.
 _HANGING = math.pi
 #: Rates at which a periodic torque is looked for [rad/s]: closer than what 12 s can tell apart.
 _RATES = tuple(0.5 * n for n in range(2, 41))
-#: Torques without a name, over the arm's own variables; each is a number of the unit.
+#: Torques without a name, over the arm's own variables; each is a number of the unit. A spring stores energy, so its
+#: stiffness is not negative: where it may be, a fit went astray and two other terms were found in its place.
 _UNNAMED = (
     _Law("torque_of_rate_cubed", "torque with the cube of the rate", "torque = -cubic_drag * w**3", (
         TermParameter("cubic_drag", "N*m*s^3", 0.0, 0.01, (1e-7, 1e-6, 1e-5)),)),

@@ -96,23 +96,27 @@ def free_parameters(
 def _sensors(clocks: Clocks) -> Iterator[Free]:
     """Clocks and lags within what the recordings state; beyond it they are faults, and candidates."""
     for quantity, late in clocks.late.items():
-        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
         deviation, label = LATE_SHARE * late, f"delay of every {quantity}"
         clock = Parameter(label, "s", 0.0, deviation, is_relative=False, bounds=1.0 / LATE_SHARE)
-        yield Free("clock_offset", mask, None, clock)
+        yield Free("clock_offset", _over(quantity), None, clock)
     for quantity, slow in clocks.slow.items():
-        mask = np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
         most = -math.log(LAG_SHARE) / LAG_SPREAD  # as far below the typical lag as the bound is above it
         lag = Parameter(f"lag of every {quantity}", "s", LAG_SHARE * slow, LAG_SPREAD, bounds=most)
-        yield Free("sensor_lag", mask, None, lag)
+        yield Free("sensor_lag", _over(quantity), None, lag)
+
+
+def _over(quantity: str) -> Array:
+    """1 at a quantity, else 0, shape (quantities,)."""
+    return np.array([1.0 if q == quantity else 0.0 for q in QUANTITIES])
 
 
 def _supply_gain(measured: Collection[str]) -> Iterator[Free]:
     """Where the currents of the strings are read too, the supply's must be their sum: two calibrations meet."""
     if {"supply_current", "current"} <= set(measured):
-        mask = np.array([1.0 if q == "supply_current" else 0.0 for q in QUANTITIES])
         label = "gain of supply.current"
-        yield Free("gain_error", mask, None, Parameter(label, "1", 0.0, CALIBRATION, is_relative=False))
+        yield Free(
+            "gain_error", _over("supply_current"), None, Parameter(label, "1", 0.0, CALIBRATION, is_relative=False)
+        )
 
 
 def _free(
