@@ -69,9 +69,11 @@ class Case:
         folder = cases / self.identifier
         folder.mkdir(parents=True, exist_ok=True)
         is_noise_told = bool(rng.random() < 0.6)
-        other, same = twin(self), deepcopy(rng)  # before sensors are spoiled and numbers are drawn
+        # Before sensors are spoiled and numbers are drawn.
+        second = (twin(self), deepcopy(rng)) if self.kind == "outside" else None
         written = _record(self, folder, rng, is_noise_told)
-        if self.kind == "outside":
+        if second is not None:
+            other, same = second
             _record(other, answers / other.identifier, same, is_noise_told)
         names = list(written)
         (folder / "scenario.yaml").write_text((_SCENARIOS / f"{self.setup.name}.yaml").read_text())
