@@ -186,6 +186,10 @@ class FabricModel:
         """See `diagnosis.search.focus.Local`."""
         return None if term in self._laws or self.bank is None else self.bank.shows_in(term)
 
+    def unseen(self, term: Term) -> tuple[float, ...]:
+        """See `DiagnosisModel`: masses are taken as given."""
+        return (0.0,) * len(term.parameters)
+
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels of the coil bank that are looked at together."""
         return self.bank.groups() if self.bank else {}

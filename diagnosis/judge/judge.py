@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cosim.unit import Array
@@ -116,7 +118,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
         is_named=term.is_named and is_trusted(outcome) and not is_limiting_case(fit, term),
         statement=f"{candidate.name}, {place.label}",
         law=candidate.law,
-        parameters=estimates(fit, term, _doubt(outcome)),
+        parameters=estimates(fit, term, _doubt(outcome), model.unseen(term)),
         gain=outcome.best.gains.get(term, 0.0),
         probability=probability,
         ambiguous_with=tuple(sorted({a.effect for a in near if a.effect != term.identifier})),
@@ -151,13 +153,14 @@ def _doubt(outcome: Outcome) -> float:
     return max(1.0, float(spread), abs(outcome.left.z) / outcome.left.limit)
 
 
-def estimates(fit: Fit, term: Term, doubt: float = 1.0) -> tuple[Estimate, ...]:
+def estimates(fit: Fit, term: Term, doubt: float = 1.0, unseen: Sequence[float] = ()) -> tuple[Estimate, ...]:
     """Parameters of a term with 95 % intervals, cut at their bounds.
 
     Args:
         fit: The fit; the curvature of its posterior gives the intervals.
         term: One of its terms.
         doubt: Factor on the intervals.
+        unseen: Relative deviation of each parameter that the recordings cannot show; empty: none.
     """
     covariance = fit.covariance
     begin = len(fit.point.base)
@@ -167,7 +170,8 @@ def estimates(fit: Fit, term: Term, doubt: float = 1.0) -> tuple[Estimate, ...]:
         begin += len(values)
     found = []
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
-        half = doubt * NORMAL_95 * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
+        seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
+        half = NORMAL_95 * float(np.hypot(seen, value * unseen[i] if unseen else 0.0))
         found.append(Estimate(p.name, p.unit, value, max(value - half, p.lower), min(value + half, p.upper)))
     return tuple(found)
 

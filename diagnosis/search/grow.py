@@ -12,10 +12,11 @@ from cosim.unit import Array
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
-from diagnosis.search.problem import Model, Point, Term, TermParameter, strength_slopes
+from diagnosis.search.problem import Model, Point, Term, TermParameter, has_valleys, strength_slopes
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
 from diagnosis.search.structure import structure
 from diagnosis.search.switches import costs_at, is_strained, nominal_of, switch_scores
+from diagnosis.search.valley import down_valley
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
@@ -97,9 +98,14 @@ def _continued(
     for key, trial in sorted(tried.items(), key=lambda t: t[1].cost):
         share = FARTHEST if key in laws else FAR
         may_win = before - trial.cost + CLOSE > (1.0 - share) * (before - best)
-        grown[key] = Explanation(fit(model, trial.point, STEPS, trial) if may_win else trial)
+        grown[key] = Explanation(_settled(model, fit(model, trial.point, STEPS, trial)) if may_win else trial)
         best = min(best, grown[key].fit.cost)
     return grown
+
+
+def _settled(model: Model, found: Fit) -> Fit:
+    """A fit that has gone down the valleys of its laws, where these have any."""
+    return down_valley(model, found) if has_valleys(model) else found
 
 
 def polished(model: Model, grown: Sequence[Explanation], before: float, margin: float) -> list[Explanation]:
@@ -111,7 +117,7 @@ def polished(model: Model, grown: Sequence[Explanation], before: float, margin: 
     gained = before - ranked[0].demerit if ranked else 0.0
     most = MOST_POLISHED if gained > margin else 1
     near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
-    done = [Explanation(fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
+    done = [Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths))) for e in near]
     return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 
@@ -163,6 +169,8 @@ def _trial(model: Model, before: Fit, candidate: Score) -> Fit:
         other = int(np.argmin(costs[1:]))
         if costs[1 + other] <= costs[0] or candidate.term.parameters[0].is_switch:
             starts.append(points[other])
+    if candidate.second is not None and has_valleys(model):
+        starts.append(before.point.plus(candidate.term, candidate.second))
     return fit_best(model, starts, TRIAL, before, refreshes=0)
 
 

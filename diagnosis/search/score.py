@@ -31,12 +31,14 @@ class Score:
         values: Its parameters, strength by the straight line.
         gain: Predicted fall of -2 log posterior.
         visibility: Share of its effect that the recalibration does not absorb, in [0, 1].
+        second: Its parameters at the second best choice of its shape, if there is one.
     """
 
     term: Term
     values: tuple[float, ...]
     gain: float
     visibility: float
+    second: tuple[float, ...] | None = None
 
 
 class Projection:
@@ -215,16 +217,17 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed:
     tasks = [(term, values) for term in terms if term not in base.point.terms for values in shapes(term)]
     chance, tried = np.zeros(draws), 0
     leads: list[tuple[Term, tuple[float, ...]] | None] = [None] * draws
-    best: dict[Term, Score] = {}
+    best: dict[Term, list[Score]] = {}
     for begin in range(0, len(tasks), BATCH):
         scores, largest, leading = _batch(model, base, tasks[begin : begin + BATCH], projection)
         tried += len(scores)
         leads = [new if b > a else old for a, b, old, new in zip(chance, largest, leads, leading)]
         chance = np.maximum(chance, largest)
         for found in scores:
-            if found.gain > 0 and (found.term not in best or found.gain > best[found.term].gain):
-                best[found.term] = found
-    return Scoring(sorted(best.values(), key=lambda s: -s.gain), tried, chance, tuple(leads))
+            if found.gain > 0:
+                best[found.term] = sorted([*best.get(found.term, ()), found], key=lambda s: -s.gain)[:2]
+    ranked = [replace(one, second=more[0].values if more else None) for one, *more in best.values()]
+    return Scoring(sorted(ranked, key=lambda s: -s.gain), tried, chance, tuple(leads))
 
 
 def _batch(

@@ -120,6 +120,10 @@ class BankModel:
             self._shown[term] = self._shows_in(*self._places[term])
         return self._shown[term]
 
+    def unseen(self, term: Term) -> tuple[float, ...]:
+        """See `DiagnosisModel`: every scale of a bank is a parameter that is fitted."""
+        return (0.0,) * len(term.parameters)
+
     def _shows_in(self, candidate: CandidateTerm, place: Place) -> tuple[list[int], bool] | None:
         if place.kind not in ("coil", "channel", "swap", "string"):
             return None

@@ -10,12 +10,13 @@ import numpy as np
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.compute.batch import Batches
+from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.pendulum_terms import pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
-from diagnosis.simulator.pendulum_model import PendulumModel, is_single_pendulum
+from diagnosis.simulator.pendulum_model import TORQUE, PendulumModel, is_single_pendulum, without_scale
 from diagnosis.simulator.runs import deviation
 from diagnosis.simulator.unit_laws import laws_of
 
@@ -68,11 +69,18 @@ class ClosedLoopModel:
             laws = [*pendulum_laws(component, without), *sensor_laws(component, channels)]
             kind = PendulumModel
         self._laws = {law.place.term: law for law in laws if law.place.term.identifier not in without}
-        free = free_parameters(scenario, recordings)
+        free, self._torque_scale = free_parameters(scenario, recordings), 0.0
+        if kind is PendulumModel:
+            free, self._torque_scale = without_scale(scenario_of(scenario, recordings[0]), free)
         self.model = kind(scenario, recordings, free, [law.place for law in self._laws.values()], batches)
         self.runs = [_compared(r) for r in recordings]
         self.parameters: Sequence[Parameter] = self.model.parameters
         self.layout: Layout = self.model.layout
+
+    @property
+    def has_valleys(self) -> bool:
+        """See `diagnosis.search.problem.has_valleys`."""
+        return isinstance(self.model, PendulumModel)
 
     @property
     def simulations(self) -> int:
@@ -99,6 +107,10 @@ class ClosedLoopModel:
     def shows_in(self, term: Term) -> None:
         """A law of a unit is not local to a channel."""
         return
+
+    def unseen(self, term: Term) -> tuple[float, ...]:
+        """See `diagnosis.simulator.models.DiagnosisModel`."""
+        return tuple(self._torque_scale if p.unit.startswith(TORQUE) else 0.0 for p in term.parameters)
 
     def groups(self) -> Mapping[str, AnyArray]:
         """No channels are looked at together."""

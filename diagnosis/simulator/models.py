@@ -112,6 +112,10 @@ class DiagnosisModel(Protocol):
         """See `diagnosis.search.focus.Local`."""
         ...
 
+    def unseen(self, term: Term) -> Sequence[float]:
+        """Relative deviations of its parameters that recordings cannot lower: what scales them leaves no trace."""
+        ...
+
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels that are looked at together, by name."""
         ...

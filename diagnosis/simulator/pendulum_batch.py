@@ -25,9 +25,10 @@ LAWS = (
     "periodic_phase", "constant_torque",
 )  # fmt: skip
 #: Longest step where the unit's is shorter, in radians of a small swing: errors of 5e-6 rad after 15 swings; half of it
-#: with dry friction (1e-4 rad).
-PHASE, DRY_PHASE = 0.042, 0.021
-_DRY = [5 + LAWS.index(name) for name in ("coulomb_friction", "stiction")]
+#: with dry friction (1e-4 rad). Stiction acts near standstill alone, which a longer step leaps over (1e-2 rad): the
+#: unit's own.
+PHASE, DRY_PHASE, STUCK_PHASE = 0.042, 0.021, 0.0
+_DRY, _STICKS = (5 + LAWS.index(name) for name in ("coulomb_friction", "stiction"))
 #: Arms that are simulated together: one star of pendulums.c.
 TOGETHER = 4
 
@@ -111,8 +112,9 @@ def swings(arms: Sequence[Sequence[float]], unit_step: float, spacing: float, sa
     library = _library()
     given = np.ascontiguousarray(arms, dtype=np.float64)
     found = np.zeros((len(given), samples, 2))
-    is_dry = np.any(given[:, _DRY] > 0.0, axis=1)
-    for members, phase in ((np.flatnonzero(is_dry), DRY_PHASE), (np.flatnonzero(~is_dry), PHASE)):
+    longest = np.where(given[:, _STICKS] > 0.0, STUCK_PHASE, np.where(given[:, _DRY] > 0.0, DRY_PHASE, PHASE))
+    for phase in (STUCK_PHASE, DRY_PHASE, PHASE):
+        members = np.flatnonzero(longest == phase)
         for begin in range(0, len(members), TOGETHER):
             chosen = members[begin : begin + TOGETHER]
             own, out = np.ascontiguousarray(given[chosen]), np.zeros((len(chosen), samples, 2))

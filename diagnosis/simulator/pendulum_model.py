@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import cached_property
 
@@ -17,11 +17,11 @@ from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, sample
-from diagnosis.search.cosim_model import STEP, CosimModel
+from diagnosis.search.cosim_model import STEP, CosimModel, Free
 from diagnosis.search.cosim_run import Changes
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.pendulum_batch import arm, is_available, swings
+from diagnosis.simulator.pendulum_batch import LAWS, arm, is_available, swings
 from mechanics.pendulum_design import PendulumDesign, behind_play
 
 #: Numbers of a design that a scenario need not give.
@@ -29,6 +29,10 @@ _DEFAULTS: Mapping[str, float] = {f.name: f.default for f in fields(PendulumDesi
 _Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
 #: Residuals that are kept: a fit asks again for those where it stands.
 KEPT = 64
+#: A parameter is moved until a residual moves by so much [deviations], at most by so many of its prior deviations.
+SEEN, FARTHEST = 0.3, 0.3
+#: How units of torques over rate or angle begin.
+TORQUE = "N*m"
 _MEASURED = frozenset({"angle", "arm_angle", "angular_velocity"})
 
 
@@ -60,6 +64,25 @@ def is_single_pendulum(scenario: Scenario, recordings: Sequence[Recording]) -> b
     return measured <= _MEASURED and not components[0].start and is_available()
 
 
+def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free], float]:
+    """Numbers that a free swing can show, and the relative deviation of what it cannot: the scale of all torques.
+
+    The mass, with the arm's shape kept (`PendulumModel.changes_at`), multiplies inertia and weight alike. Where nothing
+    else turns the arm it is not fitted: but for rounding, its derivatives are those of all torques that are found.
+
+    Args:
+        scenario: Of one recording; a torque that it gives itself sets the scale.
+        free: Numbers that may be off.
+    """
+    values = _grid_of(scenario).values
+    is_driven = any(values[n] for n, unit in PENDULUM_UNITS.items() if n in LAWS and unit.startswith(TORQUE))
+    is_reshaped = any(f.name == "central_inertia" for f in free)
+    masses = [f for f in free if f.name == "mass" and f.recording is None]
+    if is_driven or is_reshaped or not masses:
+        return list(free), 0.0
+    return [f for f in free if f not in masses], masses[0].parameter.deviation
+
+
 class PendulumModel(CosimModel):
     """See `CosimModel`; residuals come from arms in one world, `predictions` from the co-simulation."""
 
@@ -83,19 +106,29 @@ class PendulumModel(CosimModel):
 
         One deviation of a length turns a swing by some radians; a thousandth of it is bent by 1e-3 of itself.
         """
+        slopes = self._slopes(point, np.full(len(self.free), STEP))
+        # Friction makes a swing rough: what moves it by less than that must be moved further to be seen.
+        strongest = np.max(np.abs(slopes), axis=0, initial=0.0)
+        steps = np.clip(SEEN / np.maximum(strongest, 1e-300), STEP, FARTHEST)
+        weak = np.flatnonzero(steps > STEP)
+        if len(weak):
+            slopes[:, weak] = self._slopes(point, steps, weak.tolist())[:, weak]
+        return slopes
+
+    def _slopes(self, point: Point, steps: Array, columns: Collection[int] | None = None) -> Array:
+        """Forward differences by the z of parameters, all or some, shape (residuals, parameters)."""
         begin = np.concatenate([[0], np.cumsum(self._sizes)])
-        jacobian = np.zeros((begin[-1], len(self.free)))
+        found = np.zeros((begin[-1], len(self.free)))
         numbers = range(len(self.recordings))
-        places = [(i, n) for n in numbers for i, free in enumerate(self.free) if free.recording in (None, n)]
-        moved = {
-            i: replace(point, base=point.base + STEP * (np.arange(len(self.free)) == i)) for i in range(len(self.free))
-        }
+        wanted = range(len(self.free)) if columns is None else columns
+        places = [(i, n) for n in numbers for i in wanted if self.free[i].recording in (None, n)]
+        moved = {i: replace(point, base=point.base + steps[i] * (np.arange(len(self.free)) == i)) for i in wanted}
         rows = self._rows([*((point, n) for n in numbers), *((moved[i], n) for i, n in places)])
         for (column, number), row in zip(places, rows[len(numbers) :]):
             with np.errstate(invalid="ignore"):
-                slope = (row - rows[number]) / STEP
-            jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
-        return jacobian
+                slope = (row - rows[number]) / steps[column]
+            found[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
+        return found
 
     @cached_property
     def _known(self) -> dict[_Key, Array]:

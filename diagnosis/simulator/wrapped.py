@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from cosim.unit import AnyArray, Array
-from diagnosis.search.problem import Layout, Parameter, Point, Term, strength_slopes
+from diagnosis.search.problem import Layout, Parameter, Point, Term, has_valleys, strength_slopes
 from diagnosis.simulator.models import DiagnosisModel, Effect, RecordedRun, Spot
 
 
@@ -58,6 +58,15 @@ class WrappedModel:
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
         return self.inner.shows_in(term)
+
+    @property
+    def has_valleys(self) -> bool:
+        """See `diagnosis.search.problem.has_valleys`."""
+        return has_valleys(self.inner)
+
+    def unseen(self, term: Term) -> Sequence[float]:
+        """See `DiagnosisModel`."""
+        return self.inner.unseen(term)
 
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels that are looked at together, by name."""

@@ -13,17 +13,19 @@ from scipy.integrate import solve_ivp
 from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import load_scenario
+from diagnosis.judge.judge import estimates
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
-from diagnosis.search.cosim_model import CosimModel, free_parameters
+from diagnosis.search.cosim_model import CosimModel, Free, free_parameters
+from diagnosis.search.fit import fit
 from diagnosis.search.pendulum_terms import pendulum_laws
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Parameter, Point
 from diagnosis.search.search import Settings, search
 from diagnosis.simulator.closed_loop import ClosedLoopModel
 from diagnosis.simulator.pendulum_batch import arm, longest_step, swings
-from diagnosis.simulator.pendulum_model import PendulumModel, lagging
+from diagnosis.simulator.pendulum_model import PendulumModel, lagging, without_scale
 from mechanics.bullet_pendulum import PendulumWorld
 from mechanics.pendulum import PendulumDesign
 
@@ -180,6 +182,35 @@ def test_a_heavier_arm_swings_alike_without_friction_and_less_damped_with_it(lon
     assert np.abs(model.base_jacobian(Point(np.zeros(1)))).max() < 1e-4
     light, much = Point(np.zeros(1), {damping: (1e-4,)}), Point(np.log(1.5) * np.full(1, 10.0), {damping: (1.5e-4,)})
     assert np.abs(model.residuals([light]) - model.residuals([much])).max() < 1e-4
+
+
+def test_what_no_swing_shows_is_not_fitted_but_counts_in_the_interval(longer):
+    base = load_scenario("pendulum")
+    recordings = [longer]
+    free = free_parameters(base, recordings)
+    mass = Free(Parameter("arm.mass", "kg", 0.1, 0.02), "arm", "mass")
+    kept, scale = without_scale(base, [mass, *free])
+    assert (kept, scale) == (free, 0.02)
+    own = base.components["arm"]
+    driven = own.model_copy(update={"parameters": {**own.parameters, "viscous_damping": PhysicalValue(1e-4, "N*m*s")}})
+    damped = base.model_copy(update={"components": {"arm": driven}})
+    assert without_scale(damped, [mass, *free]) == ([mass, *free], 0.0)  # a known torque sets the scale
+
+
+def test_intervals_of_torques_hold_the_doubt_about_the_mass(longer):
+    model = ClosedLoopModel(load_scenario("pendulum"), [longer])
+    damping, tilt = (next(t for t in model.terms() if t.identifier == i) for i in ("viscous_damping", "tilt"))
+    found = fit(model, Point(np.zeros(len(model.parameters)), {damping: (1e-4,), tilt: (0.01,)}))
+    (seen,), (whole,) = estimates(found, damping), estimates(found, damping, unseen=(0.015,))
+    half = np.hypot(seen.upper - seen.value, 1.96 * 0.015 * seen.value)
+    assert whole.upper - whole.value == pytest.approx(half, rel=1e-3)
+    assert model.unseen(tilt) == (0.0,)
+
+
+def test_stiction_is_simulated_in_the_steps_of_the_unit():
+    given = design(stiction=6e-3, stribeck_speed=0.36)
+    found, unit = together([given], 5e-4, 6.0)[0], by_unit(given, 5e-4, 6.0)
+    assert np.abs(found - unit)[:, 0].max() < 1e-4
 
 
 def test_a_sensor_of_first_order_answers_a_ramp_exactly():
