@@ -242,7 +242,7 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
             continue  # called together with `shared`
         is_sensor = HOOK_AXES[hook] == "channel"
         argument = "sensor" if is_sensor else "s, turn" if hook == "pairs" else "s"
-        calls = [_call(number, term, hook, is_sensor) for number, term in enumerate(terms) if hook in term.lines]
+        calls = [_call(number, term, hook, is_sensor) for number, term in _in_order(terms, hook)]
         out.append(f"#define HOOK_{hook}({argument}) do {{ {' '.join(calls)} }} while (0)")
     starts = [f"if (ON({n})) start_{t.identifier}(s, VALUES({n}));" for n, t in enumerate(terms) if t.states]
     out.append(f"#define START_states(s) do {{ {' '.join(starts)} }} while (0)")
@@ -257,6 +257,16 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
     reading = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if reads_current(t)]
     out.append(f"#define READS_CURRENT(plan) ({' || '.join(reading) or '0'})")
     return "\n".join(out) + "\n"
+
+
+def _in_order(terms: Sequence[CandidateTerm], hook: str) -> list[tuple[int, CandidateTerm]]:
+    """Terms with a hook and their numbers, those last that hold on to the extension of the step before.
+
+    Play and friction hold what all others have made of an extension; were a contraction added after them, it would be
+    added to what they hold in every step anew.
+    """
+    own = [(number, term) for number, term in enumerate(terms) if hook in term.lines]
+    return sorted(own, key=lambda one: hook == "length" and "extension_before" in words(one[1].lines[hook]))
 
 
 def _call(number: int, term: CandidateTerm, hook: str, is_sensor: bool) -> str:

@@ -39,7 +39,7 @@ CANDIDATE = CandidateTerm(
     },
     signature="As a second mass; the plateau itself is lower too.",
     confused_with={
-        "second_mass": "needs a plateau that is really reached",
+        "second_mass": "one equation, beside an h A that is greater by g * loss / (g + loss): a known h A decides",
         "base:conductance": "only the slow part tells",
     },
     states=(State("mass", "K", "T"),),

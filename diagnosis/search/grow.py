@@ -31,6 +31,8 @@ OUTDONE = 1.6
 EQUATIONS = 3
 #: Instants from which a fit may begin.
 INSTANTS = 40
+#: How far from where a fit ended its instants are tried [s].
+LATE = (-3.0, -2.0, -1.4, -1.0, -0.7, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0)
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96
 #: Most steps of a trial, whose derivatives by the model's own parameters are those at hand, and of what goes on.
@@ -71,6 +73,9 @@ def grow(
             best = min(tried.values(), key=lambda f: f.cost)
             for candidate in _unnamed_equations(left_out, best, model):
                 tried[frozenset((*explanation.terms, candidate.term))] = _trial(model, explanation.fit, candidate)
+        if tried:  # straight lines may have pointed elsewhere than where the best was found
+            (there,) = min(tried, key=lambda k: tried[k].cost) - set(explanation.terms)
+            laws |= {k for k in tried for t in k - set(explanation.terms) if t.is_named and t.place == there.place}
         grown |= _continued(model, explanation.fit.cost, tried, laws)
     return list(grown.values()), scorings[0]
 
@@ -104,8 +109,31 @@ def _continued(
 
 
 def _settled(model: Model, found: Fit) -> Fit:
-    """A fit that has gone down the valleys of its laws, where these have any."""
-    return down_valley(model, found) if has_valleys(model) else found
+    """A fit that has gone down the valleys of its laws, where these have any, or tried instants near its own."""
+    return down_valley(model, found) if has_valleys(model) else _with_instants_set(model, found)
+
+
+def _with_instants_set(model: Model, found: Fit) -> Fit:
+    """The fit, or a better one with an instant nearby.
+
+    Readings that a step leaves on its wrong side pull at it with a force that does not grow with their distance
+    (Huber), so that others may hold it: a break at 42.0 s was fitted at 42.7 s, where another law passed for it.
+    """
+    points = [
+        found.point.plus(term, (*values[:i], value + late, *values[i + 1 :]))
+        for term, values in found.point.terms.items()
+        for i, (parameter, value) in enumerate(zip(term.parameters, values))
+        if parameter.is_instant
+        for late in LATE
+        if parameter.lower < value + late < parameter.upper
+    ]
+    if not points:
+        return found
+    costs = costs_at(model, found, points)
+    best = int(np.argmin(costs))
+    if costs[best] >= found.cost:
+        return found
+    return min(found, fit(model, points[best], STEPS, found), key=lambda f: f.cost)
 
 
 def polished(model: Model, grown: Sequence[Explanation], before: float, margin: float) -> list[Explanation]:

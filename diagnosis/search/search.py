@@ -22,6 +22,8 @@ from diagnosis.search.structure import Structure, structure
 FEWEST, WIDEST = 6, 2.5
 #: Stated deviations beyond which a clock or a lag may be a wrong minimum.
 LATE = 1.5
+#: Share of the best's gain from which the best of names alone is gone on from too.
+NAMED = 0.8
 
 
 @dataclass(frozen=True)
@@ -127,12 +129,14 @@ def search(
     current = [Explanation(base)]
     best = current[0]
     rivals: tuple[Explanation, ...] = (best,)
+    named: Explanation | None = None
     margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
     for level in range(settings.most_terms):
         on_progress(f"looking for effect {level + 1}")
-        is_done = settings.stops_at_noise and structure(current[0].fit.residuals, model.layout, groups).is_noise
-        grown, scoring = grow(model, terms, current[:1] if is_done else current, settings, margin)
+        is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
+        ahead = [e for e in current if not is_done or e is best or e is named]
+        grown, scoring = grow(model, terms, ahead, settings, margin)
         if level == 1 and not is_done:
             grown = [*grown, *pairs(model, base, first.ranked, settings, margin)]
         grown = polished(model, grown, current[0].demerit, margin)
@@ -152,7 +156,7 @@ def search(
         grown = list(select(current[0], grown))
         if not grown:
             break
-        current = grown[: settings.beam]
+        current, named = _gone_on_from(grown, settings.beam, best.cost)
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
         if settings.stops_at_noise and not is_left and level + 1 >= settings.most_terms - 1:
@@ -161,6 +165,28 @@ def search(
     best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
+
+
+def _gone_on_from(
+    grown: Sequence[Explanation], beam: int, before: float
+) -> tuple[list[Explanation], Explanation | None]:  # fmt: skip
+    """The best few, and the best of names alone where it comes near: two named laws may be what one bends into.
+
+    Args:
+        grown: Explanations, best first.
+        beam: How many.
+        before: -2 log posterior before they grew.
+
+    Returns:
+        Both together, and the named one if the best is not named and it comes near.
+    """
+    kept = list(grown[:beam])
+    if all(t.is_named for t in kept[0].terms):
+        return kept, None
+    named = next((e for e in grown if all(t.is_named for t in e.terms)), None)
+    if named is None or before - named.cost < NAMED * (before - kept[0].cost):
+        return kept, None
+    return [*kept, *([named] if all(e is not named for e in kept) else [])], named
 
 
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:

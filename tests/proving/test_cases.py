@@ -135,7 +135,7 @@ def test_kinds_come_by_their_shares_and_effects_equally_often():
     assert max(singles.values()) - min(singles.values()) <= 3  # three strengths to a deck
     both = [c for c in cases if c.kind == "two"]
     assert sum(len({e.unit for e in c.effects}) == 2 for c in both) > len(both) / 3
-    assert all(c.hidden == (c.effects[0].identifier,) for c in cases if c.kind == "leave_one_out")
+    assert all(c.hidden[0] == c.effects[0].identifier for c in cases if c.kind == "leave_one_out")
 
 
 def test_named_effects_have_the_catalogues_name_and_the_others_none_of_its():
