@@ -43,7 +43,9 @@ def test_a_fit_that_is_stuck_beside_its_instant_is_set_free():
     stuck = fit(model, Point(np.zeros(2), {STEP: (6.0, 0.4)}), iterations=2)
     assert abs(stuck.point.terms[STEP][1] - 0.8) > 0.05
     found = _with_instants_set(model, stuck)
-    assert found.point.terms[STEP] == pytest.approx((8.0, 0.8), abs=0.05)
+    size, instant = found.point.terms[STEP]
+    assert instant == pytest.approx(0.8, abs=0.01)
+    assert size == pytest.approx(8.0, abs=0.3)  # the prior of the slope pulls a little
     assert min(abs(late - 0.4) for late in LATE) <= 0.1  # what it leaps over
 
 
