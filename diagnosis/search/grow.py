@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -119,14 +119,7 @@ def _with_instants_set(model: Model, found: Fit) -> Fit:
     Readings that a step leaves on its wrong side pull at it with a force that does not grow with their distance
     (Huber), so that others may hold it: a break at 42.0 s was fitted at 42.7 s, where another law passed for it.
     """
-    points = [
-        found.point.plus(term, (*values[:i], value + late, *values[i + 1 :]))
-        for term, values in found.point.terms.items()
-        for i, (parameter, value) in enumerate(zip(term.parameters, values))
-        if parameter.is_instant
-        for late in LATE
-        if parameter.lower < value + late < parameter.upper
-    ]
+    points = list(_other_instants(found.point, _instants_near))
     if not points:
         return found
     costs = costs_at(model, found, points)
@@ -210,30 +203,35 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
     yield from _other_shapes(before, candidate, sizes)
     if len(first.starts) > 1:  # far from a straight line another size may be the better start
         yield from (before.point.plus(term, (size, *shape)) for size in first.starts)
-    for moved in _other_instants(before.point):  # what came first may have come at a wrong instant
+    for moved in _other_instants(before.point, _instants):  # what came first may have come at a wrong instant
         yield from (moved.plus(term, (size, *shape)) for size in sizes)
     if is_strained(before):
         for size in sizes:
             yield nominal_of(before).plus(term, (size, *shape))
 
 
-def _instants(parameter: TermParameter) -> list[float]:
-    """Instants within the bounds of one [s], evenly spread."""
+def _instants(parameter: TermParameter, _: float = 0.0) -> list[float]:
+    """Instants within the bounds of one [s], evenly spread, wherever it is."""
     return [float(v) for v in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]]
 
 
-def _other_instants(point: Point) -> Iterator[Point]:
-    """The same with one of its instants elsewhere."""
+def _instants_near(parameter: TermParameter, now: float) -> list[float]:
+    """Instants around one [s], within its bounds."""
+    return [now + late for late in LATE if parameter.lower < now + late < parameter.upper]
+
+
+def _other_instants(point: Point, instants: Callable[[TermParameter, float], Sequence[float]]) -> Iterator[Point]:
+    """The same with one of its instants elsewhere: where, a function of it and its value says."""
     for term, values in point.terms.items():
         for i, parameter in enumerate(term.parameters):
             if parameter.is_instant:
-                for value in _instants(parameter):
+                for value in instants(parameter, values[i]):
                     yield point.plus(term, (*values[:i], value, *values[i + 1 :]))
 
 
 def _best_instants(model: Model, base: Fit, point: Point) -> Point:
     """The point, or the best of those with one of its instants elsewhere, one instant after the other."""
-    points = [point, *_other_instants(point)]
+    points = [point, *_other_instants(point, _instants)]
     if len(points) == 1:
         return point
     return points[int(np.argmin(costs_at(model, base, points)))]

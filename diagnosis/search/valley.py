@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from diagnosis.search.fit import Fit, fit
-from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Model, Point
+from diagnosis.search.switches import costs_at
 
 #: Factors on a number by which the valley is looked along.
 FACTORS = (0.5, 0.7, 0.85, 1.2, 1.4, 2.0)
@@ -31,8 +31,8 @@ def down_valley(model: Model, found: Fit) -> Fit:
         points = along(found)
         if not points:
             break
-        costs = [cost(r, p.base, found.widths) for r, p in zip(model.residuals(points), points)]
-        best = int(np.argmin(np.where(np.isfinite(costs), costs, np.inf)))
+        costs = costs_at(model, found, points)
+        best = int(np.argmin(costs))
         if not costs[best] < found.cost + NEAR:
             break
         other = fit(model, points[best], widths=found.widths)
@@ -48,20 +48,23 @@ def along(found: Fit) -> list[Point]:
     Numbers of terms go in logarithms where they and their lower bounds are not negative, the model's own in a straight
     line. Instants and first numbers (strengths) are not led: others lead them.
     """
-    numbers = [(t, p, v) for t, values in found.point.terms.items() for p, v in zip(t.parameters, values)]
-    first = {t.parameters[0].name: t for t in found.point.terms}
+    numbers = [
+        (p, v, is_first)
+        for t, values in found.point.terms.items()
+        for p, v, is_first in zip(t.parameters, values, (True, *[False] * (len(values) - 1)))
+    ]
     begin, points = len(found.point.base), []
     covariance = found.covariance
-    for i, (term, parameter, value) in enumerate(numbers):
+    for i, (parameter, value, is_first) in enumerate(numbers):
         spread = covariance[begin + i, begin + i]
-        leads = first.get(parameter.name) is not term and not parameter.is_instant and parameter.lower >= 0.0 < value
+        leads = not is_first and not parameter.is_instant and parameter.lower >= 0.0 < value
         if not leads or not np.isfinite(spread) or spread <= 0.0:
             continue
         slopes = covariance[:, begin + i] / spread
         for factor in FACTORS:
             step = value * float(np.log(factor))
             values = []
-            for j, (_, other, now) in enumerate(numbers):
+            for j, (other, now, _) in enumerate(numbers):
                 moved = float(slopes[begin + j]) * step
                 is_log = other.lower >= 0.0 < now
                 there = now * float(np.exp(np.clip(moved / now, -3.0, 3.0))) if is_log else now + moved

@@ -15,7 +15,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from proving.__main__ import main
 from proving.case import Case
-from proving.cases import KINDS, drawn_cases, write_cases
+from proving.cases import KINDS, drawn_cases, hidden_with, write_cases
 from proving.effects import measurement
 from proving.pendulum.case import PendulumCase
 from proving.setups import EFFECTS, SETUPS
@@ -135,7 +135,13 @@ def test_kinds_come_by_their_shares_and_effects_equally_often():
     assert max(singles.values()) - min(singles.values()) <= 3  # three strengths to a deck
     both = [c for c in cases if c.kind == "two"]
     assert sum(len({e.unit for e in c.effects}) == 2 for c in both) > len(both) / 3
-    assert all(c.hidden[0] == c.effects[0].identifier for c in cases if c.kind == "leave_one_out")
+    assert all(c.hidden == hidden_with(c.effects[0].identifier) for c in cases if c.kind == "leave_one_out")
+
+
+def test_with_an_effect_its_equal_equations_are_hidden_and_nothing_else():
+    assert hidden_with("tilt") == ("tilt",)
+    assert hidden_with("sheath") == ("sheath", "lossy_second_mass", "second_mass")
+    assert hidden_with("transformation_shift") == ("transformation_shift", "stress_dependent_transformation")
 
 
 def test_named_effects_have_the_catalogues_name_and_the_others_none_of_its():

@@ -1,5 +1,7 @@
 """What a search goes on from, and an instant at which a fit was stuck."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,11 +18,7 @@ BASE = recalibrate(LineModel(0.3 + 0.5 * TIME))
 def explanation(cost, *terms):
     """One with terms, of a given -2 log posterior."""
     values = {t: (0.1,) * len(t.parameters) for t in terms}
-    found = Explanation(BASE)
-    fitted = type(BASE)(
-        Point(BASE.point.base, values), cost, BASE.residuals, BASE.columns, BASE.term_columns, True, BASE.widths
-    )
-    return type(found)(fitted)
+    return Explanation(replace(BASE, point=Point(BASE.point.base, values), cost=cost))
 
 
 def test_names_that_come_near_are_gone_on_from_beside_a_law_without_one():
