@@ -15,10 +15,19 @@ class Verdict(Enum):
 
     CONSISTENT = "consistent"
     RECALIBRATED = "recalibrated"
+    RECORDING_FAULT = "recording fault"
     MEASUREMENT_FAULT = "measurement fault"
     MISSING_PHYSICS = "missing physics"
     UNNAMED_PHYSICS = "unnamed physics"
     CANNOT_TELL = "cannot tell"
+
+
+class Standing(Enum):
+    """How far a finding may be called by a name."""
+
+    NAMED = "named"
+    CLASS = "class"
+    UNNAMED = "unnamed"
 
 
 @dataclass(frozen=True)
@@ -77,6 +86,10 @@ class Finding:
         ambiguous_with: Effects that the data cannot tell from it.
         alternatives: Others that were fitted, best first.
         confused_with: Effect to what would decide, from the catalogue.
+        standing: `named` if the odds against every rival are at least 20 to 1 and its parameters are identified; `class`
+            if it is one of several (`effect` is the most probable, `ambiguous_with` the others); else `unnamed`.
+        is_accepted: Whether it gains on readings that it was not fitted to; else it is a suggestion.
+        doubts: Why it is no name, or not accepted, in plain words.
     """
 
     unit: str
@@ -94,6 +107,37 @@ class Finding:
     ambiguous_with: tuple[str, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
     confused_with: dict[str, str] = field(default_factory=dict)
+    standing: Standing = Standing.NAMED
+    is_accepted: bool = True
+    doubts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something about a recording that the check before the diagnosis stumbled over.
+
+    Args:
+        recording: Title of the recording.
+        subject: Channel, input or key of recording.yaml concerned.
+        kind: `programme`, `other run`, `swapped`, `unit`, `sign`, `dead time`, `clock`, `noise`, `sensor`, `input`,
+            `start`, `scale`.
+        statement: What was seen, with numbers, in plain words.
+        remedy: What to look at or to change.
+        is_serious: Whether the recording and the scenario are not of the same experiment, if it is true.
+        begin: Begin of the stretch concerned [s]; that of the recording where it is all of it.
+        end: End of the stretch [s].
+        z: Size of the evidence in deviations of the noise.
+    """
+
+    recording: str
+    subject: str
+    kind: str
+    statement: str
+    remedy: str
+    is_serious: bool
+    begin: float
+    end: float
+    z: float
 
 
 @dataclass(frozen=True)

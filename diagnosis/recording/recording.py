@@ -98,6 +98,9 @@ class Recording:
         source: Who measured it.
         uncertain: What it does not know exactly itself, `component.parameter` to a standard deviation.
         beginning: Length of its first stretch, from which that is estimated where it is held out [s].
+        day: Recordings with the same name are of one day; empty: a day of its own.
+        order: Place among the recordings in time, from 1; None: as given, those held out last.
+        cycles_before: Full cycles that the rig had made before.
     """
 
     path: Path
@@ -110,6 +113,9 @@ class Recording:
     source: str = ""
     uncertain: Mapping[str, PhysicalValue] = field(default_factory=dict)
     beginning: float = 0.0
+    day: str = ""
+    order: int | None = None
+    cycles_before: float = 0.0
 
 
 def load_recording(path: str | Path) -> Recording:
@@ -164,7 +170,8 @@ class _Reader:
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
             sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain,
-            0.0 if sidecar.beginning is None else sidecar.beginning.to("s"),
+            0.0 if sidecar.beginning is None else sidecar.beginning.to("s"), sidecar.day, sidecar.order,
+            float(sidecar.cycles_before),
         )  # fmt: skip
 
     def _table(self, name: str | None) -> Table:

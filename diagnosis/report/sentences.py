@@ -12,6 +12,7 @@ from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
 ADVICE = {
     Verdict.CONSISTENT: "Nothing needs to be added to the model.",
     Verdict.RECALIBRATED: "Only parameters of the model were off; no physics is missing that these recordings show.",
+    Verdict.RECORDING_FAULT: "Correct the recording or the scenario first; nothing was concluded about the physics.",
     Verdict.MEASUREMENT_FAULT: "Mend or model the sensor before the physics is changed.",
     Verdict.MISSING_PHYSICS: "It acts at the place and the times below.",
     Verdict.UNNAMED_PHYSICS: "The formula tells what it depends on; a name for it is left to a person.",

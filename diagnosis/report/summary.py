@@ -20,6 +20,7 @@ LINES = 30
 _STYLES = {
     Verdict.CONSISTENT: "bold green",
     Verdict.RECALIBRATED: "bold green",
+    Verdict.RECORDING_FAULT: "bold yellow",
     Verdict.MEASUREMENT_FAULT: "bold yellow",
     Verdict.MISSING_PHYSICS: "bold red",
     Verdict.UNNAMED_PHYSICS: "bold magenta",
