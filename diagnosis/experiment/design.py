@@ -77,14 +77,14 @@ def open_explanations(outcome: Outcome) -> Open | None:
         return _unearned(outcome)
     size = len(outcome.best.terms)
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
-    chances = probabilities((outcome.best, *others))
+    chances = probabilities([e.demerit for e in (outcome.best, *others)])
     # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
     gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
     is_alike = [g < UNSEPARATED and not bends_into(e, outcome.best) for g, e in zip(gaps, others)]
     near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or is_alike[i]]
     near = near[: MOST - 1]
     found = (outcome.best, *(others[i] for i in near))
-    return Open(found, probabilities(found)) if near else None
+    return Open(found, probabilities([e.demerit for e in found])) if near else None
 
 
 def _unearned(outcome: Outcome) -> Open | None:

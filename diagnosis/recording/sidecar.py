@@ -78,13 +78,13 @@ class Sidecar(Strict):
     )
     day: str = Field(
         default="",
-        description="Recordings of one day share its room, its clocks and its zeros; two halves of a day have one name. "
-        "Default: a day of its own.",
+        description="Recordings of one day share its room, its clocks and its zeros; two halves of a day have one "
+        "name. Default: a day of its own.",
     )
     order: StrictInt | None = Field(
         default=None,
-        description="Place among the recordings in time, from 1; what breaks in one stays broken in later ones. Default: "
-        "as given to the command, those held out last.",
+        description="Place among the recordings in time, from 1; what breaks in one stays broken in later ones. "
+        "Default: as given to the command, those held out last.",
     )
     cycles_before: Annotated[Number, Field(ge=0)] = Field(
         default=0, description="Full cycles (heated and cooled) that the rig had made before this recording."
