@@ -138,7 +138,7 @@ def diagnose(
         on_progress("driving each unit alone")
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")
-        experiment = next_experiment(scenario, model, training, outcome, means.limits)
+        experiment = next_experiment(scenario, model, training, outcome, accepted, means.limits)
     left = accepted.explanation.fit.residuals
     diagnosis = Diagnosis(
         verdict=word,

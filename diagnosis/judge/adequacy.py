@@ -56,7 +56,7 @@ def moved_day(predicted: Predicted, parameters: Sequence[Parameter]) -> tuple[Mo
     """
     usual = {p.name: p for p in parameters}
     return tuple(
-        Moved(name, usual[name].unit, moved)
+        Moved(name, usual[name].unit, moved, False, moved / usual[name].deviation)
         for name, moved in predicted.day.items()
         if abs(moved) > TOLD * usual[name].deviation
     )

@@ -279,17 +279,21 @@ class Left:
 
 @dataclass(frozen=True)
 class Moved:
-    """A number of the day that is taken to be another than was written down.
+    """A number that is taken to be another than was written down.
 
     Args:
         name: Of the number.
-        unit: Its unit.
-        amount: How far it was moved.
+        unit: Its unit; 1 of a factor.
+        amount: How far it was moved, or by which factor.
+        is_factor: Whether it was multiplied by `amount`; else `amount` was added.
+        deviations: How far that is in deviations of what is usual or stated.
     """
 
     name: str
     unit: str
     amount: float
+    is_factor: bool
+    deviations: float
 
 
 @dataclass(frozen=True)
@@ -376,7 +380,7 @@ class Diagnosis:
         false_alarm_rate: Probability that chance alone gives the first finding its gain.
         structure_before: Largest standardised sum of residuals left after recalibration.
         structure_after: The same with the findings.
-        recalibration: Parameters of the model that moved by more than two prior deviations: name to factor or change.
+        recalibration: Parameters of the model that moved by more than two prior deviations.
         isolability: What these channels can tell apart.
         amended_model: Path of the amended scenario, or None.
         seconds: Wall time.
@@ -408,7 +412,7 @@ class Diagnosis:
     false_alarm_rate: float
     structure_before: float
     structure_after: float
-    recalibration: dict[str, float]
+    recalibration: tuple[Moved, ...]
     isolability: Isolability
     amended_model: str | None
     seconds: float

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.report.display import clean, difference, number
+from diagnosis.report.display import clean, difference, number, symbol
 
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
@@ -88,4 +88,5 @@ def what_stays(adequacy: Adequacy) -> str:
 
 def day_of(adequacy: Adequacy) -> str:
     """What was taken for granted of the day: how far its own numbers were moved."""
-    return "; ".join(f"{clean(m.name).replace('_', ' ')} {m.amount:+.2g} {m.unit}".strip() for m in adequacy.day)
+    told = [f"{clean(m.name).replace('_', ' ')} {m.amount:+.2g} {symbol(m.unit)}" for m in adequacy.day]
+    return "; ".join(text.strip() for text in told)

@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.acceptance import Accepted
-from diagnosis.judge.diagnosis import Adequacy, Alternative, Estimate, Finding, Searched, Standing, Verdict
+from diagnosis.judge.diagnosis import Adequacy, Alternative, Estimate, Finding, Moved, Searched, Standing, Verdict
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.report.display import words
 from diagnosis.search.fit import Fit
@@ -286,14 +286,23 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
-def recalibration(model: DiagnosisModel, fit: Fit) -> dict[str, float]:
-    """Parameters that moved by more than `MOVED` prior deviations: factor where relative, change where not."""
-    moved = {}
+def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
+    """Parameters that moved by more than `MOVED` prior deviations, the farthest first."""
+    found = []
     for parameter, z in zip(model.parameters, fit.point.base):
+        amount = parameter.deviation * float(z)
         if abs(z) > MOVED:
-            amount = parameter.deviation * float(z)
-            moved[parameter.name] = float(np.exp(amount)) if parameter.is_relative else amount
-    return moved
+            is_factor = parameter.is_relative
+            found.append(
+                Moved(
+                    parameter.name,
+                    "1" if is_factor else parameter.unit,
+                    float(np.exp(amount)) if is_factor else amount,
+                    is_factor,
+                    float(z),
+                )
+            )
+    return tuple(sorted(found, key=lambda m: -abs(m.deviations)))
 
 
 def nominal_cost(model: DiagnosisModel) -> float:

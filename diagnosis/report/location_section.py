@@ -49,9 +49,7 @@ def waveform_section(waveforms: Sequence[Waveform]) -> Html:
                              image(waveform_figure(one), f"{caption}: estimate with 95 % band")))  # fmt: skip
     note = "The input that would have to be added for the unit to give what was measured, without any law assumed."
     if len(resolved) < len(waveforms):
-        note += (
-            f" {len(waveforms) - len(resolved)} more cannot be told from 0 anywhere and are in diagnosis.json alone."
-        )
+        note += f" {len(waveforms) - len(resolved)} more cannot be told from 0 anywhere: see diagnosis.json."
     return element("section", element("h2", "The missing input"), *drawn, element("p", note, class_="note"))
 
 

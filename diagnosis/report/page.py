@@ -212,11 +212,10 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
-    moved = [moved_text(name, value) for name, value in diagnosis.recalibration.items()]
+    moved = [moved_text(m) for m in diagnosis.recalibration]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))
     if moved:
-        parts += [element("p", "Recalibration moved by more than two prior deviations (factors; changes in SI units "
-                               "for parameters that are no factors):"), listing(moved)]  # fmt: skip
+        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]  # fmt: skip
     return _section("How sure", *parts)

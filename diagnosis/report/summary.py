@@ -86,8 +86,8 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
     for rest in diagnosis.left[:_STATEMENTS]:
         yield from _wrapped("left in  ", remainder(rest), width, 2)
-    for moved in list(diagnosis.recalibration)[:_STATEMENTS]:
-        yield from _wrapped("moved    ", moved_text(moved, diagnosis.recalibration[moved]), width, 1)
+    for moved in diagnosis.recalibration[:_STATEMENTS]:
+        yield from _wrapped("moved    ", moved_text(moved), width, 2)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 2)
 
@@ -100,9 +100,8 @@ def _next(experiment: NextExperiment) -> str:
 def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding), width, 1)
-    yield from _wrapped(
-        "  what   ", ("" if finding.is_accepted else "suggested, not accepted: ") + what(finding), width, 2
-    )
+    prefix = "" if finding.is_accepted else "suggested, not accepted: "
+    yield from _wrapped("  what   ", prefix + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
     told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
     yield from _wrapped("         ", ", ".join(told), width, 2)
