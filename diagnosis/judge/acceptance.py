@@ -196,6 +196,11 @@ def _judged(
         reasons.append(
             f"it predicts the readings that judge ({where}) worse: -2 log likelihood rises by {-found.total:.0f}"
         )
+    elif found.total <= 0.0:
+        reasons.append(
+            f"it does not predict the readings that judge ({where}) better: "
+            f"-2 log likelihood rises by {-found.total:.1f}"
+        )
     elif not found.is_gain:
         reasons.append(
             f"it does not predict the readings that judge ({where}) better by more than chance: "

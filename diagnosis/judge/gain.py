@@ -26,6 +26,7 @@ class Gain:
         total: Over all readings, with what the day's own numbers cost.
         white: Its standard error if the errors of readings were independent.
         error: Its standard error by blocks, at least `white`: errors of a model are alike for a while.
+        loss_error: The same if the first model is right.
         shown: Root mean square by which the two predictions differ in the channel where they differ most, in deviations
             of the noise.
         worse: Channels (`channel of recording`) that are predicted significantly worse.
@@ -34,6 +35,7 @@ class Gain:
     total: float
     white: float
     error: float
+    loss_error: float
     shown: float
     worse: tuple[str, ...]
 
@@ -56,7 +58,7 @@ class Gain:
     @property
     def is_loss(self) -> bool:
         """Whether it predicts worse."""
-        return -self.total > max(LEAST, ERRORS * self.error)
+        return -self.total > max(LEAST, ERRORS * self.loss_error)
 
 
 def loss(residuals: Array) -> Array:
@@ -81,7 +83,10 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     delta = (without.residuals - with_it.residuals) ** 2
     count = np.maximum(np.bincount(readings.channel, minlength=len(readings.channels)), 1)
     shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
-    return Gain(total, found[1], found[2], shown, worse_channels(without.residuals, with_it.residuals, readings))
+    reverse = _summed(with_it.residuals, without.residuals, readings.block)
+    return Gain(
+        total, found[1], found[2], reverse[2], shown, worse_channels(without.residuals, with_it.residuals, readings)
+    )
 
 
 def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[str, ...]:

@@ -185,7 +185,12 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
 
 def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
     told = diagnosis(Verdict.MISSING_PHYSICS, HOSTILE)
-    told = replace(told, statement=HOSTILE, isolability=Isolability((HOSTILE,)), recalibration=(Moved(HOSTILE, "1", 1.1, True, 2.5),))
+    told = replace(
+        told,
+        statement=HOSTILE,
+        isolability=Isolability((HOSTILE,)),
+        recalibration=(Moved(HOSTILE, "1", 1.1, True, 2.5),),
+    )
     one = replace(series(), channel=HOSTILE, recording=HOSTILE)
     write_html(told, [one], tmp_path / "report.html", title=HOSTILE)
     text = read_page(tmp_path / "report.html")
