@@ -75,10 +75,10 @@ def test_an_effect_that_held_out_readings_do_not_show_is_refused_for_that(tmp_pa
 
     class Blind(Lines):
         def signal(self, point):
-            return super().signal(Point(point.base))
+            return super().signal(Point(np.array([0.3, 0.5])))
 
     line = 0.3 + 0.5 * TIME
-    model = Lines(line + 0.02 * np.sin(25.0 * TIME), 1)
+    model = Lines(line + 0.04 * np.sin(25.0 * TIME), 1)
     _, found = judged(model, Blind(line, 2), tmp_path, forced(model, WAVE))
     assert found.explanation.terms == ()
     assert "do not show it" in found.reasons[WAVE][0]
