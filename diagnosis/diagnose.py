@@ -38,6 +38,7 @@ from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
 from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
 
 
@@ -139,7 +140,7 @@ def diagnose(
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")
         experiment = next_experiment(scenario, model, training, outcome, accepted, means.limits)
-    left = accepted.explanation.fit.residuals
+    first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, why_open(outcome, found, right, tried)),
@@ -148,7 +149,7 @@ def diagnose(
         margin=outcome.margin,
         nulls=outcome.nulls,
         false_alarm_rate=outcome.false_alarm_rate,
-        structure_before=outcome.base_structure.z,
+        structure_before=structure(first, model.layout, model.groups()).z,
         structure_after=structure(left, model.layout, model.groups()).z,
         recalibration=recalibration(model, accepted.explanation.fit),
         isolability=told_apart,

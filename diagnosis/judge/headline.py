@@ -43,7 +43,7 @@ def headline(
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy))
+        parts.append(how_right(adequacy, bool(accepted)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy)}.")
     return " ".join(parts)
@@ -53,21 +53,26 @@ def _noise(adequacy: Adequacy) -> str:
     return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
 
 
-def how_right(adequacy: Adequacy) -> str:
-    """What the amended model explains of the mismatch, and what it leaves.
+def how_right(adequacy: Adequacy, is_amended: bool) -> str:
+    """What the model explains of the mismatch, and what it leaves.
 
     A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
+
+    Args:
+        adequacy: How right it is.
+        is_amended: Whether anything was added to it; else it was recalibrated alone.
     """
+    name = "The amended model" if is_amended else "The recalibrated model"
     before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
     share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
     if before <= 1.0 and not adequacy.is_rejected:
-        text = f"The model explains the {adequacy.basis} within {_noise(adequacy)}, before and after"
+        text = f"The {adequacy.basis} are met within {_noise(adequacy)}, before and after"
     elif adequacy.explained < 0.0:
-        text = f"The amended model predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> "
+        text = f"{name} predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> "
         text += number(now)
     else:
         share = "more than 99 %" if ALL < adequacy.explained < 1.0 else share
-        text = f"The amended model explains {share} of the mismatch in the {adequacy.basis}"
+        text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
     if adequacy.is_rejected and adequacy.worst is not None:
         text += f"; {what_stays(adequacy)}: something else is missing or wrong"
     elif before > 1.0:

@@ -73,10 +73,11 @@ def why_open(
         reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
+    unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
     if adequacy.is_rejected:
-        reasons.append("the readings reject the model, and no law that was tried explains what is left")
+        reasons.append(f"the readings reject the model{unexplained}")
     elif adequacy.is_training_rejected:
-        reasons.append("the training readings reject the model, and no law that was tried explains what is left")
+        reasons.append(f"the training readings reject the model{unexplained}")
     elif abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse:

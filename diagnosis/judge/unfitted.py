@@ -24,7 +24,7 @@ from diagnosis.search.validation import blocks
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel, RecordedRun
 from diagnosis.simulator.runs import deviation
-from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
+from diagnosis.simulator.tempered import BELIEVED, inflation, untempered
 
 #: Stretches of time in which the errors of a model are taken to be alike, per recording and quantity.
 STRETCHES = 10
@@ -249,7 +249,7 @@ class LeftOutReadings:
         on_progress: Callable[[str], None] = lambda text: None,
     ) -> None:  # fmt: skip
         self._model, self._parts, self.basis = model, parts, basis
-        self._inner = model.inner if isinstance(model, TemperedModel) else model
+        self._inner = untempered(model)
         self._on_progress = on_progress
         self.readings = readings_of(model.runs, titles)
 
