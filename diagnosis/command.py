@@ -17,8 +17,13 @@ from cosim.scenario import load_scenario
 def diagnose(
     scenario: Annotated[str, typer.Argument(help="A scenario file or name: the model as it is.")],
     recording: Annotated[list[Path], typer.Option(help="Recording that is fitted; may be given several times.")],
-    held_out: Annotated[list[Path], typer.Option(help="Recording that judges; may be given several times.")],
     out: Annotated[Path, typer.Option(help="Folder for diagnosis.json and report.html.")],
+    held_out: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="Recording that judges; may be given several times. Without one, stretches of the others judge."
+        ),
+    ] = None,
     level: Annotated[float, typer.Option(min=0.001, max=0.5, help="Rate of false alarms that is allowed.")] = 0.05,
     seed: Annotated[int, typer.Option(min=0, help="Of all random numbers.")] = 0,
     jobs: Annotated[int, typer.Option(min=1, help="Simulations at the same time.")] = 2,
@@ -58,6 +63,7 @@ def diagnose(
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
 
+    held_out = held_out or []
     _check(recording, held_out, out)
     kept = Cache(out / "simulations")
     if kept.count() and not resume:

@@ -1,4 +1,12 @@
-"""What one model gains over another on readings that neither was fitted to, with the uncertainty of that gain."""
+"""What one model gains over another on readings that neither was fitted to, with the uncertainty of that gain.
+
+Two questions, one of which must be answered by yes. Would the second model, if it were right but for errors that are
+alike for a while, gain so much? That is asked of effects that act for a short time alone too. And is the gain larger
+than its own scatter between stretches of time, whatever the models leave out?
+
+Source of the second: F. X. Diebold and R. S. Mariano, Comparing predictive accuracy, J. Business and Economic
+Statistics 13 (1995) 253-263.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +22,8 @@ from diagnosis.search.posterior import HUBER
 LEAST = 6.0
 #: Standard errors that a gain, or a loss, must exceed.
 ERRORS = 2.0
+#: Stretches of time from which the scatter of a gain between them is known.
+FEWEST = 8
 #: Rise of a channel's root mean square from which it counts as worse: less is no matter for a user.
 WORSE = 1.05
 
@@ -27,6 +37,7 @@ class Gain:
         white: Its standard error if the errors of readings were independent.
         error: Its standard error by blocks, at least `white`: errors of a model are alike for a while.
         loss_error: The same if the first model is right.
+        scatter: Its standard error from how the gain differs between stretches; infinite where they are too few.
         shown: Root mean square by which the two predictions differ in the channel where they differ most, in deviations
             of the noise.
         worse: Channels (`channel of recording`) that are predicted significantly worse.
@@ -36,6 +47,7 @@ class Gain:
     white: float
     error: float
     loss_error: float
+    scatter: float
     shown: float
     worse: tuple[str, ...]
 
@@ -46,9 +58,12 @@ class Gain:
 
     @property
     def needed(self) -> float:
-        """Gain from which it counts: odds of 20 to 1 by as many readings as are independent of each other."""
+        """Gain from which it counts.
+
+        Odds of 20 to 1 by as many readings as are independent of each other, or twice the scatter between stretches.
+        """
         excess = float(np.sqrt(max(self.error**2 - self.white**2, 0.0)))
-        return max(LEAST * self.doubt**2, ERRORS * excess)
+        return min(max(LEAST * self.doubt**2, ERRORS * excess), max(LEAST, ERRORS * self.scatter))
 
     @property
     def is_gain(self) -> bool:
@@ -84,9 +99,16 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     count = np.maximum(np.bincount(readings.channel, minlength=len(readings.channels)), 1)
     shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
     reverse = _summed(with_it.residuals, without.residuals, readings.block)
-    return Gain(
-        total, found[1], found[2], reverse[2], shown, worse_channels(without.residuals, with_it.residuals, readings)
-    )
+    scatter = _scatter(loss(without.residuals) - loss(with_it.residuals), readings)
+    worse = worse_channels(without.residuals, with_it.residuals, readings)
+    return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse)
+
+
+def _scatter(fell: Array, readings: Readings) -> float:
+    """Standard error of a sum of losses from its scatter over stretches of time of each channel."""
+    stretches = np.unique(np.stack([readings.channel, readings.block]), axis=1, return_inverse=True)[1]
+    sums = np.bincount(stretches, fell)
+    return float(np.sqrt(len(sums)) * np.std(sums, ddof=1)) if len(sums) >= FEWEST else float("inf")
 
 
 def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[str, ...]:

@@ -27,6 +27,9 @@ OPEN = 0.05
 EVIDENT = 1.2
 #: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
 DOUBTFUL, UNEXPLAINED = 1.5, 0.03
+#: Chi-square per reading below which errors of the model are smaller than the noise; share of what recalibration
+#: leaves that may stay where they are larger.
+BURIED, MOST_LEFT = 2.0, 0.1
 #: A parameter that moved by more prior deviations than this is told.
 MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
@@ -89,6 +92,16 @@ def why_open(
     return tuple(reasons)
 
 
+def is_small(accepted: Accepted) -> bool:
+    """Whether what the accepted model leaves of unfitted readings is so little that names may stand.
+
+    That is less than the noise of a single reading, or a tenth of what the recalibrated model leaves: where more stays,
+    the laws that were found are bent to what is missing besides.
+    """
+    left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
+    return left.chi_square < BURIED or left.excess < MOST_LEFT * recalibrated.excess
+
+
 def is_trusted(outcome: Outcome) -> bool:
     """Whether the effects found may be called by their names: no name is forced on what still shows structure.
 
@@ -147,6 +160,8 @@ def _finding(
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
     told = estimates(fit, term, _doubt(outcome), model.unseen(term))
     doubts = unidentified(term, fit, told)
+    if not is_small(accepted):
+        doubts = (*doubts, _much_left(accepted))
     standing = standing_of(term, doubts, likely, is_trusted(outcome))
     recording, intervals = _intervals(model, term, fit, effect)
     return Finding(
@@ -171,6 +186,12 @@ def _finding(
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
     )
+
+
+def _much_left(accepted: Accepted) -> str:
+    left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
+    share = 100.0 * left.excess / recalibrated.excess if recalibrated.excess > 0.0 else 100.0
+    return f"{share:.0f} % of the mismatch that recalibration leaves is still unexplained, so no name is certain"
 
 
 def statement(name: str, place: str, standing: Standing, likely: Sequence[str]) -> str:
