@@ -13,15 +13,17 @@ from cosim.errors import InputError
 from cosim.scenario import Scenario, parse_scenario
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
+from diagnosis.recording.units import WrongUnit, conversion_of_difference
 
-#: A key to the one that it stands in place of: a programme's output has either.
+#: A key to the one that it stands in place of: a programme's output has either. With its unit it stands by itself.
 _INSTEAD = {"constant": "points", "points": "constant"}
 
 
 def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     """The scenario under the conditions of a recording.
 
-    Keys in `overrides` replace those of the scenario, mapping by mapping; recorded inputs become the points of their
+    Keys in `overrides` replace those of the scenario, mapping by mapping; an output of a programme that is given with
+    its unit replaces the whole of it, interpolation too. Recorded inputs become the points of their
     programme, moved to the grid of macro-steps; the run ends with the last sample unless `overrides` says otherwise.
 
     Raises:
@@ -49,6 +51,8 @@ def _merged(base: Any, change: Any) -> Any:
     if isinstance(base, Mapping) and isinstance(change, Mapping):
         if change.get("kind", base.get("kind")) != base.get("kind"):
             return change  # another kind has other keys
+        if "unit" in change and any(key in change for key in _INSTEAD):
+            return change  # a programme's output as a whole, as `cosim record` writes it
         both = {k: v for k, v in base.items() if not any(_INSTEAD.get(other) == k for other in change)}
         for key, value in change.items():
             both[key] = _merged(base[key], value) if key in base else value
@@ -66,6 +70,11 @@ def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: 
     if output is None:
         raise InputError(recording.path / "recording.yaml", key, f"the programme has no output {recorded.output}",
                          f"it has: {', '.join(component.get('outputs', {}))}")  # fmt: skip
+    try:
+        conversion_of_difference(recorded.unit, str(output.get("unit", "1")))
+    except WrongUnit as error:
+        raise InputError(recording.path / "recording.yaml", f"{key}.unit", f"the programme gives {recorded.output} in "
+                         f"{output.get('unit', '1')}: {error}", error.remedy) from error  # fmt: skip
     points: list[list[str]] = []
     last_step = None
     for time, value in zip(recorded.times.tolist(), recorded.values.tolist()):

@@ -62,11 +62,9 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     Raises:
         InputError: The results have no such quantity or element.
     """
-    variable = _variable(results, target, source)
+    variable, index = place_of(results, target, source)
     found = results[variable]
-    elements = _elements(results, found, target, source)
-    values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)
-    values = values[:, np.ravel_multi_index(elements, found.shape[1:]) if elements else 0]
+    values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)[:, index]
     own = str(found.attrs.get("units", "1"))
     unit = own if target.si_unit == "1" else target.si_unit
     try:
@@ -74,6 +72,18 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     except ValueError as error:
         raise InputError(source, f"channels.{target}", str(error), f"{variable} is in {own}") from error
     return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
+
+
+def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[str, int]:
+    """Variable of the results that a channel measures, and the number of its element in the flattened variable.
+
+    Raises:
+        InputError: The results have no such quantity or element.
+    """
+    variable = _variable(results, target, source)
+    found = results[variable]
+    elements = _elements(results, found, target, source)
+    return variable, int(np.ravel_multi_index(elements, found.shape[1:])) if elements else 0
 
 
 def _variable(results: xr.Dataset, target: Target, source: Path) -> str:

@@ -17,6 +17,7 @@ from diagnosis.bank.steps import choose_step
 from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.usage import near_switch
 from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.translate import Translation
 
@@ -106,10 +107,7 @@ class Run:
     def _series(self, entry: tuple[Channel, str, int], switches: Array, margin: float) -> Series:
         channel, quantity, element = entry
         known = channel.times >= self.translation.start
-        used = known & ~channel.is_clipped
-        if switches.size and len(switches) < 0.2 * len(channel.times):  # a course recorded as an input always jumps
-            nearest = np.min(np.abs(channel.times[:, None] - switches[None, :]), axis=1)
-            used &= nearest > margin
+        used = known & ~channel.is_clipped & ~near_switch(channel.times, switches, margin)
         samples = np.searchsorted(self.times[quantity], channel.times[known])
         return Series(channel, quantity, element, samples, used[known])
 
