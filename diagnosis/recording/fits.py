@@ -70,8 +70,9 @@ def _check_unit(there: xr.Dataset, channel: Channel, file: Path) -> None:
     try:
         conversion_of_reading(channel.unit, own)
     except WrongUnit as error:
-        raise InputError(file, f"{key}.unit", f"{variable} of the scenario is in {own}: {error}",
-                         error.remedy) from error  # fmt: skip
+        raise InputError(
+            file, f"{key}.unit", f"{variable} of the scenario is in {own}: {error}", error.remedy
+        ) from error
 
 
 def _within(channel: Channel, start: float, stop: float, file: Path) -> Channel:
@@ -81,17 +82,23 @@ def _within(channel: Channel, start: float, stop: float, file: Path) -> Channel:
     if inside.all():
         return channel
     if np.count_nonzero(inside) < FEWEST_VALUES:
-        first, last = float(channel.times[0]), float(channel.times[-1])
+        count, span = int(np.count_nonzero(inside)), f"{channel.times[0]:.6g} s to {channel.times[-1]:.6g} s"
         raise InputError(
-            file, f"channels.{channel.name}", f"it has {np.count_nonzero(inside)} values within the simulated time, "
-            f"fewer than {FEWEST_VALUES}: they are from {first:.6g} s to {last:.6g} s, and {start:.6g} s to {stop:.6g} s "
-            "is simulated",
+            file,
+            f"channels.{channel.name}",
+            f"it has {count} values within the simulated time, fewer than {FEWEST_VALUES}: they are from {span}, and "
+            f"{start:.6g} s to {stop:.6g} s is simulated",
             "correct `zero` and `unit` of its clock, or `time` under `overrides`",
-        )  # fmt: skip
-    outside = {"before start": int(np.count_nonzero(channel.times < start - slack)),
-               "after stop": int(np.count_nonzero(channel.times > stop + slack))}  # fmt: skip
+        )
+    outside = {
+        "before start": int(np.count_nonzero(channel.times < start - slack)),
+        "after stop": int(np.count_nonzero(channel.times > stop + slack)),
+    }
     dropped = {**channel.dropped, **{reason: count for reason, count in outside.items() if count}}
     return replace(
-        channel, times=channel.times[inside], values=channel.values[inside], is_clipped=channel.is_clipped[inside],
+        channel,
+        times=channel.times[inside],
+        values=channel.values[inside],
+        is_clipped=channel.is_clipped[inside],
         dropped=dropped,
-    )  # fmt: skip
+    )

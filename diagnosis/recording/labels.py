@@ -26,8 +26,7 @@ def labels(recordings: Sequence[Recording]) -> tuple[str, ...]:
         if not any(shared):
             break
         tails = ["/".join(p[-depth:]).replace("//", "/") for p in paths]
-        named = [f"{r.title} ({t})" if is_shared else n
-                 for r, t, n, is_shared in zip(recordings, tails, named, shared)]  # fmt: skip
+        named = [f"{r.title} ({t})" if is_shared else n for r, t, n, is_shared in zip(recordings, tails, named, shared)]
         shared = _shared(named)
     return tuple(f"{n} no. {i}" if is_shared else n for i, (n, is_shared) in enumerate(zip(named, shared), 1))
 

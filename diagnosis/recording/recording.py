@@ -182,12 +182,10 @@ class _Reader:
         end = max(float(c.times[-1]) for c in channels.values())
         beginning = 0.0 if sidecar.beginning is None else sidecar.beginning.to("s")
         for channel in channels.values():
-            if beginning and channel.times[-1] < channel.times[0] + beginning:
-                raise InputError(
-                    self.file, "beginning", f"{channel.name} ends {channel.times[-1] - channel.times[0]:.6g} s after its "
-                    f"first value: a beginning of {beginning:g} s leaves nothing of it that judges",
-                    "give a shorter beginning",
-                )  # fmt: skip
+            length = float(channel.times[-1] - channel.times[0])
+            if beginning and length < beginning:
+                what = f"{channel.name} ends {length:.6g} s after its first value: nothing of it is left that judges"
+                raise InputError(self.file, "beginning", what, f"give less than {length:.6g} s")
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
             sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain, beginning, sidecar.day, sidecar.order,
@@ -341,7 +339,8 @@ class _Reader:
 def _columns(sidecar: Sidecar) -> dict[str, set[str]]:
     """Table to the columns of it that are named."""
     found: dict[str, set[str]] = {sidecar.table: {sidecar.time.column}}
-    for entry in (*sidecar.channels.values(), *sidecar.inputs.values()):
+    entries: list[ChannelEntry | InputEntry] = [*sidecar.channels.values(), *sidecar.inputs.values()]
+    for entry in entries:
         own = found.setdefault(entry.table or sidecar.table, set())
         own |= {entry.column, (entry.time or sidecar.time).column}
     return found

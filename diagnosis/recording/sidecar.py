@@ -90,13 +90,13 @@ class Sidecar(Strict):
     )
     day: str = Field(
         default="",
-        description="Recordings of one day share its room, its clocks and its zeros; two halves of a day have one name. "
-        "Default: a day of its own.",
+        description="Recordings of one day share its room, its clocks and its zeros; two halves of a day have one "
+        "name. Default: a day of its own.",
     )
     order: Annotated[StrictInt, Field(ge=1)] | None = Field(
         default=None,
-        description="Place among the recordings in time, from 1; what breaks in one stays broken in later ones. Default: "
-        "as given to the command, those held out last.",
+        description="Place among the recordings in time, from 1; what breaks in one stays broken in later ones. "
+        "Default: as given to the command, those held out last.",
     )
     cycles_before: Annotated[Number, Field(ge=0, allow_inf_nan=False)] = Field(
         default=0, description="Full cycles (heated and cooled) that the rig had made before this recording."
@@ -120,7 +120,7 @@ class Sidecar(Strict):
     @model_validator(mode="after")
     def _check(self) -> Sidecar:
         if self.beginning is not None and self.beginning.to("s") <= 0.0:
-            raise ValueError(f"beginning ({self.beginning}) is a length of time from the first value on; give more than 0 s")
+            raise ValueError(f"beginning ({self.beginning}) is a length of time; it must be more than 0 s")
         if self.begin is not None and self.end is not None and self.end.to("s") <= self.begin.to("s"):
             raise ValueError(f"end ({self.end}) must come after begin ({self.begin})")
         return self

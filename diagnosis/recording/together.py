@@ -14,7 +14,7 @@ from diagnosis.recording.recording import Recording
 
 def prepared(
     scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording]
-) -> tuple[list[Recording], list[Recording]]:  # fmt: skip
+) -> tuple[list[Recording], list[Recording]]:
     """Recordings ready for a diagnosis: held against the scenario and each other, each with a title of its own.
 
     Args:
@@ -47,8 +47,12 @@ def check_order(recordings: Sequence[Recording]) -> None:
         return
     for one in recordings:
         if one.order is None:
-            raise _fault(one, "order", f"it does not state its place in time, and {_name(stated[0])} does",
-                         "give `order` in all recordings or in none")  # fmt: skip
+            raise _fault(
+                one,
+                "order",
+                f"it does not state its place in time, and {_name(stated[0])} does",
+                "give `order` in all recordings or in none",
+            )
     rising = sorted(stated, key=lambda r: r.order or 0)
     done: list[str] = []
     for before, after in itertools.pairwise(rising):
@@ -56,14 +60,21 @@ def check_order(recordings: Sequence[Recording]) -> None:
             raise _fault(after, "order", f"{_name(before)} has the order {after.order} too", "number them from 1")
         if after.cycles_before < before.cycles_before:
             raise _fault(
-                after, "cycles_before", f"it comes after {_name(before)}, which had {before.cycles_before:g} cycles "
-                f"before it, but states {after.cycles_before:g}", "correct `cycles_before` or `order`",
-            )  # fmt: skip
+                after,
+                "cycles_before",
+                f"it comes after {_name(before)}, which had {before.cycles_before:g} cycles "
+                f"before it, but states {after.cycles_before:g}",
+                "correct `cycles_before` or `order`",
+            )
         if before.day != after.day:
             done.append(before.day)
             if after.day and after.day in done:
-                raise _fault(after, "day", f"the day `{after.day}` goes on after {_name(before)}, which is of another "
-                             "day", "correct `day` or `order`")  # fmt: skip
+                raise _fault(
+                    after,
+                    "day",
+                    f"the day `{after.day}` goes on after {_name(before)}, which is of another day",
+                    "correct `day` or `order`",
+                )
 
 
 def _fault(recording: Recording, key: str, problem: str, remedy: str) -> InputError:

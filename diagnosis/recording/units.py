@@ -13,12 +13,31 @@ _ANGLE = re.compile(r"radian|degree|turn|revolution|arcminute|arcsecond|grade|go
 _NUMBER = re.compile(r"percent|ppm|count|bit|steradian|hertz|becquerel|neper|decibel")
 #: (SI unit, unit as written) to what is meant.
 _MEANT = {
-    ("K", "C"): "degC", ("K", "c"): "degC", ("K", "oC"): "degC", ("K", "ºC"): "degC", ("K", "deg C"): "degC",
-    ("K", "deg"): "degC", ("K", "°"): "degC", ("K", "F"): "degF", ("K", "deg F"): "degF", ("K", "k"): "K",
-    ("s", "m"): "min", ("s", "M"): "min", ("s", "H"): "h", ("s", "S"): "s", ("s", "mS"): "ms", ("s", "D"): "d",
-    ("N", "g"): "gf", ("N", "gram"): "gf", ("N", "kg"): "kgf", ("N", "lb"): "lbf", ("ohm", "O"): "ohm",
-    ("ohm", "R"): "ohm", ("m", "MM"): "mm", ("m", "CM"): "cm",
-}  # fmt: skip
+    ("K", "C"): "degC",
+    ("K", "c"): "degC",
+    ("K", "oC"): "degC",
+    ("K", "ºC"): "degC",
+    ("K", "deg C"): "degC",
+    ("K", "deg"): "degC",
+    ("K", "°"): "degC",
+    ("K", "F"): "degF",
+    ("K", "deg F"): "degF",
+    ("K", "k"): "K",
+    ("s", "m"): "min",
+    ("s", "M"): "min",
+    ("s", "H"): "h",
+    ("s", "S"): "s",
+    ("s", "mS"): "ms",
+    ("s", "D"): "d",
+    ("N", "g"): "gf",
+    ("N", "gram"): "gf",
+    ("N", "kg"): "kgf",
+    ("N", "lb"): "lbf",
+    ("ohm", "O"): "ohm",
+    ("ohm", "R"): "ohm",
+    ("m", "MM"): "mm",
+    ("m", "CM"): "cm",
+}
 #: Readings of which only the maker of a converter or a controller knows what they stand for.
 _RAW = ("", "1", "%", "percent", "count", "counts", "bit", "bits", "steps", "ticks", "dB")
 #: A prefix of 1e6 or more before these is a slip of the shift key: no rig has readings of megavolts or megametres.
@@ -85,10 +104,10 @@ def _check(unit: str, target: str) -> str:
     if not _is_linear(unit, target):
         raise WrongUnit(f"`{unit}` is a logarithmic unit", f"convert the column to {target} first")
     if target in ("rad", "rad/s") and _NUMBER.search(name) and not _ANGLE.search(name.replace("steradian", "")):
-        per = "" if target == "rad" else "/s"
+        per, whole, rate = ("", "turn", "") if target == "rad" else ("/s", "rpm", " per time")
         raise WrongUnit(
-            f"`{unit}` is read as {name.replace('_', ' ')}, which is no unit of an angle{' per time' if per else ''}",
-            f"write rad{per}, deg{per} or {'turn' if not per else 'rpm'}, with `factor` where a reading is none of them",
+            f"`{unit}` is read as {name.replace('_', ' ')}, which is no unit of an angle{rate}",
+            f"write rad{per}, deg{per} or {whole}, with `factor` where a reading is none of them",
         )
     if target in _NEVER_MEGA and conversion(unit, target)[0] >= 1e6 and unit.startswith("M"):
         raise WrongUnit(f"`{unit}` is read as {name}, a million {target}", f"write `{_NEVER_MEGA[target]}`")

@@ -43,7 +43,7 @@ class Usage:
 
 def usage(
     recording: Recording, switches: Sequence[float] = (), start: float = -math.inf, stop: float = math.inf
-) -> tuple[Usage, ...]:  # fmt: skip
+) -> tuple[Usage, ...]:
     """How many readings of every channel are compared, and why the others are not.
 
     Args:
@@ -58,10 +58,14 @@ def usage(
 
 def _usage(channel: Channel, margin: float, switches: Sequence[float], start: float, stop: float) -> Usage:
     words = {
-        "empty": "empty", "invalid": "listed as invalid", "before begin": "before `begin`", "after end": "after `end`",
-        "before start": "before the simulated time", "after stop": "after the simulated time",
+        "empty": "empty",
+        "invalid": "listed as invalid",
+        "before begin": "before `begin`",
+        "after end": "after `end`",
+        "before start": "before the simulated time",
+        "after stop": "after the simulated time",
         "thinned": "left out of so many, at even distances",
-    }  # fmt: skip
+    }
     found = {words[reason]: count for reason, count in channel.dropped.items()}
     is_left: AnyArray = np.ones(len(channel.times), dtype=bool)
     for reason, holds in (
