@@ -62,16 +62,16 @@ def _fitting(scenario: Scenario, recording: Recording) -> Recording:
 
 
 def _check_unit(there: xr.Dataset, channel: Channel, file: Path) -> None:
-    variable, _ = place_of(there, channel.target, file)
-    key, values = f"channels.{channel.name}", there[variable]
+    values, _ = place_of(there, channel.target, file)
+    key = f"channels.{channel.name}"
     if values.dtype.kind not in "biuf":
-        raise InputError(file, key, f"{variable} of the scenario is text", "leave the channel out")
+        raise InputError(file, key, f"{values.name} of the scenario is text", "leave the channel out")
     own = str(values.attrs.get("units", "1"))
     try:
         conversion_of_reading(channel.unit, own)
     except WrongUnit as error:
         raise InputError(
-            file, f"{key}.unit", f"{variable} of the scenario is in {own}: {error}", error.remedy
+            file, f"{key}.unit", f"{values.name} of the scenario is in {own}: {error}", error.remedy
         ) from error
 
 

@@ -18,10 +18,10 @@ _FLOWS = frozenset({"current", "voltage", "power"})
 #: Quantity of a channel to the names that it has in results, in the order in which they are looked for.
 _RESULTS = {
     ("supply", "current"): ("supply_current",),
-    ("supply", "power"): ("supply_power",),
-    ("supply", "voltage"): ("voltage",),
+    ("supply", "power"): ("terminal_power", "supply_power"),
+    ("supply", "voltage"): ("terminal_voltage",),
     ("string", "current"): ("string_current",),
-    ("string", "voltage"): ("voltage",),
+    ("string", "voltage"): ("string_voltage",),
     ("link", "length"): ("link_length",),
     ("link", "x"): ("position",),
     ("link", "y"): ("position",),
@@ -31,6 +31,8 @@ _RESULTS = {
     ("marker", "z"): ("marker_position",),
     ("fabric", "length"): ("fabric_length",),
 }
+#: Quantities that follow from several variables of a circuit.
+_DERIVED = frozenset({("supply", "power"), ("string", "voltage")})
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -62,28 +64,47 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     Raises:
         InputError: The results have no such quantity or element.
     """
-    variable, index = place_of(results, target, source)
-    found = results[variable]
+    found, index = place_of(results, target, source)
     values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)[:, index]
     own = str(found.attrs.get("units", "1"))
     unit = own if target.si_unit == "1" else target.si_unit
     try:
         factor, offset = conversion(own, unit)
     except ValueError as error:
-        raise InputError(source, f"channels.{target}", str(error), f"{variable} is in {own}") from error
+        raise InputError(source, f"channels.{target}", str(error), f"{found.name} is in {own}") from error
     return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
 
 
-def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[str, int]:
+def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[xr.DataArray, int]:
     """Variable of the results that a channel measures, and the number of its element in the flattened variable.
 
     Raises:
         InputError: The results have no such quantity or element.
     """
-    variable = _variable(results, target, source)
-    found = results[variable]
+    if (target.kind, target.quantity) in _DERIVED:
+        results = results.assign(_derived(results))
+    found = results[_variable(results, target, source)]
     elements = _elements(results, found, target, source)
-    return variable, int(np.ravel_multi_index(elements, found.shape[1:])) if elements else 0
+    return found, int(np.ravel_multi_index(elements, found.shape[1:])) if elements else 0
+
+
+def _derived(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Of every circuit: voltage across the coils of each string, power out of the terminals of all sources."""
+    found: dict[str, xr.DataArray] = {}
+    for name in map(str, results):
+        circuit, _, variable = name.rpartition(".")
+        if variable != "terminal_voltage" or "string_of_coil" not in results.coords:
+            continue
+        voltage, current = results[f"{circuit}.voltage"], results[f"{circuit}.string_current"]
+        if results["string_of_coil"].dims != voltage.dims[1:]:
+            continue
+        first = np.flatnonzero(np.diff(results["string_of_coil"].values, prepend=0))
+        across = np.add.reduceat(voltage.values, first, axis=1)
+        terminal = results[name].values.reshape(len(voltage), -1)
+        power = (terminal * current.values).sum(axis=1)
+        found[f"{circuit}.string_voltage"] = xr.DataArray(across, dims=current.dims, attrs={"units": "V"})
+        found[f"{circuit}.terminal_power"] = xr.DataArray(power, dims=current.dims[:1], attrs={"units": "W"})
+    return found
 
 
 def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
@@ -96,6 +117,11 @@ def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
             fitting = [str(n) for n in results if str(n).rpartition(".")[2] == wanted and _fits(results[n], target)]
             if fitting:
                 return min(fitting, key=lambda name: results[name].dims[1:] != (target.kind,))
+    if (target.kind, target.quantity) == ("supply", "voltage") and any(
+        str(n).endswith(".terminal_voltage") for n in results
+    ):
+        remedy = "name `string[n].voltage`, across the coils of a string"
+        raise InputError(source, f"channels.{target}", "every string has a supply of its own", remedy)
     there = ", ".join(str(n) for n in results)
     raise InputError(source, f"channels.{target}", "the scenario has no such quantity", f"it has: {there}")
 

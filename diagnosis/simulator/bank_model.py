@@ -30,6 +30,8 @@ from diagnosis.simulator.translate import translate
 UNIT_OF_QUANTITY = {
     "temperature": "thermal", "current": "electrical", "supply_current": "electrical", "resistance": "electrical",
     "power": "electrical", "extension": "mechanical", "length": "mechanical", "stiffness": "stiffness",
+    "tension": "mechanical", "voltage": "electrical", "string_voltage": "electrical",
+    "terminal_voltage": "electrical", "supply_power": "electrical",
 }  # fmt: skip
 
 

@@ -75,7 +75,7 @@ def free_parameters(
         daily: The same for every recording by itself.
     """
     for name, prior in priors.items():
-        value = float(np.mean(nominal[name])) if name in nominal else 0.0
+        value = float(np.median(nominal[name])) if name in nominal else 0.0  # an open coil has 1e12 ohm
         if not matters(prior, set(measured)) or (prior.is_relative and value == 0.0):
             continue
         if name == "reference_resistance" and not layout.strings:
