@@ -100,7 +100,8 @@ def _derived(results: xr.Dataset) -> dict[str, xr.DataArray]:
             continue
         first = np.flatnonzero(np.diff(results["string_of_coil"].values, prepend=0))
         across = np.add.reduceat(voltage.values, first, axis=1)
-        terminal = results[name].values.reshape(len(voltage), -1)
+        terminal = results[name].values
+        terminal = terminal[:, None] if terminal.ndim == 1 else terminal
         power = (terminal * current.values).sum(axis=1)
         found[f"{circuit}.string_voltage"] = xr.DataArray(across, dims=current.dims, attrs={"units": "V"})
         found[f"{circuit}.terminal_power"] = xr.DataArray(power, dims=current.dims[:1], attrs={"units": "W"})
