@@ -9,6 +9,7 @@ from cosim.components import ParameterValue, ProgrammeComponent
 from cosim.fmu.unit import FmuUnit
 from cosim.scenario import Scenario
 from cosim.unit import Unit
+from mechanics.pendulum import PendulumUnit
 
 #: Begin of the names of parameters that say how a component starts.
 _START = "initial_"
@@ -55,7 +56,13 @@ def _written(value: ParameterValue) -> Any:
 
 
 def _own_starts(unit: Unit) -> dict[str, Any]:
-    """How an FMU starts by its own description."""
+    """How a unit starts where the scenario does not say it: an FMU by its description, a pendulum by its design."""
+    if isinstance(unit, PendulumUnit):
+        design = unit.design
+        return {
+            "initial_angle": f"{design.initial_angle!r} rad",
+            "initial_angular_velocity": f"{design.initial_angular_velocity!r} rad/s",
+        }
     if not isinstance(unit, FmuUnit):
         return {}
     found: dict[str, Any] = {}
