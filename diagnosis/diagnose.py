@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,24 +17,28 @@ from diagnosis.experiment.design import next_experiment
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.search import search_fabric
 from diagnosis.isolability.isolability import isolability
+from diagnosis.judge.acceptance import Accepted, accept
+from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
-from diagnosis.judge.confirmed import confirmed
-from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Verdict
+from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
+from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict
-from diagnosis.judge.own_numbers import foretold
+from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict, why_open
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
+from diagnosis.judge.searched import searched
 from diagnosis.judge.spread import spread_over_recordings
+from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.search.search import Settings
-from diagnosis.simulator.bank_model import BankModel
+from diagnosis.search.search import Outcome, Settings
+from diagnosis.search.structure import structure
 from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
 
 
@@ -87,12 +91,6 @@ class Found:
     points: Mapping[str, Point]
     held_out_points: Mapping[str, Point]
 
-    def foretell(self) -> dict[str, float]:
-        """See `diagnosis.judge.own_numbers.foretold`."""
-        assert self.judge is not None  # who asks has compared with held-out recordings
-        points = {stage: self.held_out_points[stage] for stage in ("recalibrated", "after")}
-        return foretold(self.judge, self.training, points)
-
 
 def diagnose(
     scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording], settings: Settings,
@@ -103,7 +101,8 @@ def diagnose(
     Args:
         scenario: The model as it is.
         training: Recordings that are fitted.
-        held_out: Recordings that judge; nothing is fitted to them.
+        held_out: Recordings that judge; nothing is fitted to them. Where there are none, stretches of the training that
+            were left out of fits judge.
         settings: Of the search.
         on_progress: Told what is being done.
         means: What it works with.
@@ -115,46 +114,44 @@ def diagnose(
     known = means.catalogue()
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
     judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
-    is_fast = isinstance(model, BankModel)
-    if isinstance(model, FabricModel):
-        outcome = search_fabric(model, settings, on_progress)
-        if isinstance(judge, FabricModel):
-            judge.take_scatter(model)
-    else:
-        outcome, model = search_with_model_error(with_biases(model), settings, on_progress)
-        judge = with_biases(judge) if judge is not None else None
-    word = verdict(outcome, nominal_cost(model))
+    outcome, model, judge = _searched(model, judge, settings, on_progress)
+    on_progress("judging by readings that it was not fitted to")
+    accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
     points = {
         "before": Point(np.zeros(len(model.parameters))),
         "recalibrated": outcome.base.point,
-        "after": outcome.best.fit.point,
+        "after": accepted.explanation.fit.point,
     }
-    on_progress("judging by the recordings held out")
     fits: list[ChannelFit] = channel_fits(model, training, points, is_held_out=False)
     carried: dict[str, Point] = {}
     if judge is not None:
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
-    found = findings(model, outcome)
+    found = findings(model, outcome, accepted, [r.title for r in training])
+    tried = searched(model, scenario, means.without)
+    day = () if judge is None else moved_day(accepted.after, judge.parameters)
+    right = adequacy(accepted, readings, day)
+    word = verdict(outcome, found, right, tried, nominal_cost(model))
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
         told_apart = isolability(model, outcome.base, model.terms())
         on_progress("driving each unit alone")
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")
-        experiment = next_experiment(scenario, model, training, outcome, means.limits)
+        experiment = next_experiment(scenario, model, training, outcome, accepted, means.limits)
+    first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
-        statement=_statement(word, found),
+        statement=headline(word, found, right, why_open(outcome, found, right, tried)),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
         nulls=outcome.nulls,
         false_alarm_rate=outcome.false_alarm_rate,
-        structure_before=outcome.base_structure.z,
-        structure_after=outcome.left.z,
-        recalibration=recalibration(model, outcome.best.fit),
+        structure_before=structure(first, model.layout, model.groups()).z,
+        structure_after=structure(left, model.layout, model.groups()).z,
+        recalibration=recalibration(model, accepted.explanation.fit),
         isolability=told_apart,
         amended_model=None,
         seconds=clock.perf_counter() - begin,
@@ -166,23 +163,37 @@ def diagnose(
         scenario=str(scenario.path or scenario.title),
         recordings=used(training, held_out),
         spread=spread_over_recordings(fits),
-        left=remainders(outcome.best.fit.residuals, model.layout, model.groups()),
+        left=remainders(left, model.layout, model.groups()),
         next_experiment=experiment,
+        adequacy=right,
+        searched=tried,
     )
-    answer = Found(diagnosis, model, judge, points, carried)
-    if is_fast and judge is not None and not means.is_brief:
-        diagnosis = replace(diagnosis, foretold=answer.foretell())
-    return replace(answer, diagnosis=confirmed(diagnosis, answer.foretell))
+    return Found(diagnosis, model, judge, points, carried)
 
 
-def _statement(word: Verdict, found: Sequence[object]) -> str:
-    effects = "; ".join(getattr(f, "statement", "") for f in found)
-    return {
-        Verdict.CONSISTENT: "The model as it is agrees with the recordings within the noise of the sensors.",
-        Verdict.RECALIBRATED: "The model agrees with the recordings once its own parameters are recalibrated.",
-        Verdict.RECORDING_FAULT: "The recording and the scenario are not of the same experiment.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor is at fault: {effects}.",
-        Verdict.MISSING_PHYSICS: f"The model leaves out: {effects}.",
-        Verdict.UNNAMED_PHYSICS: f"The model leaves out something that the catalogue has no name for: {effects}.",
-        Verdict.CANNOT_TELL: "Something is left that no effect of the catalogue explains.",
-    }[word]
+def _searched(
+    model: DiagnosisModel, judge: DiagnosisModel | None, settings: Settings, on_progress: Callable[[str], None]
+) -> tuple[Outcome, DiagnosisModel, DiagnosisModel | None]:  # fmt: skip
+    """Outcome of the search, the model that it belongs to, and the model that judges."""
+    if isinstance(model, FabricModel):
+        outcome = search_fabric(model, settings, on_progress)
+        if isinstance(judge, FabricModel):
+            judge.take_scatter(model)
+        return outcome, model, judge
+    outcome, found = search_with_model_error(with_biases(model), settings, on_progress)
+    return outcome, found, with_biases(judge) if judge is not None else None
+
+
+def _accepted(
+    model: DiagnosisModel, judge: DiagnosisModel | None, outcome: Outcome, training: Sequence[Recording],
+    held_out: Sequence[Recording], on_progress: Callable[[str], None],
+) -> tuple[Accepted, Readings]:  # fmt: skip
+    """What of a search is accepted, and the readings that judged."""
+    titles = [r.title for r in training]
+    fitted = left_out_stretches(model, titles, on_progress)
+    unfitted = fitted if judge is None else HeldOutReadings(judge, model, held_out)
+    accepted = accept(
+        model, outcome, unfitted, fitted, lambda t: bool(getattr(model.where(t)[0], "is_of_a_day", False)),
+        lambda: left_out_readings(model, titles), not isinstance(judge, FabricModel), on_progress,
+    )  # fmt: skip
+    return accepted, unfitted.readings

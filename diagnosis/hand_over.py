@@ -12,7 +12,6 @@ from diagnosis.amend.judged import judged
 from diagnosis.curves import curves
 from diagnosis.diagnose import Found
 from diagnosis.experiment.write import write_experiment
-from diagnosis.judge.confirmed import confirmed
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.recording.recording import Recording
 from diagnosis.report.json_file import write_json
@@ -41,7 +40,6 @@ def hand_over(found: Found, scenario: Scenario, held_out: Sequence[Recording], o
         out.mkdir(parents=True, exist_ok=True)
         points = found.points, found.held_out_points
         diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
-        diagnosis = confirmed(diagnosis, found.foretell)
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

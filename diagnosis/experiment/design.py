@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
 from diagnosis.experiment.separation import DECISIVE
+from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.judge import UNSEPARATED, bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.recording.conditions import scenario_of
@@ -77,14 +78,29 @@ def open_explanations(outcome: Outcome) -> Open | None:
         return _unearned(outcome)
     size = len(outcome.best.terms)
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
-    chances = probabilities((outcome.best, *others))
+    chances = probabilities([e.demerit for e in (outcome.best, *others)])
     # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
     gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
     is_alike = [g < UNSEPARATED and not bends_into(e, outcome.best) for g, e in zip(gaps, others)]
     near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or is_alike[i]]
     near = near[: MOST - 1]
     found = (outcome.best, *(others[i] for i in near))
-    return Open(found, probabilities(found)) if near else None
+    return Open(found, probabilities([e.demerit for e in found])) if near else None
+
+
+def judged(outcome: Outcome, accepted: Accepted) -> Outcome:
+    """The outcome as it stands after readings have judged that it was not fitted to.
+
+    Open are then those whose odds, of training and unfitted readings together, are not below 1 to 20; where nothing is
+    accepted, what is suggested is open against the recalibrated model.
+    """
+    base = Explanation(outcome.base)
+    if not accepted.explanation.terms:
+        known = [e for e in outcome.rivals if set(e.terms) != set(accepted.headline.terms)]
+        return replace(outcome, best=base, rivals=(base, accepted.headline, *known))
+    least = min(total for _, total in accepted.rivals)
+    near = tuple(e for e, total in accepted.rivals if total < least + UNSEPARATED)
+    return replace(outcome, best=accepted.headline, rivals=near)
 
 
 def _unearned(outcome: Outcome) -> Open | None:
@@ -99,11 +115,11 @@ def _unearned(outcome: Outcome) -> Open | None:
 
 
 def next_experiment(
-    scenario: Scenario, model: DiagnosisModel, recordings: Sequence[Recording], outcome: Outcome,
+    scenario: Scenario, model: DiagnosisModel, recordings: Sequence[Recording], outcome: Outcome, accepted: Accepted,
     limits: Mapping[str, float],
 ) -> NextExperiment | None:  # fmt: skip
     """What would decide about explanations that are left open, where the coil bank can simulate it; see `design`."""
-    question = open_explanations(outcome)
+    question = open_explanations(judged(outcome, accepted))
     inflation = None
     while isinstance(model, WrappedModel):
         inflation = model.inflation if isinstance(model, TemperedModel) else inflation

@@ -105,6 +105,11 @@ class FabricModel:
         )  # fmt: skip
 
     @property
+    def can_be_fitted(self) -> bool:
+        """Whether the mechanical part is prepared; a model that only judges simulates each point by Bullet."""
+        return self._mechanical is not None
+
+    @property
     def prepared(self) -> MechanicalModel:
         """The mechanical part, once it was simulated."""
         assert self._mechanical is not None, "search_fabric prepares it"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -77,7 +78,7 @@ class Finding:
         intervals: Times [s] in which it shows.
         channels: Channels in which it shows most.
         effect: Identifier in the catalogue, or of an unnamed term.
-        is_named: Whether the catalogue has a name for it.
+        is_named: Whether its standing is a name or a class of names.
         statement: In plain words.
         law: Formula.
         parameters: Estimates.
@@ -86,10 +87,13 @@ class Finding:
         ambiguous_with: Effects that the data cannot tell from it.
         alternatives: Others that were fitted, best first.
         confused_with: Effect to what would decide, from the catalogue.
-        standing: `named` if the odds against every rival are at least 20 to 1 and its parameters are identified; `class`
-            if it is one of several (`effect` is the most probable, `ambiguous_with` the others); else `unnamed`.
+        standing: `named` if the odds against every rival are at least 20 to 1 and its parameters are identified;
+            `class` if it is one of several (`effect` is the most probable, `ambiguous_with` the others);
+            else `unnamed`.
         is_accepted: Whether it gains on readings that it was not fitted to; else it is a suggestion.
         doubts: Why it is no name, or not accepted, in plain words.
+        recording: Title of the recording that `intervals` are times of.
+        held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
     """
 
     unit: str
@@ -110,6 +114,8 @@ class Finding:
     standing: Standing = Standing.NAMED
     is_accepted: bool = True
     doubts: tuple[str, ...] = ()
+    recording: str = ""
+    held_out_gain: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -249,6 +255,119 @@ class Used:
 
 
 @dataclass(frozen=True)
+class Left:
+    """What is left in one channel of one recording.
+
+    Args:
+        recording: Its title.
+        channel: Name.
+        unit: SI unit.
+        rmse: Root mean square of measured minus predicted [unit].
+        noise: Standard deviation of the sensor's noise, as stated or from neighbouring readings [unit].
+        chi_square: Per reading.
+        limit: Noise alone exceeds it in one of a thousand diagnoses.
+    """
+
+    recording: str
+    channel: str
+    unit: str
+    rmse: float
+    noise: float
+    chi_square: float
+    limit: float
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A number that is taken to be another than was written down.
+
+    Args:
+        name: Of the number.
+        unit: Its unit; 1 of a factor.
+        amount: How far it was moved, or by which factor.
+        is_factor: Whether it was multiplied by `amount`; else `amount` was added.
+        deviations: How far that is in deviations of what is usual or stated.
+    """
+
+    name: str
+    unit: str
+    amount: float
+    is_factor: bool
+    deviations: float
+
+
+@dataclass(frozen=True)
+class Adequacy:
+    """How right the amended model is: what it leaves of readings that it was not fitted to.
+
+    Args:
+        basis: Which readings: `held-out recordings`, or stretches of the training that were left out of fits.
+        is_rejected: Whether the readings reject the model, by the noise of the sensors.
+        chi_square: Per reading, by stage; single wild readings left out, the day's own numbers estimated.
+        limit: Noise alone exceeds it in one of a thousand diagnoses.
+        explained: Share of the mismatch of the scenario as it is (its squares beyond the noise) that is gone, at most
+            1; negative where the model got worse; 0 where there was none.
+        by_recalibration: The part of it that recalibrated parameters explain.
+        worst: The channel that is met worst by its noise; None where there is no reading.
+        rejected: Channels that reject the model, and channels in all.
+        day: Numbers of the day (its room, its start) that had to be moved by more than half of what is usual.
+        wild: Single wild readings that were not counted.
+        is_noise_stated: Whether the noise of every channel was stated; else it comes from neighbouring readings.
+        is_training_rejected: Whether the training recordings reject the model as well.
+        is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
+    """
+
+    basis: str
+    is_rejected: bool
+    chi_square: dict[str, float]
+    limit: float
+    explained: float
+    by_recalibration: float
+    worst: Left | None
+    rejected: tuple[int, int]
+    day: tuple[Moved, ...]
+    wild: int
+    is_noise_stated: bool
+    is_training_rejected: bool
+    is_recalibration_worse: bool
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Laws of one domain that were tried.
+
+    Args:
+        name: electrical, thermal, stiffness, mechanical or measurement.
+        laws: How many.
+        generic: How many of them have no name.
+        places: Places at which they were tried.
+    """
+
+    name: str
+    laws: int
+    generic: int
+    places: int
+
+
+@dataclass(frozen=True)
+class Searched:
+    """What was searched, and what could not be.
+
+    Args:
+        domains: Laws that were tried, by domain.
+        untried: What could not be tried and why, in plain words.
+    """
+
+    domains: tuple[Domain, ...] = ()
+    untried: tuple[str, ...] = ()
+
+    @property
+    def has_physics(self) -> bool:
+        """Whether any law that is no fault of a sensor or input was tried."""
+        return any(d.laws for d in self.domains if d.name not in ("measurement", "input"))
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer.
 
@@ -261,7 +380,7 @@ class Diagnosis:
         false_alarm_rate: Probability that chance alone gives the first finding its gain.
         structure_before: Largest standardised sum of residuals left after recalibration.
         structure_after: The same with the findings.
-        recalibration: Parameters of the model that moved by more than two prior deviations: name to factor or change.
+        recalibration: Parameters of the model that moved by more than two prior deviations.
         isolability: What these channels can tell apart.
         amended_model: Path of the amended scenario, or None.
         seconds: Wall time.
@@ -280,9 +399,9 @@ class Diagnosis:
         held_out_by: What the fits of held-out recordings come from; empty if none was held out.
         differences: Held-out channels on which the fast simulation and the free run differ by more than a tenth of the
             noise, the most first.
-        foretold: -2 log of how well held-out recordings are foretold, `recalibrated` and `after`, with what belongs to
-            their day alone (its surroundings, its start) unknown within its prior; empty if it was not asked for: in
-            Bullet and with `--brief` it is asked for only where the plain chi-square speaks against the findings.
+        adequacy: How right the amended model is; None where no reading was left to judge.
+        searched: What was searched.
+        doubts: What the check of the recordings before the search stumbled over.
     """
 
     verdict: Verdict
@@ -293,7 +412,7 @@ class Diagnosis:
     false_alarm_rate: float
     structure_before: float
     structure_after: float
-    recalibration: dict[str, float]
+    recalibration: tuple[Moved, ...]
     isolability: Isolability
     amended_model: str | None
     seconds: float
@@ -310,4 +429,16 @@ class Diagnosis:
     next_experiment: NextExperiment | None = None
     held_out_by: str = ""
     differences: tuple[Difference, ...] = ()
-    foretold: dict[str, float] = field(default_factory=dict)
+    adequacy: Adequacy | None = None
+    searched: Searched = Searched()
+    doubts: tuple[Doubt, ...] = ()
+
+    @property
+    def accepted(self) -> tuple[Finding, ...]:
+        """Findings that gain on readings that they were not fitted to."""
+        return tuple(f for f in self.findings if f.is_accepted)
+
+    @property
+    def suggestions(self) -> tuple[Finding, ...]:
+        """Findings that do not."""
+        return tuple(f for f in self.findings if not f.is_accepted)

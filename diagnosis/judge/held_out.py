@@ -26,12 +26,13 @@ Predictions = Mapping[str, Sequence[Sequence[Array]]]
 def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -> Point:
     """A fitted point for other recordings: what belongs to a day (its ambient) is taken as the scenario has it.
 
-    Nothing is fitted to held-out recordings, not even their ambient temperature.
+    Nothing is fitted to held-out recordings, not even their ambient temperature. Terms that the other recordings do not
+    have (a fault of one day) are left away.
     """
     values = {p.name: z for p, z in zip(trained.parameters, point.base) if " of recording " not in p.name}
     base = np.array([values.get(p.name, 0.0) for p in other.parameters])
     same = {str(t): t for t in other.terms()}
-    return Point(base, {same[str(t)]: v for t, v in point.terms.items()})
+    return Point(base, {same[str(t)]: v for t, v in point.terms.items() if str(t) in same})
 
 
 def predictions(model: DiagnosisModel, points: Mapping[str, Point]) -> Predictions:

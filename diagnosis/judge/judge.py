@@ -1,4 +1,4 @@
-"""Findings and verdict of a search."""
+"""Findings of a search, as far as they are accepted, and the verdict."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
+from diagnosis.judge.acceptance import Accepted
+from diagnosis.judge.diagnosis import Adequacy, Alternative, Estimate, Finding, Moved, Searched, Standing, Verdict
+from diagnosis.judge.standing import standing_of, unidentified
+from diagnosis.report.display import words
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
@@ -24,33 +27,66 @@ OPEN = 0.05
 EVIDENT = 1.2
 #: Structure beyond so many times its limit, and a share of the misfit beyond this, make a name doubtful.
 DOUBTFUL, UNEXPLAINED = 1.5, 0.03
-#: Share of its range within which a parameter lies at its bound (bounds hold exactly; this is rounding).
-AT_BOUND = 1e-12
 #: A parameter that moved by more prior deviations than this is told.
 MOVED = 2.0
+#: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
+STRAINED = 4.0
 #: Fall of -2 log posterior per parameter by which a recalibration counts as needed.
 NEEDED = 4.0
+#: Share of its peak from which an effect counts as being there.
+SHOWS = 0.1
 
 
-def verdict(outcome: Outcome, nominal_cost: float) -> Verdict:
+def verdict(
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, nominal_cost: float
+) -> Verdict:
     """One word for a search.
 
     Args:
         outcome: What the search found.
+        found: Findings, accepted and suggested.
+        adequacy: How right the accepted model is.
+        searched: What was searched.
         nominal_cost: -2 log posterior of the model as it was.
     """
-    terms = outcome.best.terms
-    if not terms:
-        if abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
-            return Verdict.CANNOT_TELL
-        moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
-        fell = nominal_cost - outcome.base.cost
-        return Verdict.RECALIBRATED if moved or fell > NEEDED * len(outcome.base.point.base) else Verdict.CONSISTENT
-    if all(t.unit == "measurement" for t in terms) and is_trusted(outcome):
+    accepted = [f for f in found if f.is_accepted]
+    physics = [f for f in accepted if f.unit not in ("measurement", "input")]
+    if accepted and not physics:
         return Verdict.MEASUREMENT_FAULT
-    if not is_trusted(outcome) or any(not t.is_named or is_limiting_case(outcome.best.fit, t) for t in terms):
-        return Verdict.UNNAMED_PHYSICS
-    return Verdict.MISSING_PHYSICS
+    if physics:
+        is_named = any(f.standing is not Standing.UNNAMED for f in physics)
+        return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
+    if why_open(outcome, found, adequacy, searched):
+        return Verdict.CANNOT_TELL
+    moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
+    fell = nominal_cost - outcome.base.cost
+    is_needed = moved or fell > NEEDED * max(len(outcome.base.point.base), 1) or adequacy.day
+    return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
+
+
+def why_open(
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched
+) -> tuple[str, ...]:  # fmt: skip
+    """Why it cannot be told whether something is missing, where nothing is accepted; empty if the model agrees."""
+    reasons = []
+    if not searched.has_physics:
+        reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
+    if any(not f.is_accepted for f in found):
+        reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
+    unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
+    if adequacy.is_rejected:
+        reasons.append(f"the readings reject the model{unexplained}")
+    elif adequacy.is_training_rejected:
+        reasons.append(f"the training readings reject the model{unexplained}")
+    elif abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
+        reasons.append("residuals of the training recordings are alike for longer than noise is")
+    if adequacy.is_recalibration_worse:
+        reasons.append("the recalibrated parameters predict worse than those of the scenario")
+    strained = int(np.sum(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED))
+    if strained:
+        those = "a parameter" if strained == 1 else f"{strained} parameters"
+        reasons.append(f"{those} had to move by more than {STRAINED:.0f} times the stated uncertainty")
+    return tuple(reasons)
 
 
 def is_trusted(outcome: Outcome) -> bool:
@@ -66,22 +102,10 @@ def is_trusted(outcome: Outcome) -> bool:
     return bool(after < UNEXPLAINED * before)
 
 
-def is_limiting_case(fit: Fit, term: Term) -> bool:
-    """Whether a law is found at a bound of what shapes it, where it is another law than its name says.
-
-    A stiffness at the far end of what a wire can reach is a constant force. Instants may lie anywhere, a strength at
-    its bound is only strong, and a bound of 0 leaves away a part of a law.
-    """
-    values = fit.point.terms[term]
-    shaped = [(p, v) for p, v in zip(term.parameters[1:], values[1:]) if not p.is_instant]
-    bounds = [(v, b, p.upper - p.lower) for p, v in shaped for b in (p.lower, p.upper) if b != 0.0]
-    return any(abs(v - b) <= AT_BOUND * width for v, b, width in bounds)
-
-
-def probabilities(rivals: tuple[Explanation, ...]) -> Array:
-    """Posterior probabilities of explanations with equally many terms, by `Explanation.demerit`."""
-    costs = np.array([e.demerit for e in rivals])
-    weights = np.exp(-0.5 * (costs - costs.min()))
+def probabilities(costs: Sequence[float]) -> Array:
+    """Posterior probabilities of explanations, from their -2 log posteriors."""
+    values = np.asarray(costs, dtype=np.float64)
+    weights = np.exp(-0.5 * (values - values.min()))
     return np.asarray(weights / weights.sum())
 
 
@@ -93,50 +117,99 @@ def bends_into(rival: Explanation, best: Explanation) -> bool:
     return all(t.is_named for t in best.terms) and not all(t.is_named for t in rival.terms)
 
 
-def findings(model: DiagnosisModel, outcome: Outcome) -> tuple[Finding, ...]:
-    """Effects of the accepted explanation, the largest gain first."""
-    best = outcome.best
-    ordered = sorted(best.terms, key=lambda t: -best.gains.get(t, 0.0))
-    return tuple(_finding(model, outcome, term) for term in ordered)
+def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str]) -> tuple[Finding, ...]:
+    """Effects that were accepted, the largest gain first; then those that are suggested alone.
+
+    Args:
+        model: Model of the training recordings.
+        outcome: Of the search.
+        accepted: What of it is accepted.
+        titles: Of the training recordings.
+    """
+    found = []
+    for explanation, terms, is_accepted in (
+        (accepted.explanation, accepted.explanation.terms, True),
+        (accepted.headline, tuple(accepted.reasons), False),
+    ):
+        ordered = sorted(terms, key=lambda t: -explanation.gains.get(t, 0.0))
+        found += [_finding(model, outcome, accepted, explanation, t, is_accepted, titles) for t in ordered]
+    return tuple(found)
 
 
-def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
+def _finding(
+    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
+    is_accepted: bool, titles: Sequence[str],
+) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
-    fit = outcome.best.fit
-    alternatives, probability = _alternatives(outcome, term)
-    own = max((a.gain for a in alternatives if a.effect == term.identifier), default=0.0)
-    bends = {t.identifier for e in outcome.rivals if bends_into(e, outcome.best) for t in e.terms if not t.is_named}
-    near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
+    fit = explanation.fit
+    alternatives, probability = _alternatives(outcome, accepted, term)
+    likely = _open_rivals(alternatives, term, accepted)
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
+    told = estimates(fit, term, _doubt(outcome), model.unseen(term))
+    doubts = unidentified(term, fit, told)
+    standing = standing_of(term, doubts, likely, is_trusted(outcome))
+    recording, intervals = _intervals(model, term, fit, effect)
     return Finding(
         unit=term.unit,
         place=place.label,
         elements=_elements(model, term),
-        intervals=_intervals(model, effect),
+        intervals=intervals,
         channels=_channels(model, effect),
         effect=term.identifier,
-        is_named=term.is_named and is_trusted(outcome) and not is_limiting_case(fit, term),
-        statement=f"{candidate.name}, {place.label}",
+        is_named=standing is not Standing.UNNAMED,
+        statement=statement(candidate.name, place.label, standing, likely),
         law=candidate.law,
-        parameters=estimates(fit, term, _doubt(outcome), model.unseen(term)),
-        gain=outcome.best.gains.get(term, 0.0),
+        parameters=told,
+        gain=explanation.gains.get(term, 0.0),
         probability=probability,
-        ambiguous_with=tuple(sorted({a.effect for a in near if a.effect != term.identifier})),
+        ambiguous_with=likely,
         alternatives=tuple(alternatives[:8]),
         confused_with=dict(candidate.confused_with),
+        standing=standing,
+        is_accepted=is_accepted,
+        doubts=(*accepted.reasons.get(term, ()), *doubts),
+        recording=titles[recording],
+        held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
     )
 
 
-def _alternatives(outcome: Outcome, term: Term) -> tuple[list[Alternative], float]:
+def statement(name: str, place: str, standing: Standing, likely: Sequence[str]) -> str:
+    """What was found, as far as it has a name.
+
+    >>> statement("second thermal mass", "coil[2,5]", Standing.CLASS, ("sensor_lag",))
+    'second thermal mass or sensor lag, coil[2,5]'
+    """
+    if standing is Standing.CLASS:
+        others = [words(effect) for effect in likely[:3]]
+        more = f" or {len(likely) - 3} more" if len(likely) > 3 else ""
+        return f"{' or '.join([name, *others])}{more}, {place}"
+    return (
+        f"{name}, {place}"
+        if standing is Standing.NAMED
+        else f"an effect without a name (described as: {name}), {place}"
+    )
+
+
+def _open_rivals(alternatives: Sequence[Alternative], term: Term, accepted: Accepted) -> tuple[str, ...]:
+    """Effects with odds of more than 1 to 20 against this one, the most probable first."""
+    own = max((a.gain for a in alternatives if a.effect == term.identifier), default=0.0)
+    best = accepted.headline
+    bends = {t.identifier for e, _ in accepted.rivals if bends_into(e, best) for t in e.terms if not t.is_named}
+    near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
+    return tuple(dict.fromkeys(a.effect for a in near if a.effect != term.identifier))
+
+
+def _alternatives(outcome: Outcome, accepted: Accepted, term: Term) -> tuple[list[Alternative], float]:
     """Explanations that have another term in the place of this one, and the probability of this one."""
-    others = set(outcome.best.terms) - {term}
-    rivals = tuple(e for e in outcome.rivals if others <= set(e.terms) and len(e.terms) == len(others) + 1)
+    others = set(accepted.headline.terms) - {term}
+    size = len(others) + 1
+    rivals = [(e, total) for e, total in accepted.rivals if others <= set(e.terms) and len(e.terms) == size]
     if not rivals:
         return [], 1.0
-    chances = probabilities(rivals)
-    worst = max(e.fit.cost for e in rivals)
+    chances = probabilities([total for _, total in rivals])
+    worst = max(e.fit.cost for e, _ in rivals)
     found, own = [], 0.0
-    for explanation, chance in sorted(zip(rivals, chances), key=lambda pair: pair[0].fit.cost):
+    for (explanation, _), chance in sorted(zip(rivals, chances), key=lambda pair: -pair[1]):
         other = next(t for t in explanation.terms if t not in others)
         gain = outcome.base.cost - explanation.fit.cost if not others else worst - explanation.fit.cost
         found.append(Alternative(other.identifier, other.place, float(gain), float(chance)))
@@ -183,19 +256,28 @@ def _elements(model: DiagnosisModel, term: Term) -> tuple[str, ...]:
     return tuple(dict.fromkeys(model.layout.names[c].split(".")[0] for c in local[0])) or (term.place,)
 
 
-def _intervals(model: DiagnosisModel, effect: Array) -> tuple[tuple[float, float], ...]:
-    """Times in which nine tenths of the effect lie, as few pieces as there are gaps of a tenth of the recording."""
-    layout = model.layout
-    times = np.unique(layout.time)
-    strength = np.bincount(np.searchsorted(times, layout.time), effect**2, minlength=len(times))
-    order = np.argsort(-strength)
-    share = np.cumsum(strength[order]) / max(float(strength.sum()), 1e-300)
-    kept = np.sort(times[order[: int(np.searchsorted(share, 0.9)) + 1]])
+def _intervals(
+    model: DiagnosisModel, term: Term, fit: Fit, effect: Array
+) -> tuple[int, tuple[tuple[float, float], ...]]:  # fmt: skip
+    """Recording in which an effect shows most, and the times in which it is there, pieces with gaps of a tenth of it.
+
+    It is there where it is a tenth of its peak or more; what sets in at an instant is not there before.
+    """
+    layout, first = model.layout, 0
+    owners = np.concatenate([np.full(len(run.series), n) for n, run in enumerate(model.runs)])
+    if len(layout.names) == len(owners):
+        recording = owners[np.asarray(layout.channel, dtype=int)]
+        first = int(np.argmax(np.bincount(recording, effect**2)))
+        chosen = recording == first
+    else:
+        chosen = np.ones(len(effect), dtype=bool)
+    times, place = np.unique(layout.time[chosen], return_inverse=True)
+    strength = np.sqrt(np.bincount(place, effect[chosen] ** 2, minlength=len(times)))
+    kept = times[strength >= SHOWS * max(float(strength.max()), 1e-300)]
     gap = 0.1 * (times[-1] - times[0])
     cuts = np.flatnonzero(np.diff(kept) > gap)
-    begins = np.concatenate([[0], cuts + 1])
-    ends = np.concatenate([cuts, [len(kept) - 1]])
-    return tuple((float(kept[a]), float(kept[b])) for a, b in zip(begins, ends))
+    begins, ends = np.concatenate([[0], cuts + 1]), np.concatenate([cuts, [len(kept) - 1]])
+    return first, tuple((float(kept[a]), float(kept[b])) for a, b in zip(begins, ends))
 
 
 def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
@@ -205,14 +287,23 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
-def recalibration(model: DiagnosisModel, fit: Fit) -> dict[str, float]:
-    """Parameters that moved by more than `MOVED` prior deviations: factor where relative, change where not."""
-    moved = {}
+def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
+    """Parameters that moved by more than `MOVED` prior deviations, the farthest first."""
+    found = []
     for parameter, z in zip(model.parameters, fit.point.base):
+        amount = parameter.deviation * float(z)
         if abs(z) > MOVED:
-            amount = parameter.deviation * float(z)
-            moved[parameter.name] = float(np.exp(amount)) if parameter.is_relative else amount
-    return moved
+            is_factor = parameter.is_relative
+            found.append(
+                Moved(
+                    parameter.name,
+                    "1" if is_factor else parameter.unit,
+                    float(np.exp(amount)) if is_factor else amount,
+                    is_factor,
+                    float(z),
+                )
+            )
+    return tuple(sorted(found, key=lambda m: -abs(m.deviations)))
 
 
 def nominal_cost(model: DiagnosisModel) -> float:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point, Term
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.wrapped import WrappedModel
@@ -37,24 +36,3 @@ class OwnNumbers(WrappedModel):
 
     def terms(self) -> list[Term]:
         return []
-
-
-def foretold(judge: DiagnosisModel, trained: DiagnosisModel, points: Mapping[str, Point]) -> dict[str, float]:
-    """-2 log of how well recordings are foretold, with the numbers that are theirs alone unknown within their priors.
-
-    A room 0.3 K warmer than written down adds more to the chi-square of 36 thermometers than most effects do, and it
-    speaks neither for nor against any. Everything that was fitted stays as it was fitted.
-
-    Args:
-        judge: Model of the held-out recordings.
-        trained: Model that was fitted.
-        points: Stage to point of the judge.
-
-    Returns:
-        Stage to the least sum of squared residuals (Huber) and squared distances from the priors.
-    """
-    own = own_numbers(judge, trained)
-    found = {}
-    for stage, point in points.items():
-        found[stage] = fit(OwnNumbers(judge, point, own), Point(point.base[own]), iterations=30).cost
-    return found

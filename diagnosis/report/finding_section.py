@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from diagnosis.judge.diagnosis import Estimate, Finding
 from diagnosis.report.display import UNKNOWN, clean, interval, listed, number, percent, symbol, words
 from diagnosis.report.figures import colour
@@ -10,23 +12,23 @@ from diagnosis.report.markup import Html, element, folded, joined, listing, tabl
 from diagnosis.report.sentences import ambiguity, decisive, what, when, where
 
 
-def finding_section(order: int, finding: Finding, is_accepted: bool = True) -> Html:
+def finding_section(order: int, finding: Finding) -> Html:
     """Section of a finding.
 
     Args:
         order: Its place among the findings, from 0; gives its colour.
         finding: What was found.
-        is_accepted: Whether recordings held out do not speak against it.
     """
-    title = f"Finding {order + 1}" if is_accepted else f"Suggestion {order + 1}, not accepted"
+    title = f"Finding {order + 1}" if finding.is_accepted else f"Suggestion {order + 1}, not accepted"
     facts = [
         ("Where", where(finding)),
         ("When", when(finding, 12)),
         ("Shows in", listed(list(dict.fromkeys(plain_channel(c) for c in finding.channels)), 12) or UNKNOWN),
         ("What", what(finding)),
         ("Law", element("code", finding.law)),
-        ("Gain", f"-2 log posterior falls by {number(finding.gain)}"),
+        ("Gain", _gain(finding)),
     ]
+    facts += [("Doubt" if finding.is_accepted else "Why not accepted", doubt) for doubt in finding.doubts]
     return element(
         "section",
         element("h2", f"{title}: {finding.statement}"),
@@ -39,6 +41,13 @@ def finding_section(order: int, finding: Finding, is_accepted: bool = True) -> H
         class_="finding",
         style=f"border-color: {colour(order)}",
     )
+
+
+def _gain(finding: Finding) -> str:
+    told = f"-2 log posterior of the training falls by {number(finding.gain)}"
+    if math.isnan(finding.held_out_gain):
+        return told
+    return f"{told}, -2 log likelihood of the readings that judge by {number(finding.held_out_gain)}"
 
 
 def _parameters(estimates: tuple[Estimate, ...]) -> Html:

@@ -38,15 +38,18 @@ def _line(one: Location) -> list[str]:
 
 def waveform_section(waveforms: Sequence[Waveform]) -> Html:
     """Figures of the unknown inputs; nothing where none was estimated."""
-    if not waveforms:
+    resolved = [w for w in waveforms if any(low > 0.0 or up < 0.0 for low, up in zip(w.lower, w.upper))]
+    if not resolved:
         return Html("")
     drawn = []
-    for one in waveforms[:_WAVEFORMS]:
+    for one in resolved[:_WAVEFORMS]:
         whose = f" (finding {one.finding})" if one.finding else ""
         caption = f"{clean(one.element)}: {clean(one.equation)}{whose}"
         drawn.append(element("figure", element("figcaption", caption),
                              image(waveform_figure(one), f"{caption}: estimate with 95 % band")))  # fmt: skip
     note = "The input that would have to be added for the unit to give what was measured, without any law assumed."
+    if len(resolved) < len(waveforms):
+        note += f" {len(waveforms) - len(resolved)} more cannot be told from 0 anywhere: see diagnosis.json."
     return element("section", element("h2", "The missing input"), *drawn, element("p", note, class_="note"))
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
-from diagnosis.report.display import clean, listed, number, percent, span
+from diagnosis.report.display import clean, listed, number, span
 from diagnosis.report.experiment_section import experiment_section, isolability_section
 from diagnosis.report.figures import is_left_in, network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
@@ -15,9 +15,21 @@ from diagnosis.report.fit_section import TITLE, fit_section
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
 from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
 from diagnosis.report.network import Network, concerned, inferred
-from diagnosis.report.sentences import ADVICE, ambiguity, effort, improvement, structure, sureness, what, when, where
+from diagnosis.report.sentences import (
+    ADVICE,
+    ambiguity,
+    effort,
+    improvement,
+    moved_text,
+    searched,
+    structure,
+    sureness,
+    what,
+    when,
+    where,
+)
 from diagnosis.report.series import Series
-from diagnosis.report.undecided import is_refuted, model_note, remainder, suggested, what_decides, why
+from diagnosis.report.undecided import departing, model_note, remainder, suggested, what_decides
 
 #: Looks of the page; no font and no picture comes from elsewhere.
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
@@ -58,13 +70,13 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         "body",
         _answer(diagnosis, name),
         _place_and_time(diagnosis, series, network),
-        *(finding_section(n, f, not is_refuted(diagnosis)) for n, f in enumerate(diagnosis.findings)),
+        *(finding_section(n, f) for n, f in enumerate(diagnosis.findings)),
         *left[:is_first],
         _figures(diagnosis, series),
         waveform_section(diagnosis.waveforms),
         experiment_section(diagnosis.next_experiment),
         *left[is_first:],
-        fit_section(diagnosis.fit, diagnosis.spread, "How well it fits" if is_refuted(diagnosis) else TITLE),
+        fit_section(diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits"),
         _certainty(diagnosis),
         location_section(diagnosis.locations),
         isolability_section(diagnosis.isolability),
@@ -81,7 +93,9 @@ def _section(title: str, *content: str) -> Html:
 def _answer(diagnosis: Diagnosis, name: str) -> Html:
     """Verdict, and where, when, what and how much better in a line each."""
     verdict = diagnosis.verdict.value
-    facts = _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
+    facts = [("Doubt", f"{clean(d.statement)} {clean(d.remedy)}") for d in diagnosis.doubts[:_LEFT]]
+    facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
+    facts.append(("Searched", searched(diagnosis)))
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
@@ -101,23 +115,23 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
 
 def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """Where, when, what and how much better; how much better alone where nothing was found."""
-    better, told = ("How much better", improvement(diagnosis)), diagnosis.findings
+    better, told = ("How much better", improvement(diagnosis)), diagnosis.accepted
+    others = [("Suggested", suggested(f)) for f in diagnosis.suggestions]
     if not told:
-        return [better]
+        return [*others, better]
     open_ones = [("Open", _each([ambiguity(f) for f in told]))] if any(f.ambiguous_with for f in told) else []
     return [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
-            ("What", _each([what(f) for f in told])), *open_ones, better,
-            ("False alarm", f"chance alone gives this in {percent(diagnosis.false_alarm_rate)} of cases")]  # fmt: skip
+            ("What", _each([what(f) for f in told])), *open_ones, *others, better]  # fmt: skip
 
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
-    if is_refuted(diagnosis):
-        facts = [("Suggested", _each(suggested(diagnosis))), ("Not accepted", why(diagnosis))]
-    else:
-        left = [remainder(r) for r in diagnosis.left[:_LEFT]]
-        facts = [("What is left", _each(left))] if left else []
-        facts += [("Why", why(diagnosis)), ("How much better", improvement(diagnosis))]
+    facts = [("Suggested", suggested(f)) for f in diagnosis.suggestions]
+    left = [remainder(r) for r in diagnosis.left[:_LEFT]]
+    facts += [("What is left", _each(left))] if left else []
+    alone = departing(diagnosis)
+    facts += [("Units", alone)] if alone else []
+    facts.append(("How much better", improvement(diagnosis)))
     told = what_decides(diagnosis)
     return [*facts, ("What would decide", told)] if told else facts
 
@@ -150,7 +164,7 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         about = f"intervals in which each finding shows, {number(begin)} to {number(end)} s"
         note = "Bars hold nine tenths of what each effect does to the channels."
         parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
-    return _section("Where and when it would act" if is_refuted(diagnosis) else "Where and when", *parts)
+    return _section("Where and when" if diagnosis.accepted else "Where and when it would act", *parts)
 
 
 def _caption(diagnosis: Diagnosis, network: Network) -> str:
@@ -198,11 +212,10 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
-    moved = [f"{name}: {number(value)}" for name, value in diagnosis.recalibration.items()]
+    moved = [moved_text(m) for m in diagnosis.recalibration]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))
     if moved:
-        parts += [element("p", "Recalibration moved by more than two prior deviations (factors; changes in SI units "
-                               "for parameters that are no factors):"), listing(moved)]  # fmt: skip
+        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]  # fmt: skip
     return _section("How sure", *parts)

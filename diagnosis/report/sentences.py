@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
-from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
+from diagnosis.judge.diagnosis import Diagnosis, Finding, Moved, Standing, Verdict
+from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, symbol, words
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
 
 #: What follows from a verdict.
 ADVICE = {
-    Verdict.CONSISTENT: "Nothing needs to be added to the model.",
-    Verdict.RECALIBRATED: "Only parameters of the model were off; no physics is missing that these recordings show.",
+    Verdict.CONSISTENT: "Nothing that was tried needs to be added to the model.",
+    Verdict.RECALIBRATED: "Parameters of the model were off; nothing that was tried needs to be added.",
     Verdict.RECORDING_FAULT: "Correct the recording or the scenario first; nothing was concluded about the physics.",
-    Verdict.MEASUREMENT_FAULT: "Mend or model the sensor before the physics is changed.",
-    Verdict.MISSING_PHYSICS: "It acts at the place and the times below.",
-    Verdict.UNNAMED_PHYSICS: "The formula tells what it depends on; a name for it is left to a person.",
+    Verdict.MEASUREMENT_FAULT: "Repair, replace or model the sensor before the physics is changed.",
+    Verdict.MISSING_PHYSICS: "Place and times are below.",
+    Verdict.UNNAMED_PHYSICS: "The formula describes it within these recordings; a name for it is left to a person.",
     Verdict.CANNOT_TELL: "Trust neither the model nor a correction of it where it departs from these recordings.",
 }
 
@@ -27,21 +27,38 @@ def where(finding: Finding) -> str:
 
 
 def when(finding: Finding, most: int = 4) -> str:
-    """Intervals of a finding."""
-    return listed([span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    """Intervals of a finding, in the recording that shows it most."""
+    told = listed([span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    return f"{told} of {clean(finding.recording)}" if finding.recording else told
 
 
 def what(finding: Finding) -> str:
     """Effect and how probable it is."""
-    name = words(finding.effect) if finding.is_named else "no name in the catalogue"
+    name = words(finding.effect)
+    if finding.standing is Standing.UNNAMED:
+        name = f"no name; described by {name}"
+    elif finding.standing is Standing.CLASS:
+        name = f"one of several, {name} the most probable"
     return f"{name}, probability {percent(finding.probability)} among all that were fitted in its place"
 
 
 def ambiguity(finding: Finding) -> str:
     """What the data cannot tell from a finding."""
     if not finding.ambiguous_with:
-        return "No other effect that was fitted explains the recordings as well."
+        return "Every other effect that was fitted in its place has odds of less than 1 to 20."
     return f"The recordings cannot tell it from: {listed([words(e) for e in finding.ambiguous_with], 6)}."
+
+
+def searched(diagnosis: Diagnosis) -> str:
+    """What was tried, by domain, and what could not be tried."""
+    tried = [
+        f"{d.name}: {d.laws} laws ({d.generic} without a name) at {d.places} place{'s' if d.places != 1 else ''}"
+        for d in diagnosis.searched.domains
+    ]
+    parts = ["; ".join(tried) if tried else "no law was tried"]
+    if diagnosis.searched.untried:
+        parts.append("not tried: " + listed(list(diagnosis.searched.untried), 4))
+    return "; ".join(parts)
 
 
 def decisive(finding: Finding) -> list[str]:
@@ -60,17 +77,8 @@ def improvement(diagnosis: Diagnosis) -> str:
             is_part = 2 * len(part) < sum(f.is_held_out == is_held_out for f in diagnosis.fit)
             own = mean_chi_square(part, is_held_out) if is_part else None
             where = f"; where findings show most: {_course(own)}" if own else ""
-            return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}{_own_day(diagnosis)}"
+            return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"
     return "no recording was judged"
-
-
-def _own_day(diagnosis: Diagnosis) -> str:
-    """The same with what belongs to the held-out day alone taken as unknown: it says nothing of the model."""
-    samples = sum(f.samples for f in diagnosis.fit if f.is_held_out)
-    if not diagnosis.foretold or not samples:
-        return ""
-    told = {stage: value / samples for stage, value in diagnosis.foretold.items()}
-    return f"; with the room and the start of that day taken as unknown: {_course(told)}"
 
 
 def _course(mean: Mapping[str, float]) -> str:
@@ -81,14 +89,15 @@ _STAGE = {"before": "before", "recalibrated": "recalibrated only", "after": "aft
 
 
 def sureness(diagnosis: Diagnosis) -> str:
-    """Margin and false alarms."""
-    margin = f"An effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
+    """What an effect had to gain, in training and on readings that it was not fitted to."""
+    margin = f"In training an effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
     if not diagnosis.findings:
-        return f"{margin}; none was accepted."
+        return f"{margin}; none did."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
-    chance = f"Chance alone gives the first in {percent(diagnosis.false_alarm_rate)} of cases"
-    against = ", but held-out recordings refute it" if diagnosis.verdict is Verdict.CANNOT_TELL else ""
-    return f"{margin}; found: {gains}. {chance}{against}."
+    judged = listed([number(f.held_out_gain) for f in diagnosis.findings], 4)
+    basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
+    chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
+    return f"{margin}: {gains}; {chance}. On {basis} -2 log likelihood falls by {judged}."
 
 
 def structure(diagnosis: Diagnosis) -> str:
@@ -102,3 +111,12 @@ def structure(diagnosis: Diagnosis) -> str:
 def effort(diagnosis: Diagnosis) -> str:
     """Time, simulations and seed."""
     return f"{duration(diagnosis.seconds)}, {diagnosis.simulations} simulations, seed {diagnosis.seed}"
+
+
+def moved_text(moved: Moved) -> str:
+    """How far a number was moved: by which factor, or what was added."""
+    name = clean(moved.name).replace("_", " ")
+    far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
+    if moved.is_factor:
+        return f"{name}: {number(moved.amount)} times the scenario's value ({far})"
+    return f"{name}: {moved.amount:+.3g} {symbol(moved.unit)} ({far})"

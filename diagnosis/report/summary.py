@@ -1,4 +1,4 @@
-"""The answer in the terminal, in at most 30 lines."""
+"""The answer in the terminal, in at most 40 lines."""
 
 from __future__ import annotations
 
@@ -12,11 +12,23 @@ from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
 from diagnosis.judge.next_experiment import NextExperiment
 from diagnosis.report.display import clean, difference, interval, number
 from diagnosis.report.fits import STAGES, Row, rows
-from diagnosis.report.sentences import ambiguity, decisive, effort, improvement, structure, sureness, what, when, where
-from diagnosis.report.undecided import is_refuted, model_note, remainder, what_decides, why
+from diagnosis.report.sentences import (
+    ambiguity,
+    decisive,
+    effort,
+    improvement,
+    moved_text,
+    searched,
+    structure,
+    sureness,
+    what,
+    when,
+    where,
+)
+from diagnosis.report.undecided import model_note, remainder, what_decides
 
 #: Lines that a summary has at most.
-LINES = 30
+LINES = 40
 _STYLES = {
     Verdict.CONSISTENT: "bold green",
     Verdict.RECALIBRATED: "bold green",
@@ -28,13 +40,15 @@ _STYLES = {
 }
 #: Findings, rows of fits and statements that are printed; the rest is in the report.
 _FINDINGS, _ROWS, _STATEMENTS = 2, 4, 2
+#: Lines of the statement: it is cut only where somebody gave titles of many lines.
+_STATEMENT = 14
 
 
 def print_summary(diagnosis: Diagnosis, console: Console) -> None:
     """Print verdict, findings, fit and certainty; foreign text is stripped of control characters and markup."""
     width = max(console.width, 40)
     head = f"{diagnosis.verdict.value.upper()}  "
-    first, *others = _wrapped(head, diagnosis.statement, width, 3)
+    first, *others = _wrapped(head, diagnosis.statement, width, _STATEMENT)
     top = Text(first)
     top.stylize(_STYLES[diagnosis.verdict], 0, len(head))
     lines = [top, *map(Text, others)]
@@ -46,7 +60,7 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
         label, told = ("model    ", f" ({note})") if note else ("amended  ", "")
         foot += map(Text, _wrapped(label, diagnosis.amended_model + told, width, 2))
     body = [Text(line) for line in _body(diagnosis, width)]
-    room = LINES - len(lines) - len(foot)
+    room = max(LINES - len(lines) - len(foot), 1)
     if len(body) > room:
         body = [*body[: room - 1], Text("  ... the rest is in report.html")]
     for line in (*lines, *body, *foot):
@@ -54,37 +68,28 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
 
 
 def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
-    is_open = diagnosis.verdict is Verdict.CANNOT_TELL
-    if is_open:
-        yield from _undecided(diagnosis, width)
-    for order, finding in enumerate(diagnosis.findings[:_FINDINGS], start=1):
-        yield from _finding(order, finding, width, not is_open)
-    more = len(diagnosis.findings) - _FINDINGS
+    for doubt in diagnosis.doubts[:_FINDINGS]:
+        yield from _wrapped("doubt    ", f"{doubt.statement} {doubt.remedy}", width, 3)
+    told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
+    for order, finding in enumerate(told, start=1):
+        yield from _finding(order, finding, width)
+    more = len(diagnosis.findings) - len(told)
     if more > 0:
         yield f"  and {more} more in report.html"
-    if is_refuted(diagnosis):  # there the improvement is none, and the reason why
-        yield from _wrapped("fit      ", "before -> recalibrated only -> with what is suggested", width, 2)
-    else:
-        yield from _wrapped("better   ", improvement(diagnosis), width, 4)
+    decides = what_decides(diagnosis)
+    if decides:
+        yield from _wrapped("decide   ", decides, width, 8)
+    yield from _wrapped("better   ", improvement(diagnosis), width, 4)
     yield from _fit(diagnosis, width)
-    yield from _wrapped("sure     ", sureness(diagnosis), width, 3)
+    yield from _wrapped("searched ", searched(diagnosis), width, 4)
+    yield from _wrapped("sure     ", sureness(diagnosis), width, 4)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
-    for rest in diagnosis.left[: 0 if is_open and not diagnosis.findings else _STATEMENTS]:
+    for rest in diagnosis.left[:_STATEMENTS]:
         yield from _wrapped("left in  ", remainder(rest), width, 2)
-    for name, value in list(diagnosis.recalibration.items())[:_STATEMENTS]:
-        yield from _wrapped("moved    ", f"{clean(name)}: {number(value)}", width, 1)
+    for moved in diagnosis.recalibration[:_STATEMENTS]:
+        yield from _wrapped("moved    ", moved_text(moved), width, 2)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 2)
-
-
-def _undecided(diagnosis: Diagnosis, width: int) -> Iterator[str]:
-    """What is left, why that is open, and what would decide."""
-    for rest in diagnosis.left[: 0 if diagnosis.findings else _STATEMENTS]:
-        yield from _wrapped("left in  ", remainder(rest), width, 2)
-    yield from _wrapped("why      ", why(diagnosis), width, 5)
-    told = what_decides(diagnosis)
-    if told:
-        yield from _wrapped("decide   ", told, width, 8)
 
 
 def _next(experiment: NextExperiment) -> str:
@@ -92,13 +97,16 @@ def _next(experiment: NextExperiment) -> str:
     return experiment.statement + where
 
 
-def _finding(order: int, finding: Finding, width: int, is_accepted: bool) -> Iterator[str]:
+def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding), width, 1)
-    yield from _wrapped("  what   ", ("" if is_accepted else "suggested, not accepted: ") + what(finding), width, 2)
+    prefix = "" if finding.is_accepted else "suggested, not accepted: "
+    yield from _wrapped("  what   ", prefix + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
     told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
     yield from _wrapped("         ", ", ".join(told), width, 2)
+    for doubt in finding.doubts[:_STATEMENTS]:
+        yield from _wrapped("  why not" if not finding.is_accepted else "  doubt  ", f" {doubt}", width, 3)
     if finding.ambiguous_with:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))

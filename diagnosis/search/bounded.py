@@ -41,7 +41,7 @@ def bounded_step(normal: Array, slope: Array, lower: Array, upper: Array) -> Arr
             continue
         slope_there = slope + normal @ step  # what was stopped too early is let go, the most eager first
         inward = np.where(step <= lower, -slope_there, slope_there) * is_held
-        if inward.max(initial=0.0) <= EAGER * np.abs(slope).max():
+        if inward.max(initial=0.0) <= EAGER * np.abs(slope).max(initial=0.0):
             break
         is_held[int(np.argmax(inward))] = False
     return np.asarray(np.clip(step, lower, upper))

@@ -52,6 +52,11 @@ class TemperedModel(WrappedModel):
         return np.asarray(super().slopes(point, tasks) * self._factor)
 
 
+def untempered(model: DiagnosisModel) -> DiagnosisModel:
+    """The model with the noise of the sensors as it is: what is left is told in that."""
+    return model.inner if isinstance(model, TemperedModel) else model
+
+
 def inflation(residuals: Array, layout: Layout) -> Array:
     """By how much the variance of each channel's mean is larger than its noise says, at least 1, shape (channels,).
 

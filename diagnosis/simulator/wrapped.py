@@ -64,6 +64,11 @@ class WrappedModel:
         """See `diagnosis.search.problem.has_valleys`."""
         return has_valleys(self.inner)
 
+    @property
+    def can_be_fitted(self) -> bool:
+        """See `diagnosis.fabric.model.FabricModel`."""
+        return bool(getattr(self.inner, "can_be_fitted", True))
+
     def unseen(self, term: Term) -> Sequence[float]:
         """See `DiagnosisModel`."""
         return self.inner.unseen(term)

@@ -7,13 +7,20 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.judge.diagnosis import (
+    Adequacy,
     Alternative,
     ChannelFit,
     ChannelSpread,
     Diagnosis,
+    Domain,
+    Doubt,
     Estimate,
     Finding,
+    Left,
+    Moved,
+    Searched,
     Spread,
+    Standing,
     Used,
     Verdict,
 )
@@ -52,6 +59,7 @@ MASS = replace(
 UNNAMED = replace(
     MASS, place="all coils", elements=("coil[1,1]",), effect="unnamed_heat_square_excess", is_named=False,
     statement="unnamed term in heat: temperature above the surroundings, square", law="heat = heat_0 + a * x * x",
+    standing=Standing.UNNAMED,
 )  # fmt: skip
 LAG = replace(
     MASS, unit="measurement", place="coil[1,2].temperature", elements=("coil[1,2]",), effect="sensor_lag",
@@ -60,11 +68,23 @@ LAG = replace(
 FINDINGS = {
     Verdict.CONSISTENT: (),
     Verdict.RECALIBRATED: (),
+    Verdict.RECORDING_FAULT: (),
     Verdict.MEASUREMENT_FAULT: (LAG,),
     Verdict.MISSING_PHYSICS: (CONTACT, MASS),
     Verdict.UNNAMED_PHYSICS: (UNNAMED,),
     Verdict.CANNOT_TELL: (),
 }
+
+
+ADEQUACY = Adequacy(
+    basis="held-out recordings", is_rejected=True, chi_square={"before": 81.0, "recalibrated": 16.0, "after": 4.0},
+    limit=1.08, explained=0.9625, by_recalibration=0.8125,
+    worst=Left("steps", "coil[2,5].temperature", "K", 1.2, 0.15, 64.0, 1.3), rejected=(3, 42),
+    day=(Moved("ambient_offset of recording 1", "K", 0.31, False, 0.62),), wild=2, is_noise_stated=True,
+    is_training_rejected=False, is_recalibration_worse=False,
+)  # fmt: skip
+DOUBT = Doubt("steps", "supply.voltage", "programme", "The supply switches at 30 s, the readings at 50 s.",
+              "Give the programme of that day.", True, 0.0, 100.0, 40.0)  # fmt: skip
 
 
 EXPERIMENT = NextExperiment(
@@ -95,7 +115,7 @@ def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
         false_alarm_rate=0.002,
         structure_before=-21.4,
         structure_after=3.1,
-        recalibration={"convection": 1.083},
+        recalibration=(Moved("convection", "1", 1.083, True, 2.4), Moved("shift", "K", -1.6, False, -3.0)),
         isolability=Isolability(("Heat and stiffness cannot be told apart without a temperature.",)),
         amended_model="out/amended/scenario.yaml",
         seconds=14.2,
@@ -136,6 +156,9 @@ def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
         if verdict is Verdict.MISSING_PHYSICS
         else (),
         next_experiment=EXPERIMENT if verdict is Verdict.MISSING_PHYSICS else None,
+        adequacy=None if verdict is Verdict.RECORDING_FAULT else ADEQUACY,
+        searched=Searched((Domain("thermal", 30, 12, 37),), ("`plant` (fmu) offers no place for a law",)),
+        doubts=(DOUBT,) if verdict is Verdict.RECORDING_FAULT else (),
     )
 
 

@@ -18,7 +18,7 @@ import pytest
 from rich.console import Console
 
 from cosim.errors import InputError
-from diagnosis.judge.diagnosis import Estimate, Verdict
+from diagnosis.judge.diagnosis import Estimate, Moved, Verdict
 from diagnosis.judge.isolability import Isolability
 from diagnosis.report.json_file import as_json, read_json, write_json
 from diagnosis.report.network import Network
@@ -89,7 +89,7 @@ def test_the_published_schema_is_the_one_the_code_makes() -> None:
 def test_the_schema_describes_every_key_and_refuses_others() -> None:
     made = schema()
     objects = [made, *(d for d in made["$defs"].values() if d["type"] == "object")]
-    assert len(objects) == 20
+    assert len(objects) == 26
     for one in objects:
         assert all(len(about["description"]) > 3 for about in one["properties"].values())
     content = json.loads(json.dumps({**_content(), "surprise": 1}))
@@ -185,7 +185,12 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
 
 def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
     told = diagnosis(Verdict.MISSING_PHYSICS, HOSTILE)
-    told = replace(told, statement=HOSTILE, isolability=Isolability((HOSTILE,)), recalibration={HOSTILE: 1.1})
+    told = replace(
+        told,
+        statement=HOSTILE,
+        isolability=Isolability((HOSTILE,)),
+        recalibration=(Moved(HOSTILE, "1", 1.1, True, 2.5),),
+    )
     one = replace(series(), channel=HOSTILE, recording=HOSTILE)
     write_html(told, [one], tmp_path / "report.html", title=HOSTILE)
     text = read_page(tmp_path / "report.html")
@@ -232,7 +237,10 @@ def test_the_summary_has_law_interval_fit_and_false_alarms() -> None:
     assert "R_string = R_string_0 + R_contact" in text
     assert "R_contact = 0.312 ohm (0.281 to 0.350)" in text
     assert "held out, coil temperature: RMSE 2.70 -> 1.20 -> 0.300 K" in text
-    assert "Chance alone gives the first in 0.2 % of cases" in text
+    assert "noise alone gives the first gain in 0.2 % of searches" in text
+    assert "thermal: 30 laws (12 without a name) at 37 places; not tried: `plant` (fmu) offers no place" in text
+    assert "convection: 1.08 times the scenario's value (2.4 times its uncertainty)" in text
+    assert "shift: -1.6 K (3.0 times its uncertainty)" in text
     assert "the model's own reference resistance: the voltage of one coil decides" in text
 
 

@@ -42,7 +42,7 @@ def rivals(made: Scenario, recordings: list[Recording], pair: tuple[Effect, Effe
 
 def as_open(fits: list[Fit]) -> Open:
     ordered = tuple(Explanation(f) for f in sorted(fits, key=lambda f: f.cost))
-    return Open(ordered, probabilities(ordered))
+    return Open(ordered, probabilities([e.demerit for e in ordered]))
 
 
 def as_recorded(made: Scenario, base: Scenario, recording: Recording, title: str) -> Recording:

@@ -1,0 +1,216 @@
+"""Which of the effects that a search suggests are accepted: those that gain on readings that they were not fitted to.
+
+The most probable explanation stands first: training and unfitted readings together decide between those with equally
+many terms. Then terms that do not gain, or that make a channel worse, go one by one, the least needed first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.judge.agreement import Agreement, agreement
+from diagnosis.judge.gain import LEAST, Gain, gain, loss
+from diagnosis.judge.unfitted import Predicted, Unfitted
+from diagnosis.search.fit import Fit, fit
+from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.search import Explanation, Outcome, shrink
+
+#: Rivals that are compared on unfitted readings, and how far behind in training they may lie [-2 log posterior].
+RIVALS, BEHIND = 5, 30.0
+#: Root mean square by which predictions with and without a law differ, in deviations of the noise, below which the
+#: readings do not show it.
+SHOWN = 0.02
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """What of a search is accepted.
+
+    Args:
+        headline: Explanation with everything that is suggested, the most probable of its size.
+        explanation: Explanation with what is accepted alone; the recalibrated model where nothing is.
+        reasons: Term that is not accepted to why, in plain words.
+        gains: Term to what it gains on unfitted readings, all others kept.
+        rivals: Explanations of the headline's size with their -2 log posterior of training and unfitted readings.
+        before: What the scenario as it is leaves of the unfitted readings.
+        recalibrated: What the recalibrated model leaves.
+        after: What the accepted explanation leaves.
+        recalibration: Gain of recalibrating; None where nothing was compared.
+        agreement: Of the accepted explanation with the unfitted readings.
+        training: Of the accepted explanation with the training readings.
+        agreement_before: Of the scenario as it is with the unfitted readings.
+        agreement_recalibrated: Of the recalibrated model with them.
+        basis: Which readings judged.
+    """
+
+    headline: Explanation
+    explanation: Explanation
+    reasons: Mapping[Term, tuple[str, ...]]
+    gains: Mapping[Term, Gain]
+    rivals: tuple[tuple[Explanation, float], ...]
+    before: Predicted
+    recalibrated: Predicted
+    after: Predicted
+    recalibration: Gain
+    agreement: Agreement
+    training: Agreement
+    agreement_before: Agreement
+    agreement_recalibrated: Agreement
+    basis: str
+
+
+class _Judge:
+    """Predictions of explanations, each made once."""
+
+    def __init__(self, model: Model, unfitted: Unfitted, local: Unfitted | None) -> None:
+        self.model, self.unfitted, self.local = model, unfitted, local
+        self._known: dict[tuple[int, bool], Predicted] = {}
+        self._kept: list[Point] = []
+
+    def predict(self, point: Point, is_local: bool = False) -> Predicted:
+        key = (id(point), is_local)
+        if key not in self._known:
+            source = self.local if is_local and self.local is not None else self.unfitted
+            self._known[key] = source.predict(point)
+            self._kept.append(point)  # an id is only one as long as its object lives
+        return self._known[key]
+
+    def evidence(self, without: Fit, with_it: Fit, is_local: bool) -> Gain:
+        """What one fit gains over another; of a term that belongs to a stretch of a day on other readings of it."""
+        source = self.local if is_local and self.local is not None else self.unfitted
+        return gain(self.predict(without.point, is_local), self.predict(with_it.point, is_local), source.readings)
+
+
+def accept(
+    model: Model, outcome: Outcome, unfitted: Unfitted, training: Unfitted, is_local: Callable[[Term], bool],
+    local: Callable[[], Unfitted] | None = None, can_compare: bool = True,
+    on_progress: Callable[[str], None] = lambda text: None,
+) -> Accepted:  # fmt: skip
+    """Accept what gains on readings that it was not fitted to.
+
+    Args:
+        model: Model of the training recordings that the outcome belongs to.
+        outcome: Of the search.
+        unfitted: Readings that judge.
+        training: The training readings.
+        is_local: Whether a term belongs to one stretch of one recording, which no other recording shows.
+        local: Makes the readings that judge such terms.
+        can_compare: Whether rivals are compared on unfitted readings too (not where each prediction takes minutes).
+        on_progress: Told what is being done.
+    """
+    has_local = any(is_local(t) for t in outcome.best.terms)
+    judge = _Judge(model, unfitted, local() if local is not None and has_local else None)
+    before = unfitted.predict(Point(np.zeros(len(model.parameters))), is_fitted=False)
+    recalibrated = judge.predict(outcome.base.point)
+    headline = outcome.best
+    rivals: tuple[tuple[Explanation, float], ...] = ((headline, headline.demerit),)
+    if headline.terms and can_compare:
+        on_progress("comparing explanations on readings that they were not fitted to")
+        headline, rivals = _most_probable(judge, outcome)
+    reasons: dict[Term, tuple[str, ...]] = {}
+    gains: dict[Term, Gain] = {}
+    current = headline
+    while current.terms:
+        on_progress(f"judging {len(current.terms)} effects on readings that they were not fitted to")
+        judged = {t: _judged(judge, outcome, current, t, is_local(t)) for t in current.terms}
+        gains |= {t: found for t, (found, _) in judged.items()}
+        failing = [t for t, (_, why) in judged.items() if why]
+        if not failing:
+            whole = judge.evidence(outcome.base, current.fit, False)
+            if not whole.worse:
+                break
+            failing = list(current.terms)
+            judged = {t: (g, (_worse(whole.worse),)) for t, (g, _) in judged.items()}
+        worst = min(failing, key=lambda t: judged[t][0].total)
+        reasons[worst] = judged[worst][1]
+        current = _without(model, outcome, current, worst)
+    after = judge.predict(current.fit.point)
+    readings = unfitted.readings
+    fitted = training.predict(current.fit.point, is_fitted=False)
+    return Accepted(
+        headline, current, reasons, gains, rivals, before, recalibrated, after,
+        gain(before, recalibrated, readings), agreement(after.residuals, readings),
+        agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
+        agreement(recalibrated.residuals, readings), unfitted.basis,
+    )  # fmt: skip
+
+
+def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Term) -> Explanation:
+    """The explanation without a term, fitted to the end; the recalibrated model where it was the only one."""
+    point = explanation.fit.point.without(term)
+    if not point.terms:
+        return Explanation(outcome.base)
+    found = Explanation(fit(model, point, widths=explanation.fit.widths))
+    return shrink(model, found, outcome.margin)
+
+
+def _most_probable(judge: _Judge, outcome: Outcome) -> tuple[Explanation, tuple[tuple[Explanation, float], ...]]:
+    """The explanation that training and unfitted readings together make the most probable, with its rivals."""
+    best = outcome.best
+    size = len(best.terms)
+    others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(best.terms)]
+    near = sorted((e for e in others if e.demerit < best.demerit + BEHIND), key=lambda e: e.demerit)[:RIVALS]
+    readings = judge.unfitted.readings
+    base = judge.predict(outcome.base.point)
+    found = []
+    for explanation in (best, *near):
+        there = gain(base, judge.predict(explanation.fit.point), readings)
+        found.append((explanation, explanation.demerit - there.total / there.doubt**2))
+    known = {id(e) for e in near}
+    far = [e for e in others if id(e) not in known]
+    worst = max(total - e.demerit for e, total in found)
+    found += [(e, e.demerit + worst) for e in far]  # at best as good on unfitted readings as the worst of the near ones
+    ranked = sorted(found, key=lambda pair: pair[1])
+    chosen = ranked[0][0]
+    if set(chosen.terms) != set(best.terms):
+        chosen = shrink(judge.model, Explanation(chosen.fit), outcome.margin)
+        if len(chosen.terms) != size:  # what remains has fewer terms: its rivals are not known
+            return chosen, ((chosen, chosen.demerit),)
+        ranked[0] = (chosen, ranked[0][1])
+    return chosen, tuple(ranked)
+
+
+def _judged(
+    judge: _Judge, outcome: Outcome, current: Explanation, term: Term, is_local: bool
+) -> tuple[Gain, tuple[str, ...]]:
+    """What a term gains on unfitted readings, and why it is not accepted."""
+    others = current.fit.point.without(term)
+    without = outcome.base if not others.terms else fit(judge.model, others, near=current.fit)
+    found = judge.evidence(without, current.fit, is_local)
+    where = (judge.local if is_local and judge.local is not None else judge.unfitted).basis
+    reasons = []
+    data = float(np.sum(loss(without.residuals)) - np.sum(loss(current.fit.residuals)))
+    if data < LEAST:
+        reasons.append(
+            "only the priors support it: the training readings are met as well without it "
+            f"(-2 log likelihood falls by {data:.1f})"
+        )
+    elif found.shown < SHOWN:
+        reasons.append(
+            f"the readings that judge ({where}) do not show it: they are predicted alike with and without it"
+        )
+    elif found.is_loss:
+        reasons.append(
+            f"it predicts the readings that judge ({where}) worse: -2 log likelihood rises by {-found.total:.0f}"
+        )
+    elif found.total <= 0.0:
+        reasons.append(
+            f"it does not predict the readings that judge ({where}) better: "
+            f"-2 log likelihood rises by {-found.total:.1f}"
+        )
+    elif not found.is_gain:
+        reasons.append(
+            f"it does not predict the readings that judge ({where}) better by more than chance: "
+            f"-2 log likelihood falls by {found.total:.1f}, {found.needed:.1f} would be needed"
+        )
+    if found.worse:
+        reasons.append(_worse(found.worse))
+    return found, tuple(reasons)
+
+
+def _worse(channels: Sequence[str]) -> str:
+    more = f" and {len(channels) - 3} more" if len(channels) > 3 else ""
+    return f"with it these are predicted worse: {', '.join(channels[:3])}{more}"

@@ -1,0 +1,68 @@
+"""How right the amended model is: what it explains, what it leaves, and whether the readings still reject it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from diagnosis.judge.acceptance import Accepted
+from diagnosis.judge.agreement import Agreement
+from diagnosis.judge.diagnosis import Adequacy, Left, Moved
+from diagnosis.judge.unfitted import Predicted, Readings
+from diagnosis.search.problem import Parameter
+
+#: Prior deviations from which a number of the day is told.
+TOLD = 0.5
+
+
+def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> Adequacy:
+    """How right the accepted model is.
+
+    Args:
+        accepted: What was accepted, with its agreement with unfitted and with training readings.
+        readings: The unfitted ones.
+        day: Numbers of the day that were moved, see `moved_day`.
+    """
+    now, worst = accepted.agreement, accepted.agreement.worst
+    before, recalibrated = accepted.agreement_before, accepted.agreement_recalibrated
+    return Adequacy(
+        basis=accepted.basis,
+        is_rejected=now.is_rejected,
+        chi_square={
+            "before": before.chi_square,
+            "recalibrated": recalibrated.chi_square,
+            "after": now.chi_square,
+        },
+        limit=now.limit,
+        explained=_share(before, now),
+        by_recalibration=_share(before, recalibrated),
+        worst=None
+        if worst is None
+        else Left(worst.recording, worst.channel, worst.unit, worst.rmse, worst.noise, worst.chi_square, worst.limit),
+        rejected=(sum(c.is_rejected for c in now.channels), len(now.channels)),
+        day=day,
+        wild=now.wild,
+        is_noise_stated=all(c.is_deviation_given for c in readings.channels),
+        is_training_rejected=accepted.training.is_rejected,
+        is_recalibration_worse=accepted.recalibration.is_loss or bool(accepted.recalibration.worse),
+    )
+
+
+def moved_day(predicted: Predicted, parameters: Sequence[Parameter]) -> tuple[Moved, ...]:
+    """Numbers of the day that were moved by more than `TOLD` of what is usual: name to how far.
+
+    Args:
+        predicted: Of the accepted model.
+        parameters: Of the model that judges.
+    """
+    usual = {p.name: p for p in parameters}
+    return tuple(
+        Moved(name, usual[name].unit, moved, False, moved / usual[name].deviation)
+        for name, moved in predicted.day.items()
+        if abs(moved) > TOLD * usual[name].deviation
+    )
+
+
+def _share(before: Agreement, after: Agreement) -> float:
+    if before.excess <= 0.0:
+        return 0.0
+    return 1.0 - after.excess / before.excess

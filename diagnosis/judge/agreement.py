@@ -1,0 +1,124 @@
+"""Whether readings reject a model, by the noise of their sensors.
+
+Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtri
+
+from cosim.unit import Array
+from diagnosis.judge.unfitted import NOISE_ERROR, Readings
+from diagnosis.simulator.runs import ZERO, deviation
+
+#: Probability that noise alone is taken for a departure of the model.
+LEVEL = 0.001
+#: Standard normal quantile of that level, for the error of an estimated noise.
+QUANTILE = 3.09
+
+
+@dataclass(frozen=True)
+class ChannelAgreement:
+    """One channel of one recording.
+
+    Args:
+        channel: Name.
+        recording: Title.
+        unit: SI unit.
+        rmse: Root mean square of measured minus predicted, single wild readings left out [unit].
+        noise: Standard deviation of the noise, with rounding [unit].
+        chi_square: Per reading.
+        limit: Of that: noise alone exceeds it in one of a thousand diagnoses.
+        samples: Readings that count.
+    """
+
+    channel: str
+    recording: str
+    unit: str
+    rmse: float
+    noise: float
+    chi_square: float
+    limit: float
+    samples: int
+
+    @property
+    def is_rejected(self) -> bool:
+        """Whether noise does not explain what is left."""
+        return self.chi_square > self.limit
+
+    @property
+    def multiple(self) -> float:
+        """What is left in multiples of the noise."""
+        return self.rmse / self.noise if self.noise > 0.0 else float("inf")
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """All channels.
+
+    Args:
+        chi_square: Per reading, over all.
+        limit: Of that.
+        samples: Readings that count.
+        wild: Single wild readings that do not count.
+        channels: Each one.
+    """
+
+    chi_square: float
+    limit: float
+    samples: int
+    wild: int
+    channels: tuple[ChannelAgreement, ...]
+
+    @property
+    def is_rejected(self) -> bool:
+        """Whether the readings reject the model."""
+        return self.chi_square > self.limit or any(c.is_rejected for c in self.channels)
+
+    @property
+    def worst(self) -> ChannelAgreement | None:
+        """The channel that is met worst, by its noise."""
+        return max(self.channels, key=lambda c: c.chi_square / c.limit, default=None)
+
+    @property
+    def excess(self) -> float:
+        """Sum of squares beyond what noise gives, at least 0."""
+        return max(self.chi_square - 1.0, 0.0) * self.samples
+
+
+def agreement(residuals: Array, readings: Readings) -> Agreement:
+    """Compare residuals with the noise.
+
+    The zero of a channel is known to `ZERO` of its noise; a noise that was estimated has an error of its own.
+
+    Args:
+        residuals: In deviations of the noise, shape (readings,).
+        readings: What they belong to.
+    """
+    counted = ~readings.is_wild
+    numbers = [n for n in range(len(readings.channels)) if np.any(counted & (readings.channel == n))]
+    found, squares, error = [], 0.0, 0.0
+    for n in numbers:
+        channel, own = readings.channels[n], residuals[counted & (readings.channel == n)]
+        count = len(own)
+        unknown = ZERO**2 if channel.bias_bound == 0.0 else 0.0
+        total = float(own @ own - unknown / (1.0 + count * unknown) * own.sum() ** 2)
+        own_error = 0.0 if channel.is_deviation_given else NOISE_ERROR / np.sqrt(count)
+        limit = float(chdtri(count, LEVEL / len(numbers))) / count * (1.0 + 2.0 * QUANTILE * own_error)
+        noise = deviation(channel)
+        found.append(
+            ChannelAgreement(
+                channel.name, readings.titles[readings.of_channel[n]], channel.unit,
+                noise * float(np.sqrt(np.mean(own**2))), noise, total / count, limit, count,
+            )
+        )  # fmt: skip
+        squares += total
+        error += (count * own_error) ** 2
+    samples = sum(c.samples for c in found)
+    if not samples:
+        return Agreement(0.0, 1.0, 0, int(readings.is_wild.sum()), ())
+    limit = float(chdtri(samples, LEVEL)) / samples + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
+    return Agreement(squares / samples, limit, samples, int(readings.is_wild.sum()), tuple(found))

@@ -1,0 +1,123 @@
+"""What one model gains over another on readings that neither was fitted to, with the uncertainty of that gain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.judge.unfitted import Predicted, Readings
+from diagnosis.search.posterior import HUBER
+
+#: -2 log likelihood that must be gained: odds of 20 to 1.
+LEAST = 6.0
+#: Standard errors that a gain, or a loss, must exceed.
+ERRORS = 2.0
+#: Rise of a channel's root mean square from which it counts as worse: less is no matter for a user.
+WORSE = 1.05
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Fall of -2 log likelihood (Huber's) from one model to another.
+
+    Args:
+        total: Over all readings, with what the day's own numbers cost.
+        white: Its standard error if the errors of readings were independent.
+        error: Its standard error by blocks, at least `white`: errors of a model are alike for a while.
+        loss_error: The same if the first model is right.
+        shown: Root mean square by which the two predictions differ in the channel where they differ most, in deviations
+            of the noise.
+        worse: Channels (`channel of recording`) that are predicted significantly worse.
+    """
+
+    total: float
+    white: float
+    error: float
+    loss_error: float
+    shown: float
+    worse: tuple[str, ...]
+
+    @property
+    def doubt(self) -> float:
+        """How many times larger the standard error is than that of independent readings."""
+        return self.error / self.white if self.white > 0.0 else 1.0
+
+    @property
+    def needed(self) -> float:
+        """Gain from which it counts: odds of 20 to 1 by as many readings as are independent of each other."""
+        excess = float(np.sqrt(max(self.error**2 - self.white**2, 0.0)))
+        return max(LEAST * self.doubt**2, ERRORS * excess)
+
+    @property
+    def is_gain(self) -> bool:
+        """Whether the second model predicts better."""
+        return self.total > self.needed
+
+    @property
+    def is_loss(self) -> bool:
+        """Whether it predicts worse."""
+        return -self.total > max(LEAST, ERRORS * self.loss_error)
+
+
+def loss(residuals: Array) -> Array:
+    """Huber's function of residuals in deviations of the noise: squares, linear beyond `HUBER`."""
+    size = np.abs(residuals)
+    return np.asarray(np.where(size > HUBER, 2.0 * HUBER * size - HUBER**2, size**2))
+
+
+def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
+    """Gain of one model over another.
+
+    With residuals r0, r1 that differ by delta, the sum of loss(r0) - loss(r1) is about sum(delta^2) + 2 sum(delta r1).
+    If the second model is right, the last sum has expectation 0, and its variance is taken from sums over blocks.
+
+    Args:
+        without: What the first leaves.
+        with_it: What the second leaves.
+        readings: What the residuals belong to.
+    """
+    found = _summed(without.residuals, with_it.residuals, readings.block)
+    total = found[0] + without.prior - with_it.prior
+    delta = (without.residuals - with_it.residuals) ** 2
+    count = np.maximum(np.bincount(readings.channel, minlength=len(readings.channels)), 1)
+    shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
+    reverse = _summed(with_it.residuals, without.residuals, readings.block)
+    return Gain(
+        total, found[1], found[2], reverse[2], shown, worse_channels(without.residuals, with_it.residuals, readings)
+    )
+
+
+def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[str, ...]:
+    """Channels whose prediction gets worse by more than chance and by more than a twentieth.
+
+    Args:
+        before: Residuals of the first model, shape (readings,).
+        after: Of the second, shape (readings,).
+        readings: What they belong to.
+    """
+    count = len(readings.channels)
+    found = []
+    for number, channel in enumerate(readings.channels):
+        own = readings.channel == number
+        if not own.any():
+            continue
+        fell, white, error = _summed(after[own], before[own], readings.block[own])
+        is_sure = fell > max(LEAST + 2.0 * np.log(count), ERRORS * max(white, error))
+        if is_sure and _size(after[own]) > WORSE * _size(before[own]):
+            found.append(f"{channel.name} of {readings.titles[readings.of_channel[number]]}")
+    return tuple(found)
+
+
+def _size(residuals: Array) -> float:
+    return float(np.sqrt(np.mean(loss(residuals))))
+
+
+def _summed(first: Array, second: Array, block: Array) -> tuple[float, float, float]:
+    """Fall of the loss from the first to the second, and its standard error: white, and by blocks."""
+    delta = first - second
+    cross = 2.0 * delta * np.clip(second, -HUBER, HUBER)
+    white = 2.0 * float(np.sqrt(np.sum(np.clip(delta, -HUBER, HUBER) ** 2)))
+    error = float(np.sqrt(np.sum(np.bincount(block, cross) ** 2))) if len(block) else 0.0
+    return float(np.sum(loss(first) - loss(second))), white, max(white, error)

@@ -1,0 +1,97 @@
+"""The answer in a few sentences: what was found, and how right the model is now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
+from diagnosis.report.display import clean, difference, number, symbol
+
+#: Explained share from which a whole number of per cent would read as everything.
+ALL = 0.995
+
+
+def headline(
+    verdict: Verdict, found: Sequence[Finding], adequacy: Adequacy | None, reasons: Sequence[str] = (),
+    doubts: Sequence[Doubt] = (),
+) -> str:  # fmt: skip
+    """Both answers: what was found, and how right the model is now.
+
+    Args:
+        verdict: One word.
+        found: Findings, accepted and suggested.
+        adequacy: How right the accepted model is; None where nothing was simulated.
+        reasons: Why it cannot be told, where it cannot.
+        doubts: About the recordings.
+    """
+    if verdict is Verdict.RECORDING_FAULT:
+        serious = [d.statement.rstrip(".") for d in doubts if d.is_serious]
+        return f"The recording and the scenario are not of the same experiment: {'; '.join(serious[:2])}."
+    accepted = "; ".join(f.statement for f in found if f.is_accepted)
+    suggested = "; ".join(f.statement for f in found if not f.is_accepted)
+    assert adequacy is not None, "only a recording fault is told without a simulation"
+    first = {
+        Verdict.CONSISTENT: f"The model as it is agrees with the {adequacy.basis} within {_noise(adequacy)}.",
+        Verdict.RECALIBRATED: f"The model agrees with the {adequacy.basis} within {_noise(adequacy)} once its own "
+        "parameters are recalibrated.",
+        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {accepted}.",
+        Verdict.MISSING_PHYSICS: f"The model leaves out: {accepted}.",
+        Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {accepted}.",
+        Verdict.CANNOT_TELL: f"It cannot be told whether something is missing: {'; '.join(reasons)}.",
+    }[verdict]
+    parts = [first]
+    if suggested:
+        parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
+    if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
+        parts.append(how_right(adequacy, bool(accepted)))
+    elif adequacy.day:
+        parts.append(f"That takes for granted: {day_of(adequacy)}.")
+    return " ".join(parts)
+
+
+def _noise(adequacy: Adequacy) -> str:
+    return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+
+
+def how_right(adequacy: Adequacy, is_amended: bool) -> str:
+    """What the model explains of the mismatch, and what it leaves.
+
+    A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
+
+    Args:
+        adequacy: How right it is.
+        is_amended: Whether anything was added to it; else it was recalibrated alone.
+    """
+    name = "The amended model" if is_amended else "The recalibrated model"
+    before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
+    share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
+    if before <= 1.0 and not adequacy.is_rejected:
+        text = f"The {adequacy.basis} are met within {_noise(adequacy)}, before and after"
+    elif adequacy.explained < 0.0:
+        text = f"{name} predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> "
+        text += number(now)
+    else:
+        share = "more than 99 %" if ALL < adequacy.explained < 1.0 else share
+        text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
+    if adequacy.is_rejected and adequacy.worst is not None:
+        text += f"; {what_stays(adequacy)}: something else is missing or wrong"
+    elif before > 1.0:
+        text += f"; what is left is not more than {_noise(adequacy)}"
+    given = f" That takes for granted: {day_of(adequacy)}." if adequacy.day else ""
+    return f"{text}.{given}"
+
+
+def what_stays(adequacy: Adequacy) -> str:
+    """What is left where most is left, in its unit and in multiples of the noise."""
+    assert adequacy.worst is not None
+    worst = adequacy.worst
+    factor, unit = difference(worst.unit)
+    size = f"{number(factor * worst.rmse, 2)} {unit}".strip()
+    times = worst.rmse / worst.noise if worst.noise > 0.0 else float("inf")
+    return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise"
+
+
+def day_of(adequacy: Adequacy) -> str:
+    """What was taken for granted of the day: how far its own numbers were moved."""
+    told = [f"{clean(m.name).replace('_', ' ')} {m.amount:+.2g} {symbol(m.unit)}" for m in adequacy.day]
+    return "; ".join(text.strip() for text in told)

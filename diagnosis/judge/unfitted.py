@@ -1,0 +1,284 @@
+"""Readings that a model was not fitted to, and what a fitted model predicts of them.
+
+Held-out recordings where there are any; else stretches of the training recordings, each predicted by a fit to the
+others. Noise is that of the sensors, as stated or as neighbouring readings scatter, never that of residuals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.judge.beginning import begun
+from diagnosis.judge.held_out import carried_over
+from diagnosis.judge.own_numbers import own_numbers
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.fit import fit
+from diagnosis.search.posterior import huber_weights
+from diagnosis.search.problem import Point
+from diagnosis.search.validation import blocks
+from diagnosis.simulator.masked import MaskedModel
+from diagnosis.simulator.models import DiagnosisModel, RecordedRun
+from diagnosis.simulator.runs import deviation
+from diagnosis.simulator.tempered import BELIEVED, inflation, untempered
+
+#: Stretches of time in which the errors of a model are taken to be alike, per recording and quantity.
+STRETCHES = 10
+#: Numbers of a day (its room, its start) are estimated within this many prior deviations: 99.7 % of all days.
+DAY = 3.0
+#: Steps of that estimate: it is nearly linear.
+STEPS = 3
+#: Deviations of the noise by which one reading must stand out from both neighbours to be a single wild reading. Noise
+#: alone reaches it in one of 2e9 readings (the deviation from a neighbour is sqrt(2) times the noise).
+WILD = 8.5
+#: Relative error of a deviation that was estimated from n readings, times sqrt(n): quantiles of differences have about
+#: a third of the efficiency of the root mean square, whose figure is sqrt(1/2) (Gasser et al. 1986).
+NOISE_ERROR = 1.2
+
+
+@dataclass(frozen=True)
+class Readings:
+    """Readings that judge; every array has the shape (readings,).
+
+    Args:
+        channel: Number of its channel.
+        recording: Number of its recording.
+        block: Number of its block: a stretch of time of one quantity of one recording.
+        is_wild: Whether it is a single wild reading, by its neighbours alone.
+        chosen: Numbers of these readings among all of the model's, run by run, channel by channel.
+        channels: Channels, in order.
+        of_channel: Number of the recording of each channel.
+        titles: Of the recordings.
+    """
+
+    channel: AnyArray
+    recording: AnyArray
+    block: AnyArray
+    is_wild: AnyArray
+    chosen: AnyArray
+    channels: tuple[Channel, ...]
+    of_channel: tuple[int, ...]
+    titles: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.channel)
+
+
+def readings_of(runs: Sequence[RecordedRun], titles: Sequence[str]) -> Readings:
+    """Readings of a model's runs that count.
+
+    Args:
+        runs: One for each recording.
+        titles: Of the recordings.
+    """
+    channel, recording, block, wild, chosen = [], [], [], [], []
+    channels: list[Channel] = []
+    owners: list[int] = []
+    numbers: dict[tuple[int, str, int], int] = {}
+    begin = 0
+    for n, run in enumerate(runs):
+        times = [s.channel.times[-len(s.samples) :] for s in run.series]
+        first, last = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
+        for s, own in zip(run.series, times):
+            used = np.flatnonzero(s.used)
+            stretch = np.minimum((STRETCHES * (own - first) / max(last - first, 1e-300)).astype(int), STRETCHES - 1)
+            keys = [(n, s.channel.target.quantity, int(k)) for k in stretch[used]]
+            block.append(np.array([numbers.setdefault(k, len(numbers)) for k in keys], dtype=int))
+            channel.append(np.full(len(used), len(channels)))
+            recording.append(np.full(len(used), n))
+            wild.append(wild_readings(s.channel.values[-len(own) :], deviation(s.channel))[used])
+            chosen.append(begin + used)
+            channels.append(s.channel)
+            owners.append(n)
+            begin += len(own)
+    return Readings(
+        np.concatenate(channel), np.concatenate(recording), np.concatenate(block), np.concatenate(wild),
+        np.concatenate(chosen), tuple(channels), tuple(owners), tuple(titles),
+    )  # fmt: skip
+
+
+def wild_readings(values: Array, noise: float) -> AnyArray:
+    """Which readings stand out from both neighbours, to the same side, while these agree with each other.
+
+    Args:
+        values: Of one channel, shape (readings,).
+        noise: Standard deviation.
+    """
+    found = np.zeros(len(values), dtype=bool)
+    if len(values) < 3:
+        return found
+    before, after = values[1:-1] - values[:-2], values[1:-1] - values[2:]
+    is_out = (np.minimum(np.abs(before), np.abs(after)) > WILD * noise) & (before * after > 0.0)
+    found[1:-1] = is_out & (np.abs(values[2:] - values[:-2]) < 0.5 * np.minimum(np.abs(before), np.abs(after)))
+    return found
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """What a model leaves of readings that it was not fitted to.
+
+    Args:
+        residuals: With what belongs to the day alone (room, start) estimated within its prior, in deviations of the
+            noise, shape (readings,).
+        plain: The same with the room and the start as they are written down.
+        prior: Squares of the day's numbers in prior deviations, summed: the price of that estimate.
+        day: Name of each number of the day to how far it was moved, in its own unit.
+    """
+
+    residuals: Array
+    plain: Array
+    prior: float = 0.0
+    day: Mapping[str, float] = field(default_factory=dict)
+
+
+class Unfitted(Protocol):
+    """Predicts readings that a point was not fitted to."""
+
+    readings: Readings
+    basis: str
+
+    def predict(self, point: Point, is_fitted: bool = True) -> Predicted:
+        """What a model leaves of the readings.
+
+        Args:
+            point: Of the training model.
+            is_fitted: Whether it comes from a fit to the training recordings.
+        """
+        ...
+
+
+def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
+    """(measured - simulated) / noise of every reading, run by run, channel by channel; clipped where not finite."""
+    rows = []
+    for n, run in enumerate(model.runs):
+        for series, values in zip(run.series, model.predict(point, n)):
+            measured = series.channel.values[-len(series.samples) :]
+            rows.append((measured - values) / deviation(series.channel))
+    found = np.concatenate(rows)
+    return np.clip(np.where(np.isfinite(found), found, 1e6), -1e6, 1e6)
+
+
+class HeldOutReadings:
+    """See `Unfitted`: recordings that were held out.
+
+    Args:
+        judge: Model of the held-out recordings.
+        trained: Model that was fitted.
+        recordings: Held-out recordings, in order.
+    """
+
+    basis = "held-out recordings"
+
+    def __init__(self, judge: DiagnosisModel, trained: DiagnosisModel, recordings: Sequence[Recording]) -> None:
+        self._judge, self._trained, self._recordings = judge, trained, recordings
+        self._has_beginning = any(r.beginning > 0 for r in recordings)
+        nominal = {"nominal": Point(np.zeros(len(judge.parameters)))}
+        shown = begun(judge, trained, nominal, recordings)[0] if self._has_beginning else judge
+        self.readings = readings_of(shown.runs, [r.title for r in recordings])
+        self._own = own_numbers(judge, trained) if getattr(judge, "can_be_fitted", True) else []
+        self._columns: Array | None = None
+
+    def predict(self, point: Point, is_fitted: bool = True) -> Predicted:
+        """See `Unfitted`."""
+        carried = carried_over(point, self._trained, self._judge)
+        if self._has_beginning:
+            carried = begun(self._judge, self._trained, {"": carried}, self._recordings)[1][""]
+            residuals = raw_residuals(self._judge, carried)[self.readings.chosen]
+            return Predicted(residuals, residuals)
+        plain = raw_residuals(self._judge, carried)[self.readings.chosen]
+        if not self._own:
+            return Predicted(plain, plain)
+        found = self._with_day(carried)
+        z = found.base[self._own]
+        moved = {self._judge.parameters[i].name: self._judge.parameters[i].deviation * float(v)
+                 for i, v in zip(self._own, z)}  # fmt: skip
+        residuals = raw_residuals(self._judge, found)[self.readings.chosen]
+        return Predicted(residuals, plain, float(z @ z), moved)
+
+    def _with_day(self, point: Point) -> Point:
+        """The point with the day's own numbers estimated: Gauss-Newton with their priors and Huber weights.
+
+        Where even then more than noise is left, errors of the model count as those of the sensors do, so that no room
+        is moved far to make up for them.
+        """
+        model = self._judge
+        if self._columns is None:
+            self._columns = np.asarray(model.base_jacobian(point)[:, self._own], dtype=np.float64)
+        columns, base = self._columns, point.base.copy()
+        scale = np.ones(len(columns))
+        for _ in range(STEPS):
+            for _ in range(STEPS):
+                here = model.residuals([Point(base, point.terms)])[0]
+                here = np.clip(np.where(np.isfinite(here), here, 1e6), -1e6, 1e6)
+                weight = huber_weights(here * scale) ** 2 * scale**2
+                normal = columns.T @ (weight[:, None] * columns) + np.eye(len(self._own))
+                slope = columns.T @ (weight * here) + base[self._own]
+                moved = np.clip(base[self._own] - np.linalg.solve(normal, slope), -DAY, DAY)
+                is_settled = bool(np.max(np.abs(moved - base[self._own])) < 1e-3)
+                base[self._own] = moved
+                if is_settled:
+                    break
+            here = model.residuals([Point(base, point.terms)])[0]
+            factor = inflation(np.clip(np.where(np.isfinite(here), here, 1e6), -1e6, 1e6), model.layout)
+            wanted = (
+                1.0 / np.sqrt(np.where(factor > BELIEVED, factor, 1.0))[np.asarray(model.layout.channel, dtype=int)]
+            )
+            if np.allclose(wanted, scale, rtol=0.05):
+                break
+            scale = wanted
+        return Point(base, point.terms)
+
+
+class LeftOutReadings:
+    """See `Unfitted`: parts of the training, each predicted by a fit to the rest.
+
+    Args:
+        model: Model of the training recordings.
+        titles: Of the recordings.
+        parts: Which residuals of the model belong to each part, shape (residuals,) each.
+        basis: In plain words.
+        on_progress: Told what is being done.
+    """
+
+    def __init__(
+        self, model: DiagnosisModel, titles: Sequence[str], parts: Sequence[AnyArray], basis: str,
+        on_progress: Callable[[str], None] = lambda text: None,
+    ) -> None:  # fmt: skip
+        self._model, self._parts, self.basis = model, parts, basis
+        self._inner = untempered(model)
+        self._on_progress = on_progress
+        self.readings = readings_of(model.runs, titles)
+
+    def predict(self, point: Point, is_fitted: bool = True) -> Predicted:
+        """See `Unfitted`."""
+        if not is_fitted:
+            residuals = raw_residuals(self._inner, point)[self.readings.chosen]
+            return Predicted(residuals, residuals)
+        found = np.zeros(len(self._model.layout.time))
+        for number, part in enumerate(self._parts):
+            self._on_progress(f"predicting part {number + 1} of {len(self._parts)} from the others")
+            other = fit(MaskedModel(self._model, ~part), point, iterations=20).point
+            found[part] = raw_residuals(self._inner, other)[part]
+        residuals = found[self.readings.chosen]
+        return Predicted(residuals, residuals)
+
+
+def left_out_stretches(
+    model: DiagnosisModel, titles: Sequence[str], on_progress: Callable[[str], None] = lambda text: None
+) -> LeftOutReadings:
+    """Stretches of time, one fifth of each recording after the other (blocked cross-validation)."""
+    return LeftOutReadings(
+        model, titles, blocks(model.layout), "stretches of the training recordings, each left out of a fit", on_progress
+    )
+
+
+def left_out_readings(model: DiagnosisModel, titles: Sequence[str]) -> LeftOutReadings:
+    """Every other reading of each channel: for what belongs to one stretch of one day, which no other stretch shows."""
+    alternate = np.zeros(len(model.layout.time), dtype=bool)
+    for number in range(len(model.layout.names)):
+        alternate[np.flatnonzero(model.layout.channel == number)[::2]] = True
+    return LeftOutReadings(model, titles, [alternate, ~alternate], "every other reading, left out of a fit")

@@ -1,0 +1,135 @@
+"""Gains on unfitted readings and agreement with the noise, against closed forms and drawn noise."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import chdtr
+
+from cosim.unit import Array
+from diagnosis.judge.agreement import LEVEL, agreement
+from diagnosis.judge.gain import ERRORS, LEAST, gain
+from diagnosis.judge.unfitted import Predicted, Readings, readings_of, wild_readings
+from diagnosis.recording.quantity import Target
+from diagnosis.recording.recording import Channel
+from tests.verdict.lines import Lines, Run, Series
+
+COUNT = 400
+
+
+def channel(number: int, times: Array, is_given: bool) -> Channel:
+    target = Target("coil", (number + 1,), "temperature", "K")
+    return Channel(f"coil[{number + 1}].temperature", target, times, np.zeros(len(times)), 1.0, is_given)
+
+
+def readings(channels: int = 1, is_given: bool = True, count: int = COUNT) -> Readings:
+    times = np.linspace(0.0, 100.0, count)
+    used = np.ones(count, dtype=bool)
+    made = [
+        Series(
+            Channel(
+                f"coil[{n + 1}].temperature",
+                Target("coil", (n + 1,), "temperature", "K"),
+                times,
+                np.zeros(count),
+                1.0,
+                is_given,
+            ),
+            np.arange(count),
+            used,
+        )
+        for n in range(channels)
+    ]
+    return readings_of([Run(tuple(made))], ["steps"])
+
+
+def test_the_gain_of_the_right_model_is_the_square_of_what_it_adds():
+    """sum(r0^2) - sum(r1^2) with r0 = delta + noise: expectation sum(delta^2), standard error 2 sqrt(sum(delta^2))."""
+    delta = 0.2 * np.sin(np.linspace(0.0, 20.0, COUNT))
+    found = []
+    for seed in range(200):
+        noise = np.random.default_rng(seed).standard_normal(COUNT)
+        found.append(gain(Predicted(noise + delta, noise + delta), Predicted(noise, noise), readings()))
+    square = float(delta @ delta)
+    assert np.mean([g.total for g in found]) == pytest.approx(square, abs=4.0 * 2.0 * np.sqrt(square / 200))
+    assert np.std([g.total for g in found]) == pytest.approx(2.0 * np.sqrt(square), rel=0.2)
+    assert found[0].white == pytest.approx(2.0 * np.sqrt(square), rel=1e-12)
+
+
+def test_a_spurious_law_hardly_ever_gains():
+    """What is not there is a loss of delta^2 on average: 20 to 1 is passed in less than one of twenty draws."""
+    delta = 0.3 * np.sin(np.linspace(0.0, 20.0, COUNT))
+    passed = 0
+    for seed in range(300):
+        noise = np.random.default_rng(seed).standard_normal(COUNT)
+        passed += gain(Predicted(noise, noise), Predicted(noise + delta, noise + delta), readings()).is_gain
+    assert passed <= 3  # expectation -delta^2 = -18, standard error 8.5: 6 lies 2.8 errors above
+
+
+def test_errors_that_are_alike_for_a_while_ask_for_more():
+    """The same fall of the sum of squares counts where residuals are noise, and not where a slow error remains."""
+    delta = 0.2 * np.ones(COUNT)
+    noise = np.random.default_rng(3).standard_normal(COUNT)
+    clean = gain(Predicted(noise + delta, noise), Predicted(noise, noise), readings())
+    slow = noise + 3.0 * np.sin(np.linspace(0.0, 12.0, COUNT))
+    rough = gain(Predicted(slow + delta, slow), Predicted(slow, slow), readings())
+    assert LEAST <= clean.needed < 2.0 * LEAST
+    assert rough.doubt > 3.0
+    assert rough.needed > 5.0 * clean.needed
+    assert rough.needed >= ERRORS * np.sqrt(rough.error**2 - rough.white**2)
+
+
+def test_a_channel_that_another_one_pays_for_is_told():
+    """2.1 instead of 1.3 deviations in one channel, while the sum over both falls."""
+    noise = np.random.default_rng(0).standard_normal((2, COUNT))
+    wave = np.sin(np.linspace(0.0, 30.0, COUNT))
+    before = np.concatenate([noise[0] + 4.0 * wave, noise[1] + 1.2 * wave])
+    after = np.concatenate([noise[0], noise[1] + 2.6 * wave])
+    found = gain(Predicted(before, before), Predicted(after, after), readings(2))
+    assert found.total > found.needed
+    assert found.worse == ("coil[2].temperature of steps",)
+
+
+def test_noise_is_rejected_in_one_of_a_thousand_and_the_limit_is_that_of_chi_square():
+    limit = agreement(np.zeros(COUNT), readings()).limit
+    assert 1.0 - chdtr(COUNT, COUNT * limit) == pytest.approx(LEVEL, rel=1e-6)
+    rejected = sum(
+        agreement(np.random.default_rng(seed).standard_normal(3 * COUNT), readings(3)).is_rejected
+        for seed in range(400)
+    )
+    assert rejected <= 3  # two tests at 0.001 each: 0.8 expected
+
+
+def test_a_model_that_is_wrong_by_half_the_noise_is_rejected():
+    noise = np.random.default_rng(1).standard_normal(COUNT)
+    told = agreement(noise + np.sin(np.linspace(0.0, 9.0, COUNT)), readings())
+    assert told.is_rejected
+    assert told.worst is not None
+    assert told.worst.multiple == pytest.approx(np.sqrt(1.5), rel=0.1)
+
+
+def test_a_noise_that_was_estimated_has_an_error_of_its_own():
+    given, estimated = (agreement(np.zeros(COUNT), readings(1, g)).limit for g in (True, False))
+    assert estimated > given + 0.3  # 2 * 3.09 * 1.2 / sqrt(400)
+
+
+def test_single_wild_readings_are_known_by_their_neighbours_and_do_not_count():
+    values = np.random.default_rng(2).standard_normal(COUNT)
+    values[[50, 200]] += (30.0, -25.0)
+    values[300:] += 40.0  # a step is none
+    assert np.flatnonzero(wild_readings(values, 1.0)).tolist() == [50, 200]
+    run = readings()
+    residuals = np.random.default_rng(4).standard_normal(COUNT)
+    residuals[[50, 200]] = 30.0
+    with_wild = replace(run, is_wild=np.isin(np.arange(COUNT), [50, 200]))
+    assert agreement(residuals, run).is_rejected
+    assert not agreement(residuals, with_wild).is_rejected
+    assert agreement(residuals, with_wild).wild == 2
+
+
+def test_readings_are_those_that_a_model_uses():
+    made = readings_of(Lines(np.zeros(400)).runs, ["line"])
+    assert len(made) == 400
+    assert len(set(made.block.tolist())) == 10
