@@ -15,6 +15,7 @@ from cosim.quantity import PhysicalValue
 from cosim.unit import AnyArray, Array
 from diagnosis.recording.noise import estimate_noise
 from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
+from diagnosis.recording.series import MOST
 from diagnosis.recording.sidecar import ChannelEntry, Clock, InputEntry, Sidecar, load_sidecar
 from diagnosis.recording.table import Table
 from diagnosis.recording.units import WrongUnit, conversion_of_difference, conversion_of_reading
@@ -237,14 +238,15 @@ class _Reader:
     def _known(self, times: Array, column: Array, key: str) -> AnyArray:
         """Rows that hold a value, shape (rows,); each of them must have a time, and both must be finite."""
         known = ~np.isnan(column)
+        empty = "leave the place empty where nothing was measured, or list the number under `invalid`"
         for wrong, what, remedy in (
-            (np.isinf(column), "is infinite", "leave the place empty where nothing was measured, or list `.inf` "
-             "under `invalid`"),
-            (known & ~np.isfinite(times), "has no time, or an infinite one", "give its time, or leave its place empty"),
-        ):  # fmt: skip
+            (known & ~(np.abs(column) <= MOST), "no sensor reads", empty),
+            (known & ~(np.abs(times) <= MOST), "has no time, or an infinite one", "give its time, or leave it empty"),
+        ):
             if wrong.any():
                 row = int(np.flatnonzero(wrong)[0])
-                raise InputError(self.file, key, f"the value in row {row + 1} of its column {what}", remedy)
+                value = f"the value in row {row + 1} of its column, {column[row]:g},"
+                raise InputError(self.file, key, f"{value} {what}", remedy)
         return np.asarray(known)
 
     def _check_times(self, times: Array, key: str) -> None:

@@ -33,6 +33,8 @@ _RESULTS = {
 }
 #: Quantities that follow from several variables of a circuit.
 _DERIVED = frozenset({("supply", "power"), ("string", "voltage")})
+#: Largest size of a value [SI] that is compared; its square, summed over any recording, is still a number.
+MOST = 1e100
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -72,6 +74,7 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
         factor, offset = conversion(own, unit)
     except ValueError as error:
         raise InputError(source, f"channels.{target}", str(error), f"{found.name} is in {own}") from error
+    values = np.where(np.abs(values) <= MOST, values, np.inf)
     return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
 
 
@@ -169,11 +172,14 @@ def sample(series: Series, times: Array) -> Array:
     """Values at given times, shape (times,); beyond the run its end values hold.
 
     A flow is drawn with straight lines between outputs, a state with parabolas and cubics through four outputs, whose
-    error falls with the fourth power of the output step.
+    error falls with the fourth power of the output step. A value beyond `MOST`, or none, makes those drawn with it
+    infinite: the run has lost its way, and its squares would be no numbers.
     """
-    own, values = series.times, series.values
+    own, is_lost = series.times, ~(np.abs(series.values) <= MOST)
+    values = np.where(is_lost, 0.0, series.values)
     if series.is_flow or len(own) < 4:
-        return np.asarray(np.interp(times, own, values))
+        found = np.asarray(np.interp(times, own, values))
+        return np.where(np.interp(times, own, is_lost.astype(np.float64)) > 0.0, np.inf, found)
     clipped = np.clip(times, own[0], own[-1])
     first = np.clip(np.searchsorted(own, clipped, side="right") - 2, 0, len(own) - 4)
     nodes = own[first[:, None] + np.arange(4)]
@@ -182,4 +188,6 @@ def sample(series: Series, times: Array) -> Array:
         for j in range(4):
             if i != j:
                 weights[:, i] *= (clipped - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
-    return np.asarray(np.einsum("ij,ij->i", weights, values[first[:, None] + np.arange(4)]))
+    used = first[:, None] + np.arange(4)
+    found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
+    return np.where(np.any(is_lost[used], axis=1), np.inf, found)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 from typer.testing import CliRunner
 
@@ -17,7 +18,7 @@ from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
 from diagnosis.recording.channels import chosen, offered
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.quantity import parse_quantity
+from diagnosis.recording.quantity import Target, parse_quantity
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import Sensor, SensorFile, lag, load_sensors, read_with
@@ -212,6 +213,20 @@ def test_samples_between_outputs_are_right_to_fourth_order():
         at = np.linspace(0.0, 2.0, 997)
         errors.append(np.max(np.abs(sample(series, at) - np.sin(3.0 * at))))
     assert 3.5 < math.log2(errors[0] / errors[1]) < 4.3
+
+
+@pytest.mark.parametrize("is_flow", [False, True])
+def test_a_run_that_loses_its_way_is_infinitely_wrong_without_a_warning(is_flow):
+    """Warnings are errors here: neither overflow nor `invalid value` may come up."""
+    times = np.arange(0.0, 10.0)
+    values = np.array([1.0, 2.0, 3.0, 4.0, 1e308, -1e308, math.inf, math.nan, 5.0, 6.0])
+    dataset = xr.Dataset({"a.b": ("time", values, {"units": "km"})}, {"time": times})
+    series = series_of(dataset, Target("a", (), "b", "mm"), Path("r"))
+    found = sample(Series(series.times, series.values, is_flow, "mm"), np.array([0.0, 0.5, 2.5, 4.0, 5.5, 7.0, 9.0]))
+    np.testing.assert_allclose(found[:2], [1e6, 1.5e6])
+    assert np.isposinf(found[3:6]).all()
+    assert not np.isnan(found).any()
+    assert found[6] == (6e6 if is_flow else math.inf)  # the cubic of the last samples is drawn with a lost one
 
 
 def test_most_exact_sensor_entry_holds():

@@ -31,9 +31,10 @@ def changed(values: np.ndarray, row: int, value: float) -> np.ndarray:
 @pytest.mark.parametrize(
     ("table", "text"),
     [
-        ({"time": TIMES, "T": changed(WARM, 3, math.inf)}, "the value in row 4 of its column is infinite"),
-        ({"time": changed(TIMES, 5, math.nan), "T": WARM}, "the value in row 6 of its column has no time"),
-        ({"time": changed(TIMES, -1, math.inf), "T": WARM}, "the value in row 40 of its column has no time"),
+        ({"time": TIMES, "T": changed(WARM, 3, math.inf)}, "the value in row 4 of its column, inf, no sensor reads"),
+        ({"time": TIMES, "T": changed(WARM, 3, -1e300)}, "the value in row 4 of its column, -1e+300, no sensor reads"),
+        ({"time": changed(TIMES, 5, math.nan), "T": WARM}, "the value in row 6 of its column, 22.5, has no time"),
+        ({"time": changed(TIMES, -1, math.inf), "T": WARM}, "the value in row 40 of its column, 39.5, has no time"),
     ],
 )
 def test_values_that_are_not_finite_are_one_error_each(tmp_path, table, text):
