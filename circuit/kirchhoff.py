@@ -75,6 +75,10 @@ class Laws:
         """Current of every coil [A]: that of its string."""
         return string_current[self._string]
 
+    def supply_drop(self, solution: Solution) -> Array:
+        """Voltage over the series resistance of every source [V], shape (sources,)."""
+        return self._supply_resistance * solution.source_current
+
     def violation(self, solution: Solution) -> str:
         """The law that a solution breaks, in a sentence with place and amount; empty if it keeps them all."""
         resistance = solution.resistance.copy()
@@ -105,7 +109,7 @@ class Laws:
     def _drops(self, solution: Solution) -> tuple[Array, Array]:
         """Voltage over the series resistance of every source and of every string [V]."""
         string_resistance = self._network.string_resistance + solution.contacts
-        return self._supply_resistance * solution.source_current, string_resistance * solution.string_current
+        return self.supply_drop(solution), string_resistance * solution.string_current
 
     def _loops(self, solution: Solution, volts: float, amperes: Array) -> str:
         supply_drop, string_drop = self._drops(solution)

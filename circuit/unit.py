@@ -263,6 +263,8 @@ class CircuitUnit(Unit):
         arrays["voltage"][...] = self._laws.coil_voltage(solution.node_voltage)
         np.multiply(arrays["voltage"], arrays["current"], out=arrays["power"])
         arrays["supply_current"][...] = solution.source_current.sum()
+        terminal = solution.source_voltage - self._laws.supply_drop(solution)
+        arrays["terminal_voltage"][...] = terminal.reshape(arrays["terminal_voltage"].shape)
         arrays["supply_power"][...] = solution.source_current @ solution.source_voltage
 
 
@@ -278,6 +280,8 @@ def _variables(network: Network) -> list[Variable]:
         Variable("voltage", out, coil, "V", ("coil",), "Voltage across a coil"),
         Variable("power", out, coil, "W", ("coil",), "Heat in a coil"),
         Variable("string_current", out, string, "A", ("string",), "Current through a string"),
+        Variable("terminal_voltage", out, () if is_common else string, "V", () if is_common else ("string",),
+                 "Voltage at the terminals of a source, behind its series resistance"),
         Variable("supply_current", out, (), "A", (), "Current out of all sources together"),
         Variable("supply_power", out, (), "W", (), "Power out of all sources together"),
     ]  # fmt: skip

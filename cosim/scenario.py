@@ -190,7 +190,11 @@ def parse_scenario(text: str, source: Path) -> Scenario:
     Raises:
         InputError: It is no YAML, or a key or value is wrong; all faults are listed, each with its key.
     """
-    data = parse_yaml(text, source)
+    return scenario_of_data(parse_yaml(text, source), source)
+
+
+def scenario_of_data(data: object, source: Path) -> Scenario:
+    """Scenario from the content of YAML, however it was put together; arguments and errors as of `parse_scenario`."""
     if not isinstance(data, dict):
         raise InputError(source, "", "a scenario is a mapping with the keys title, time, components, connections",
                          "copy one from `cosim list`")  # fmt: skip

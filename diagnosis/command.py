@@ -59,6 +59,7 @@ def diagnose(
     from diagnosis.experiment.limits import parse_limits
     from diagnosis.hand_over import hand_over
     from diagnosis.recording.recording import load_recording
+    from diagnosis.recording.together import prepared
     from diagnosis.report.json_file import write_json
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
@@ -74,7 +75,9 @@ def diagnose(
         with display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
             base = load_scenario(scenario)
             means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief)
-            training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
+            training, judges = prepared(
+                base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
+            )
             found = find(base, training, judges, Settings(level=level, seed=seed), display.stage, means)
             display.stage("writing")
             if brief:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,9 @@ from diagnosis.bank.plan import Plan
 from diagnosis.bank.source import reads_current
 from diagnosis.candidates.registry import catalogue
 from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Recording
+from diagnosis.recording.series import series_of
 from diagnosis.simulator.translate import Translation, translate
 
 
@@ -89,8 +92,11 @@ def _trace(results: xr.Dataset, translation: Translation, quantity: str, inputs:
     owner = {
         "temperature": translation.actuator, "stiffness": translation.actuator, "resistance": translation.actuator,
         "current": translation.circuit, "supply_current": translation.circuit, "power": translation.circuit,
-        "extension": translation.load, "length": translation.load,
-    }[quantity]  # fmt: skip
+        "extension": translation.load, "length": translation.load, "tension": translation.load,
+        "voltage": translation.circuit,
+    }.get(quantity)  # fmt: skip
+    if quantity in _MADE:
+        return _made(results, translation, quantity)
     if owner is None and quantity == "power":
         assert inputs.power is not None
         return np.ascontiguousarray(np.vstack([inputs.power[:1], inputs.power]))
@@ -99,6 +105,23 @@ def _trace(results: xr.Dataset, translation: Translation, quantity: str, inputs:
     values = values.copy()
     if QUANTITIES[quantity].is_flow:
         values[0] = values[1]  # before the first step nothing flows
+    return np.ascontiguousarray(values)
+
+
+#: Quantities that no variable of the results is, to the channel that measures them in string {}.
+_MADE = {"string_voltage": "string[{}].voltage", "supply_power": "supply.power", "terminal_voltage": "supply.voltage"}
+
+
+def _made(results: xr.Dataset, translation: Translation, quantity: str) -> Array:
+    """The same of a quantity that follows from several variables of the circuit."""
+    layout, source = translation.layout, Path("results")
+    if quantity == "terminal_voltage" and layout.sources > 1:
+        values = np.asarray(results[f"{translation.circuit}.terminal_voltage"].values, dtype=np.float64)
+    else:
+        targets = [parse_quantity(_MADE[quantity].format(n + 1)) for n in range(layout.elements(quantity))]
+        values = np.stack([series_of(results, t, source).values for t in targets], axis=1)
+    values = values.copy()
+    values[0] = values[1]  # before the first step nothing flows
     return np.ascontiguousarray(values)
 
 

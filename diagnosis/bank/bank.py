@@ -66,12 +66,12 @@ class Bank:
         self._library.bank_simulate.restype = ctypes.c_int
 
     def wanted(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> dict[str, Array]:
-        """Sample times by quantity; one array stands for all quantities that this bank has under these inputs."""
+        """Sample times by quantity; one array: all that this bank has under these inputs, without derived ones."""
         if isinstance(times, Mapping):
             return dict(times)
         has_circuit = inputs.power is None
-        names = [q for q in QUANTITIES if self.layout.elements(q) and q != "string_share"]
-        return {q: times for q in names if has_circuit or QUANTITIES[q].axis == "coil"}
+        own = {n: q for n, q in QUANTITIES.items() if self.layout.elements(n) and n != "string_share"}
+        return {n: times for n, q in own.items() if not q.is_derived and (has_circuit or not q.needs_circuit)}
 
     def simulate(
         self, parameters: BankParameters, inputs: BankInputs, times: Array | Mapping[str, Array]
@@ -81,13 +81,15 @@ class Bank:
         Args:
             parameters: Values, SI.
             inputs: Grid of steps and what drives them.
-            times: Sample times [s] of each quantity wanted, or one array for all quantities that this bank has.
+            times: Sample times [s] of each quantity wanted, or one array for all quantities that this bank has but
+                derived ones.
                 Values between the ends of steps are interpolated linearly. Electrical flows never across a switch.
 
         Returns:
             `temperature` [K], `extension` [m], `length` [m], `stiffness` [N/m], `resistance` [ohm], `power` [W] with
             shape (samples, coils); `current` [A], (samples, strings); `supply_current` [A], (samples, 1): of all
-            sources.
+            sources. Derived: `voltage` [V] and `tension` [N] of the coils; `string_voltage` [V] across the coils of a
+            string and `terminal_voltage` [V] of its source, (samples, strings); `supply_power` [W], (samples, 1).
 
         Raises:
             BankError: A value stopped being finite.

@@ -63,25 +63,36 @@ class Quantity:
         axis: Elements: coils, strings, or the supply as a whole (one element).
         is_flow: Belongs to a whole step (an electrical quantity jumps with the supply), not to its end.
         array: Field of `Step` in C.
+        needs_circuit: There is none of it where power is given.
+        is_derived: It follows from others at once; recorded where it is asked for by its name alone.
     """
 
     unit: str
     axis: Literal["coil", "string", "supply"]
     is_flow: bool
     array: str
+    needs_circuit: bool = False
+    is_derived: bool = False
 
 
 QUANTITIES: Mapping[str, Quantity] = {
     "temperature": Quantity("K", "coil", False, "temperature"),
-    "current": Quantity("A", "string", True, "string_current"),
-    "supply_current": Quantity("A", "supply", True, "supply_current"),
+    "current": Quantity("A", "string", True, "string_current", needs_circuit=True),
+    "supply_current": Quantity("A", "supply", True, "supply_current", needs_circuit=True),
     "extension": Quantity("m", "coil", False, "extension"),
     "stiffness": Quantity("N/m", "coil", False, "stiffness"),
     "resistance": Quantity("ohm", "coil", False, "resistance"),
     "power": Quantity("W", "coil", True, "power"),
     "length": Quantity("m", "coil", False, "length"),
+    "tension": Quantity("N", "coil", False, "tension", is_derived=True),
+    "voltage": Quantity("V", "coil", True, "voltage", needs_circuit=True, is_derived=True),
+    # Across the coils of a string, without its wires; at the terminals of its source, behind the inner resistance.
+    "string_voltage": Quantity("V", "string", True, "string_voltage", needs_circuit=True, is_derived=True),
+    "terminal_voltage": Quantity("V", "string", True, "terminal_voltage", needs_circuit=True, is_derived=True),
+    # Out of the terminals of all sources.
+    "supply_power": Quantity("W", "supply", True, "supply_power", needs_circuit=True, is_derived=True),
     # The current of every string at the sample times of the supply's current, for its derivatives.
-    "string_share": Quantity("A", "string", True, "string_current"),
+    "string_share": Quantity("A", "string", True, "string_current", needs_circuit=True),
 }
 
 VECTOR = 8  # doubles in the widest vector register (AVX-512)
@@ -157,7 +168,10 @@ class BankLayout:
     @cached_property
     def _elements(self) -> dict[str, int]:
         sizes = {"coil": self.coils, "string": len(self.strings), "supply": 1 if self.strings else 0}
-        return {name: sizes[quantity.axis] for name, quantity in QUANTITIES.items()}
+        return {
+            name: 0 if quantity.needs_circuit and not self.strings else sizes[quantity.axis]
+            for name, quantity in QUANTITIES.items()
+        }
 
     @cached_property
     def _channels(self) -> dict[str, int]:

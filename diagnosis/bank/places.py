@@ -16,6 +16,8 @@ from diagnosis.candidates.candidate import CandidateTerm, PlaceKind
 SCALES: Mapping[str, tuple[float, float]] = {
     "temperature": (10.0, 295.15), "current": (0.1, 0.0), "supply_current": (0.5, 0.0), "extension": (1e-3, 0.0),
     "stiffness": (50.0, 0.0), "resistance": (0.1, 0.0), "power": (0.1, 0.0), "length": (1e-3, 0.0),
+    "tension": (0.1, 0.0), "voltage": (0.1, 0.0), "string_voltage": (0.5, 0.0), "terminal_voltage": (0.5, 0.0),
+    "supply_power": (1.0, 0.0),
 }  # fmt: skip
 
 
@@ -118,8 +120,10 @@ def _source_label(layout: BankLayout, source: int) -> str:
 def channel_label(layout: BankLayout, quantity: str, element: int) -> str:
     """`coil[2,5].temperature`, `string[3].current` or `supply.current`."""
     axis = QUANTITIES[quantity].axis
-    if axis == "supply":
-        return "supply.current"
+    if axis == "supply" or (quantity == "terminal_voltage" and layout.sources == 1):
+        return {"supply_power": "supply.power", "terminal_voltage": "supply.voltage"}.get(quantity, "supply.current")
+    if quantity == "string_voltage":
+        return f"string[{element + 1}].voltage"
     return f"{coil_label(layout, element) if axis == 'coil' else f'string[{element + 1}]'}.{quantity}"
 
 

@@ -32,10 +32,11 @@ typedef struct {
     const double *coil, *string, *source, *late, *slow, *wrong; /* parameters; the last three: clock offset, lag and gain error of every quantity */
     const double *set;                       /* parameters of the whole set */
     double *temperature, *before, *middle, *mean, *felt, *rate, *slope, *energy; /* rate: mean over the step; slope: at its end */
-    double *resistance, *current, *power, *heat, *conductance, *capacity, *ambient;
+    double *resistance, *current, *voltage, *power, *heat, *conductance, *capacity, *ambient;
     double *shift, *scale, *fraction, *added, *heating, *cooling, *heating_before, *cooling_before, *crossing;
     double *remembered, *phase, *stiffness, *tension, *rest, *extension, *extension_before, *length;
-    double *string_resistance, *string_current, *source_voltage, *supply_voltage, *supply_resistance, *current_limit, *limited, *supply_current;
+    double *string_resistance, *string_current, *source_voltage, *supply_voltage, *supply_resistance, *current_limit, *limited;
+    double *string_voltage, *terminal_voltage, *supply_power, *supply_current; /* of strings, but for the last two */
     double *state, *state_rate;
 } Step;
 

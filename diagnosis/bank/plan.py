@@ -136,7 +136,7 @@ def _checked_times(layout: BankLayout, inputs: BankInputs, times: Mapping[str, A
     for name, values in times.items():
         if name not in QUANTITIES:
             raise ValueError(f"a bank records no {name}; it records {', '.join(QUANTITIES)}")
-        has_no_circuit = inputs.power is not None and name in ("current", "supply_current")
+        has_no_circuit = inputs.power is not None and QUANTITIES[name].needs_circuit
         if layout.elements(name) == 0 or has_no_circuit:
             raise ValueError(f"{name} needs a circuit, and this bank has none or is given its power")
         moments = np.ascontiguousarray(values, dtype=np.float64)

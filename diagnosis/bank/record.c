@@ -80,7 +80,7 @@ static void begin(Step *s)
     const double *start = plan->given ? plan->given : COIL(initial_temperature);
     for (int64_t i = 0; i < s->width; i++) {
         s->temperature[i] = s->before[i] = s->middle[i] = start[i];
-        s->rate[i] = s->slope[i] = s->energy[i] = s->power[i] = s->current[i] = s->phase[i] = 0.0;
+        s->rate[i] = s->slope[i] = s->energy[i] = s->power[i] = s->current[i] = s->voltage[i] = s->phase[i] = 0.0;
         s->ambient[i] = plan->ambient[0] + COIL(ambient_offset)[i];
         s->tension[i] = COIL(load)[i];
         s->extension[i] = s->shift[i] = 0.0;
@@ -88,8 +88,9 @@ static void begin(Step *s)
         s->heating[i] = s->cooling[i] = s->remembered[i] = 0.0;
     }
     for (int64_t n = 0; n < s->strings; n++) {
-        s->string_current[n] = 0.0;
+        s->string_current[n] = s->string_voltage[n] = s->terminal_voltage[n] = 0.0;
     }
+    s->supply_power[0] = s->supply_current[0] = 0.0;
     find_crossings(s);
     s->t = s->t_begin = s->t_end = plan->time[0];
     s->dt = s->dt_middle = 0.0;

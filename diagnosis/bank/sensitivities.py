@@ -114,7 +114,8 @@ def flat_sensitivities(
     packing = bank.packing(active)
     apart = Independence(bank.layout, [t for t in bank.terms if t.identifier in active], parameters)
     plan = sharing_plan(bank, inputs, times) if plan is None else plan
-    groups = _groups(apart, packing, directions)
+    # What the strings add up to is known by string for the supply's current alone.
+    groups = _groups(None if "supply_power" in plan.times else apart, packing, directions)
     base = pack(packing, bank.terms, parameters)
     if "string_share" in plan.times:
         _share_sensor(packing, base)
@@ -167,10 +168,12 @@ def _share_sensor(packing: Packing, base: Array) -> None:
         values[names.index("string_share")] = values[names.index("supply_current")]
 
 
-def _groups(apart: Independence, packing: Packing, directions: Sequence[Direction]) -> list[_Group]:
+def _groups(apart: Independence | None, packing: Packing, directions: Sequence[Direction]) -> list[_Group]:
     families: dict[tuple[str, float, bool], list[_Group]] = {}
     for number, direction in enumerate(directions):
-        level, part = apart.part(direction.parameter, packing.axes[direction.parameter], direction.mask)
+        level, part = "all", -1
+        if apart is not None:
+            level, part = apart.part(direction.parameter, packing.axes[direction.parameter], direction.mask)
         family = families.setdefault((direction.parameter, direction.step, direction.is_central), [])
         group = next((g for g in family if part >= 0 and g.takes(level, part)), None)
         if group is None:

@@ -76,7 +76,8 @@ def _quantities() -> str:
     arrays = ", ".join(f"s->{q.array}" for q in QUANTITIES.values())
     size = {"coil": "s->coils", "string": "s->strings", "supply": "(s->sources > 0)"}
     of_coils = ", ".join(str(int(q.axis == "coil")) for q in QUANTITIES.values())
-    cases = " ".join(f"case {n}: return {size[q.axis]};" for n, q in enumerate(QUANTITIES.values()))
+    sizes = [f"(s->sources > 0 ? {size[q.axis]} : 0)" if q.needs_circuit else size[q.axis] for q in QUANTITIES.values()]
+    cases = " ".join(f"case {n}: return {elements};" for n, elements in enumerate(sizes))
     flows = ", ".join(str(int(q.is_flow)) for q in QUANTITIES.values())
     return f"""#define QUANTITY_ARRAYS {arrays}
 static const int quantity_is_flow[QUANTITIES] = {{{flows}}};

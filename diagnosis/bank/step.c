@@ -21,7 +21,7 @@ static void find_resistance(Step *s, const double *temperature)
 static void solve_once(Step *s)
 {
     const Plan *plan = s->plan;
-    double conductance[s->strings], total = 0.0;
+    double conductance[s->strings], total = 0.0, power = 0.0; /* power: out of the terminals of all sources */
     for (int64_t n = 0; n < s->strings; n++) {
         s->string_resistance[n] = STRING(string_resistance)[n];
     }
@@ -52,11 +52,14 @@ static void solve_once(Step *s)
             terminal *= 1.0 + s->limited[n] * (s->current_limit[n] / free - 1.0);
         }
         total += terminal * sum;
+        power += terminal * terminal * sum;
         for (int64_t m = begin; m < end; m++) {
             s->string_current[m] = terminal * conductance[m];
+            s->terminal_voltage[m] = terminal;
         }
     }
     s->supply_current[0] = total;
+    s->supply_power[0] = power;
 }
 
 /* Where a string's resistance depends on its current the two are found in turn; each turn makes the error smaller by the
@@ -72,9 +75,12 @@ static void solve_circuit(Step *s)
         solve_once(s);
     }
     for (int64_t n = 0; n < s->strings; n++) {
+        s->string_voltage[n] = 0.0;
         for (int64_t i = plan->first[n]; i < plan->first[n + 1]; i++) {
             s->current[i] = s->string_current[n];
+            s->voltage[i] = s->string_current[n] * s->resistance[i];
             s->power[i] = s->string_current[n] * s->string_current[n] * s->resistance[i];
+            s->string_voltage[n] += s->voltage[i];
         }
     }
 }

@@ -8,6 +8,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.fabric.scatter import Bins
+from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.simulator.runs import deviation
 
@@ -30,8 +31,9 @@ class Binning:
         pieces = max(4, min(PIECES, MOST // max(len(self._channels), 1)))
         self._pieces = [_pieces(c, pieces) for c in self._channels]
         self.plain_names = [c.name for c in self._channels]
+        named = labels(recordings)
         self.names = [
-            c.name if len(recordings) == 1 else f"{c.name} ({recordings[n].title})"
+            c.name if len(recordings) == 1 else f"{c.name} ({named[n]})"
             for c, n in zip(self._channels, number_of)
         ]
         kinds = [(c.target.kind, c.target.quantity) for c in self._channels]

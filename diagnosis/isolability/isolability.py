@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from diagnosis.bank.layout import QUANTITIES
 from diagnosis.bank.places import coil_label
 from diagnosis.isolability.alike import SHOWS, Alike, Effect, effects, widest
 from diagnosis.isolability.structure import VARIABLES, Analysis, Rig, analyse
@@ -17,7 +18,7 @@ from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.wrapped import WrappedModel
 
 #: Quantities by which stretched coils are known.
-_LOADED = frozenset({"extension", "length", "stiffness"})
+_LOADED = frozenset({"extension", "length", "stiffness", "tension"})
 #: Quantity that may be recorded in addition to its words.
 CHANNELS = {
     "terminal_voltage": "the voltage at the supply's terminals", "supply_current": "the current of the supply",
@@ -74,6 +75,7 @@ def rig_of(model: BankModel) -> Rig:
         channels += [(q, coil_label(layout, e)) for q, e in measured if _is_of_coil(q) and e in coils]
         channels += [("current", label)] if ("current", s) in measured else []
     channels += [("supply_current", "supply")] if any(q == "supply_current" for q, _ in measured) else []
+    channels += [("terminal_voltage", "supply")] if any(q == "terminal_voltage" for q, _ in measured) else []
     slope = model.runs[0].translation.parameters.base.get("resistance_temperature_coefficient", 0.0)
     is_common = layout.supply == "common"
     has_load = model.runs[0].translation.load is not None or bool(_LOADED & {q for q, _ in measured})
@@ -82,7 +84,7 @@ def rig_of(model: BankModel) -> Rig:
 
 
 def _is_of_coil(quantity: str) -> bool:
-    return quantity not in ("current", "supply_current", "string_share")
+    return quantity in VARIABLES and QUANTITIES[quantity].axis == "coil"
 
 
 def _ends(items: Sequence[int], channels: Sequence[int]) -> list[int]:

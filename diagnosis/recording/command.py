@@ -11,7 +11,7 @@ import xarray as xr
 
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
-from cosim.scenario import load_scenario
+from cosim.scenario import Scenario, load_scenario
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.sensor import SensorFile, load_sensors
 from diagnosis.recording.write import Notes, write_recording
@@ -28,39 +28,42 @@ def record(
 ) -> None:
     """Run a scenario, read it with sensors, and write a recording.
 
-    The recording says what a laboratory would know of its sensors (noise, steps, limits, bounds). Lag, gain, bias,
-    drift and the offset of a clock are in its readings alone.
+    The recording says what was done (programmes, room, how it started) and what a laboratory would know of its sensors
+    (noise, steps, limits, bounds). Lag, gain, bias, drift and the offset of a clock are in its readings alone.
     """
+    from diagnosis.recording.done import conditions  # late: it loads every kind of unit
+
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
     sensors = SensorFile() if sensor is None else load_sensors(sensor)
-    title, results = _results(scenario)
-    stop = {"time": {"stop": f"{float(results['time'].values[-1]):.12g} s"}}
+    loaded, results = _results(scenario)
+    done = conditions(loaded)
+    done["time"]["stop"] = f"{float(results['time'].values[-1]):.12g} s"
     read = read_results(results, channels.split(), sensors, seed, sensor or Path(scenario))
-    write_recording(out, read, Notes(title, f"cosim record {scenario}, seed {seed}", stop))
+    write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}, seed {seed}", done))
     readings = sum(len(r.reading.times) for r in read.values())
-    print(f"{out}: {len(read)} channels, {readings} readings of `{title}`")
+    print(f"{out}: {len(read)} channels, {readings} readings of `{loaded.title}`")
 
 
-def _results(scenario: str) -> tuple[str, xr.Dataset]:
-    """Title and results of a finished run, or of one made now."""
+def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
+    """Scenario and results of a finished run, or of one made now."""
     if not Path(scenario).is_dir():
         return _run(scenario)
     folder = RunFolder(Path(scenario))
     if not folder.is_complete():
         raise InputError(folder.path, "", "this folder holds no complete run", "give a scenario, or finish the run")
     with xr.open_dataset(folder.results) as stored:
-        return load_scenario(folder.scenario).title, stored.load()
+        return load_scenario(folder.scenario), stored.load()
 
 
-def _run(scenario: str) -> tuple[str, xr.Dataset]:
+def _run(scenario: str) -> tuple[Scenario, xr.Dataset]:
     from cosim.progress import progress_bar  # late: `--help` must not load Bullet
     from cosim.run import RunStopped, run
 
     loaded = load_scenario(scenario)
     try:
         with progress_bar(loaded.title) as on_progress:
-            return loaded.title, run(loaded, on_progress=on_progress)
+            return loaded, run(loaded, on_progress=on_progress)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}; nothing is recorded", file=sys.stderr)
         raise typer.Exit(130 if stopped.is_interrupt else 1) from stopped

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Mapping
 from typing import Any
 
-import yaml
+import numpy as np
 
 from cosim.components import nanoseconds
 from cosim.errors import InputError
-from cosim.scenario import Scenario, parse_scenario
+from cosim.scenario import Scenario, scenario_of_data
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
+from diagnosis.recording.units import WrongUnit, conversion_of_difference
 
-#: A key to the one that it stands in place of: a programme's output has either.
+#: A key to the one that it stands in place of: a programme's output has either. With its unit it stands by itself.
 _INSTEAD = {"constant": "points", "points": "constant"}
 
 
 def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     """The scenario under the conditions of a recording.
 
-    Keys in `overrides` replace those of the scenario, mapping by mapping; recorded inputs become the points of their
+    Keys in `overrides` replace those of the scenario, mapping by mapping; an output of a programme that is given with
+    its unit replaces the whole of it, interpolation too. Recorded inputs become the points of their
     programme, moved to the grid of macro-steps; the run ends with the last sample unless `overrides` says otherwise.
 
     Raises:
@@ -29,7 +32,7 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     """
     assert base.path is not None, "the scenario was read from a file"
     data = parse_yaml(read_text(base.path), base.path)
-    merged = _merged(data, recording.overrides)
+    merged = copy.deepcopy(_merged(data, recording.overrides))
     macro = nanoseconds(base.time.macro_step) * 1e-9
     for recorded in recording.inputs:
         _put_points(merged, recorded, macro, recording)
@@ -39,7 +42,7 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
         steps = max(1, math.ceil((recording.end - begin) / output - 1e-9))
         merged["time"]["stop"] = f"{begin + steps * output:.12g} s"
     try:
-        return parse_scenario(yaml.safe_dump(merged, sort_keys=False), base.path)
+        return scenario_of_data(merged, base.path)
     except InputError as error:
         problem = f"{error.problem} (with the overrides of {recording.path})"
         raise InputError(error.source, error.key, problem, error.remedy) from error
@@ -49,6 +52,8 @@ def _merged(base: Any, change: Any) -> Any:
     if isinstance(base, Mapping) and isinstance(change, Mapping):
         if change.get("kind", base.get("kind")) != base.get("kind"):
             return change  # another kind has other keys
+        if "unit" in change and any(key in change for key in _INSTEAD):
+            return change  # a programme's output as a whole, as `cosim record` writes it
         both = {k: v for k, v in base.items() if not any(_INSTEAD.get(other) == k for other in change)}
         for key, value in change.items():
             both[key] = _merged(base[key], value) if key in base else value
@@ -66,15 +71,18 @@ def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: 
     if output is None:
         raise InputError(recording.path / "recording.yaml", key, f"the programme has no output {recorded.output}",
                          f"it has: {', '.join(component.get('outputs', {}))}")  # fmt: skip
-    points: list[list[str]] = []
-    last_step = None
-    for time, value in zip(recorded.times.tolist(), recorded.values.tolist()):
-        step = round(time / macro)
-        if points and step == last_step:  # two readings in one macro-step: the later one holds
-            points.pop()
-        if points and points[-1][1] == f"{value!r} {recorded.unit}" and output.get("interpolation") != "linear":
-            continue
-        points.append([f"{step * macro:.12g} s", f"{value!r} {recorded.unit}"])
-        last_step = step
+    try:
+        conversion_of_difference(recorded.unit, str(output.get("unit", "1")))
+    except WrongUnit as error:
+        raise InputError(recording.path / "recording.yaml", f"{key}.unit", f"the programme gives {recorded.output} in "
+                         f"{output.get('unit', '1')}: {error}", error.remedy) from error  # fmt: skip
+    steps = np.round(recorded.times / macro).astype(np.int64)
+    last = np.append(steps[1:] != steps[:-1], True)  # of several readings in one macro-step the latest one holds
+    steps, values = steps[last], recorded.values[last]
+    if output.get("interpolation") != "linear":  # a value that stays needs no point
+        changes = np.append(True, values[1:] != values[:-1])
+        steps, values = steps[changes], values[changes]
     output.pop("constant", None)
-    output["points"] = points
+    output["points"] = [
+        [f"{step * macro:.12g} s", f"{value!r} {recorded.unit}"] for step, value in zip(steps.tolist(), values.tolist())
+    ]

@@ -74,7 +74,10 @@ def find_quantum(values: Array) -> float:
         return 0.0
     gaps = np.diff(np.unique(values))
     # Rounding of decimals may split a step (0.06 and 0.07 for 0.0625): the mean of the smallest ones.
-    smallest = float(gaps[gaps > 1e-9 * np.max(np.abs(values))].min())
+    gaps = gaps[gaps > 1e-9 * np.max(np.abs(values))]
+    if not gaps.size:  # all the same but for rounding in the last digits
+        return 0.0
+    smallest = float(gaps.min())
     return float(np.mean(gaps[(gaps >= smallest) & (gaps < 1.5 * smallest)]))
 
 

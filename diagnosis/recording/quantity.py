@@ -29,7 +29,8 @@ _KINDS = {
     "supply": ({"current", "voltage", "power"}, {0}),
     "string": ({"current", "voltage"}, {1}),
     "coil": (
-        {"temperature", "current", "voltage", "power", "extension", "stiffness", "resistance", "tension"}, {1, 2}
+        {"temperature", "current", "voltage", "power", "extension", "length", "stiffness", "resistance", "tension"},
+        {1, 2},
     ),
     "link": ({"x", "y", "z", "length"}, {1}),
     "marker": ({"x", "y", "z"}, {1}),

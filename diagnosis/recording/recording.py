@@ -11,16 +11,22 @@ from typing import Any
 import numpy as np
 
 from cosim.errors import InputError
-from cosim.quantity import PhysicalValue, conversion
+from cosim.quantity import PhysicalValue
 from cosim.unit import AnyArray, Array
 from diagnosis.recording.noise import estimate_noise
 from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
+from diagnosis.recording.series import MOST
 from diagnosis.recording.sidecar import ChannelEntry, Clock, InputEntry, Sidecar, load_sidecar
 from diagnosis.recording.table import Table
+from diagnosis.recording.units import WrongUnit, conversion_of_difference, conversion_of_reading
 
 #: A channel needs at least this many values to be worth anything.
 FEWEST_VALUES = 8
-
+#: Most values of a channel that are compared. Their mean is known to 0.7 % of one reading's noise, far below what any
+#: model or calibration is right to, and 100 channels with 100 derivatives stay within 1 GB in single precision.
+MOST_VALUES = 20_000
+#: Most changes of a recorded input: each becomes a point of the programme in a text that is read several times.
+MOST_CHANGES = 20_000
 
 #: An estimated noise is at least this share of the median over the channels of one quantity.
 LIKE = 0.7
@@ -43,6 +49,9 @@ class Channel:
         offset_bound: How far its clock may be off [s].
         bias_bound: How far its zero may be off, SI.
         is_clipped: Which samples lie at a limit, shape (samples,).
+        dropped: Why rows of its column are not among the samples (`empty`, `invalid`, `before begin`, `after end`,
+            `thinned`; once it has been held against a scenario, `before start` and `after stop` of the simulated time),
+            with their number; `diagnosis.recording.usage` puts it into words.
     """
 
     name: str
@@ -57,6 +66,7 @@ class Channel:
     offset_bound: float = 0.0
     bias_bound: float = 0.0
     is_clipped: AnyArray = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    dropped: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def unit(self) -> str:
@@ -124,9 +134,12 @@ def load_recording(path: str | Path) -> Recording:
     Args:
         path: Folder with recording.yaml, or that file.
 
+    Of a channel with more than `MOST_VALUES` values that many are kept, spread evenly (`Channel.dropped` says how many
+    were not).
+
     Raises:
-        InputError: A file or key is missing or wrong, a column does not exist or holds text, times do not rise, or a
-            channel has too few values.
+        InputError: A file or key is missing or wrong, a column does not exist, holds text or infinite values, a value
+            has no time, times do not rise, a unit does not fit, or a channel has too few values.
     """
     given = Path(path)
     file = given if given.is_file() else given / "recording.yaml"
@@ -155,39 +168,43 @@ def alike(channels: Mapping[str, Channel]) -> dict[str, Channel]:
 
 
 class _Reader:
-    """Reads one recording; tables are read once."""
+    """Reads one recording; of each table the columns that are named, once."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
         self.sidecar: Sidecar = load_sidecar(file)
         self._tables: dict[str, Table] = {}
+        self._columns = _columns(self.sidecar)
 
     def recording(self) -> Recording:
         sidecar = self.sidecar
         channels = alike({name: self._channel(name, entry) for name, entry in sidecar.channels.items()})
         inputs = tuple(self._input(name, entry) for name, entry in sidecar.inputs.items())
         end = max(float(c.times[-1]) for c in channels.values())
+        beginning = 0.0 if sidecar.beginning is None else sidecar.beginning.to("s")
+        for channel in channels.values():
+            length = float(channel.times[-1] - channel.times[0])
+            if beginning and length < beginning:
+                what = f"{channel.name} ends {length:.6g} s after its first value: nothing of it is left that judges"
+                raise InputError(self.file, "beginning", what, f"give less than {length:.6g} s")
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
-            sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain,
-            0.0 if sidecar.beginning is None else sidecar.beginning.to("s"), sidecar.day, sidecar.order,
+            sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain, beginning, sidecar.day, sidecar.order,
             float(sidecar.cycles_before),
         )  # fmt: skip
 
     def _table(self, name: str | None) -> Table:
         chosen = name or self.sidecar.table
         if chosen not in self._tables:
-            self._tables[chosen] = Table(self.file.parent / chosen, self.sidecar.header_lines)
+            file = self.file.parent / chosen
+            self._tables[chosen] = Table(file, self.sidecar.header_lines, self._columns[chosen])
         return self._tables[chosen]
 
     def _times(self, table_name: str | None, own: Clock | None, key: str) -> tuple[Array, Clock]:
         """Times on the scenario's clock [s]."""
         clock = own or self.sidecar.time
         readings = self._table(table_name).column(clock.column, f"{key}.time.column")
-        try:
-            factor = conversion(clock.unit, "s")[0]
-        except ValueError as error:
-            raise InputError(self.file, f"{key}.time.unit", str(error), "give a unit of time") from error
+        factor = self._conversion(clock.unit, "s", f"{key}.time.unit")[0]
         if clock.zero is not None:
             return factor * (readings - float(clock.zero)), clock
         # Tables that share a clock share its zero: the first reading of the recording's own table.
@@ -201,11 +218,36 @@ class _Reader:
         component, _, output = name.partition(".")
         if not output:
             raise InputError(self.file, key, "this is no output of a programme", "write `component.output`")
+        try:  # whether it fits the programme, the scenario tells
+            conversion_of_reading(entry.unit, entry.unit)
+        except WrongUnit as error:
+            raise InputError(self.file, f"{key}.unit", str(error), error.remedy) from error
         times, _ = self._times(entry.table, entry.time, key)
-        values = entry.factor * self._table(entry.table).column(entry.column, f"{key}.column")
-        known = np.isfinite(times) & np.isfinite(values)
+        column = self._table(entry.table).column(entry.column, f"{key}.column")
+        known = self._known(times, column, key)
         self._check_times(times[known], key)
-        return Input(component, output, entry.unit, times[known], values[known])
+        times, values = times[known], entry.factor * column[known]
+        changes = int(np.count_nonzero(np.diff(values))) + 1
+        if changes > MOST_CHANGES:
+            raise InputError(
+                self.file, key, f"its column changes {changes} times; a programme holds at most {MOST_CHANGES} values",
+                "average the column over as many rows as needed, or record the input at a lower rate",
+            )  # fmt: skip
+        return Input(component, output, entry.unit, times, values)
+
+    def _known(self, times: Array, column: Array, key: str) -> AnyArray:
+        """Rows that hold a value, shape (rows,); each of them must have a time, and both must be finite."""
+        known = ~np.isnan(column)
+        empty = "leave the place empty where nothing was measured, or list the number under `invalid`"
+        for wrong, what, remedy in (
+            (known & ~(np.abs(column) <= MOST), "no sensor reads", empty),
+            (known & ~(np.abs(times) <= MOST), "has no time, or an infinite one", "give its time, or leave it empty"),
+        ):
+            if wrong.any():
+                row = int(np.flatnonzero(wrong)[0])
+                value = f"the value in row {row + 1} of its column, {column[row]:g},"
+                raise InputError(self.file, key, f"{value} {what}", remedy)
+        return np.asarray(known)
 
     def _check_times(self, times: Array, key: str) -> None:
         late = np.flatnonzero(np.diff(times) <= 0)
@@ -217,18 +259,12 @@ class _Reader:
     def _channel(self, name: str, entry: ChannelEntry) -> Channel:
         key = f"channels.{name}"
         target = self._target(name, key)
+        unit = SI_UNITS.get(target.quantity, entry.unit)
+        factor, offset = self._conversion(entry.unit, unit, f"{key}.unit")
         times, clock = self._times(entry.table, entry.time, key)
         raw = self._table(entry.table).column(entry.column, f"{key}.column")
-        unit = SI_UNITS.get(target.quantity, entry.unit)
-        factor, offset = self._conversion(entry.unit, unit, key)
-        begin = -math.inf if self.sidecar.begin is None else self.sidecar.begin.to("s")
-        end = math.inf if self.sidecar.end is None else self.sidecar.end.to("s")
-        known = np.isfinite(raw) & np.isfinite(times) & (times >= begin) & (times <= end) & ~np.isin(raw, entry.invalid)
-        if known.sum() < FEWEST_VALUES:
-            raise InputError(self.file, key, f"it has {int(known.sum())} values, fewer than {FEWEST_VALUES}",
-                             "leave the channel out, or correct begin, end and invalid")  # fmt: skip
-        times, values = times[known], factor * raw[known] + offset
-        self._check_times(times, key)
+        rows, dropped = self._rows(times, raw, entry, key)
+        times, values = times[rows], factor * (entry.factor * raw[rows]) + offset
         limits = self._limits(entry, unit, key)
         quantum = self._difference(entry.quantum, unit, f"{key}.quantum")
         given = self._difference(entry.noise, unit, f"{key}.noise")
@@ -237,8 +273,28 @@ class _Reader:
             given or estimate_noise(times, values, quantum), bool(given), quantum, limits,
             entry.lag_bound.to("s"), clock.offset_bound.to("s"),
             self._difference(entry.bias_bound, unit, f"{key}.bias_bound"),
-            _at_limit(values, limits, quantum),
+            _at_limit(values, limits, quantum), dropped,
         )  # fmt: skip
+
+    def _rows(self, times: Array, raw: Array, entry: ChannelEntry, key: str) -> tuple[AnyArray, dict[str, int]]:
+        """Numbers of the rows of a column that are its samples, and why the others are none."""
+        is_invalid = np.isin(raw, entry.invalid)
+        filled = self._known(times, np.where(is_invalid, math.nan, raw), key)
+        begin = -math.inf if self.sidecar.begin is None else self.sidecar.begin.to("s")
+        end = math.inf if self.sidecar.end is None else self.sidecar.end.to("s")
+        early, late = filled & (times < begin), filled & (times > end)
+        rows = np.flatnonzero(filled & ~early & ~late)
+        if len(rows) < FEWEST_VALUES:
+            raise InputError(self.file, key, f"it has {len(rows)} values, fewer than {FEWEST_VALUES}",
+                             "leave the channel out, or correct begin, end and invalid")  # fmt: skip
+        self._check_times(times[rows], key)
+        kept = _thinned(rows, len(raw))
+        counts = {
+            "empty": int(np.count_nonzero(~filled & ~is_invalid)), "invalid": int(np.count_nonzero(is_invalid)),
+            "before begin": int(np.count_nonzero(early)), "after end": int(np.count_nonzero(late)),
+            "thinned": len(rows) - len(kept),
+        }  # fmt: skip
+        return kept, {reason: count for reason, count in counts.items() if count}
 
     def _target(self, name: str, key: str) -> Target:
         try:
@@ -248,27 +304,60 @@ class _Reader:
 
     def _conversion(self, source: str, target: str, key: str) -> tuple[float, float]:
         try:
-            return conversion(source, target)
-        except ValueError as error:
-            raise InputError(self.file, f"{key}.unit", str(error), f"give a unit that converts to {target}") from error
+            return conversion_of_reading(source, target)
+        except WrongUnit as error:
+            raise InputError(self.file, key, str(error), error.remedy) from error
 
     def _limits(self, entry: ChannelEntry, unit: str, key: str) -> tuple[float, float]:
         found = []
         for which, value, default in (("minimum", entry.minimum, -math.inf), ("maximum", entry.maximum, math.inf)):
             try:
+                if value is not None and value.unit:
+                    conversion_of_reading(value.unit, unit)
                 found.append(default if value is None else value.to(unit))
             except ValueError as error:
-                raise InputError(self.file, f"{key}.{which}", str(error), f"give it in {unit}") from error
+                remedy = error.remedy if isinstance(error, WrongUnit) else f"give it in {unit}"
+                raise InputError(self.file, f"{key}.{which}", f"{value}: {error}", remedy) from error
+        if found[0] >= found[1]:
+            raise InputError(self.file, f"{key}.maximum", f"{entry.maximum} is not above the minimum, {entry.minimum}",
+                             "exchange the two, or correct them")  # fmt: skip
         return found[0], found[1]
 
     def _difference(self, value: PhysicalValue | None, unit: str, key: str) -> float:
         """A difference of readings in SI: 0.3 degC of noise are 0.3 K."""
         if value is None:
             return 0.0
-        factor = self._conversion(value.unit or unit, unit, key)[0]
+        if not value.unit and unit != "1":  # of the column's unit or of the SI unit?
+            raise InputError(self.file, key, f"{value} has no unit", f"write for example `{value} {unit}`")
+        try:
+            factor = conversion_of_difference(value.unit or unit, unit)
+        except WrongUnit as error:
+            raise InputError(self.file, f"{key}.unit", str(error), error.remedy) from error
         if not value.number * factor > 0:
             raise InputError(self.file, key, f"{value} is not positive", "give a positive number with its unit")
         return factor * value.number
+
+
+def _columns(sidecar: Sidecar) -> dict[str, set[str]]:
+    """Table to the columns of it that are named."""
+    found: dict[str, set[str]] = {sidecar.table: {sidecar.time.column}}
+    entries: list[ChannelEntry | InputEntry] = [*sidecar.channels.values(), *sidecar.inputs.values()]
+    for entry in entries:
+        own = found.setdefault(entry.table or sidecar.table, set())
+        own |= {entry.column, (entry.time or sidecar.time).column}
+    return found
+
+
+def _thinned(rows: AnyArray, count: int) -> AnyArray:
+    """At most `MOST_VALUES` of the rows that hold a value: the first of each stretch of the table.
+
+    Readings are picked, not averaged: what is kept has the noise that was stated, also where it is not white, is
+    rounded and clipped as it was, and belongs to one instant. Channels of one table keep the same rows where they can.
+    """
+    if len(rows) <= MOST_VALUES:
+        return rows
+    stretch = rows // math.ceil(count / MOST_VALUES)
+    return np.asarray(rows[np.concatenate([[True], np.diff(stretch) > 0])])
 
 
 def _at_limit(values: Array, limits: tuple[float, float], quantum: float) -> AnyArray:

@@ -18,10 +18,10 @@ _FLOWS = frozenset({"current", "voltage", "power"})
 #: Quantity of a channel to the names that it has in results, in the order in which they are looked for.
 _RESULTS = {
     ("supply", "current"): ("supply_current",),
-    ("supply", "power"): ("supply_power",),
-    ("supply", "voltage"): ("voltage",),
+    ("supply", "power"): ("terminal_power", "supply_power"),
+    ("supply", "voltage"): ("terminal_voltage",),
     ("string", "current"): ("string_current",),
-    ("string", "voltage"): ("voltage",),
+    ("string", "voltage"): ("string_voltage",),
     ("link", "length"): ("link_length",),
     ("link", "x"): ("position",),
     ("link", "y"): ("position",),
@@ -31,6 +31,10 @@ _RESULTS = {
     ("marker", "z"): ("marker_position",),
     ("fabric", "length"): ("fabric_length",),
 }
+#: Quantities that follow from several variables of a circuit.
+_DERIVED = frozenset({("supply", "power"), ("string", "voltage")})
+#: Largest size of a value [SI] that is compared; its square, summed over any recording, is still a number.
+MOST = 1e100
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -62,18 +66,49 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     Raises:
         InputError: The results have no such quantity or element.
     """
-    variable = _variable(results, target, source)
-    found = results[variable]
-    elements = _elements(results, found, target, source)
-    values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)
-    values = values[:, np.ravel_multi_index(elements, found.shape[1:]) if elements else 0]
+    found, index = place_of(results, target, source)
+    values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)[:, index]
     own = str(found.attrs.get("units", "1"))
     unit = own if target.si_unit == "1" else target.si_unit
     try:
         factor, offset = conversion(own, unit)
     except ValueError as error:
-        raise InputError(source, f"channels.{target}", str(error), f"{variable} is in {own}") from error
+        raise InputError(source, f"channels.{target}", str(error), f"{found.name} is in {own}") from error
+    values = np.where(np.abs(values) <= MOST, values, np.inf)
     return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
+
+
+def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[xr.DataArray, int]:
+    """Variable of the results that a channel measures, and the number of its element in the flattened variable.
+
+    Raises:
+        InputError: The results have no such quantity or element.
+    """
+    if (target.kind, target.quantity) in _DERIVED:
+        results = results.assign(_derived(results))
+    found = results[_variable(results, target, source)]
+    elements = _elements(results, found, target, source)
+    return found, int(np.ravel_multi_index(elements, found.shape[1:])) if elements else 0
+
+
+def _derived(results: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Of every circuit: voltage across the coils of each string, power out of the terminals of all sources."""
+    found: dict[str, xr.DataArray] = {}
+    for name in map(str, results):
+        circuit, _, variable = name.rpartition(".")
+        if variable != "terminal_voltage" or "string_of_coil" not in results.coords:
+            continue
+        voltage, current = results[f"{circuit}.voltage"], results[f"{circuit}.string_current"]
+        if results["string_of_coil"].dims != voltage.dims[1:]:
+            continue
+        first = np.flatnonzero(np.diff(results["string_of_coil"].values, prepend=0))
+        across = np.add.reduceat(voltage.values, first, axis=1)
+        terminal = results[name].values
+        terminal = terminal[:, None] if terminal.ndim == 1 else terminal
+        power = (terminal * current.values).sum(axis=1)
+        found[f"{circuit}.string_voltage"] = xr.DataArray(across, dims=current.dims, attrs={"units": "V"})
+        found[f"{circuit}.terminal_power"] = xr.DataArray(power, dims=current.dims[:1], attrs={"units": "W"})
+    return found
 
 
 def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
@@ -86,6 +121,11 @@ def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
             fitting = [str(n) for n in results if str(n).rpartition(".")[2] == wanted and _fits(results[n], target)]
             if fitting:
                 return min(fitting, key=lambda name: results[name].dims[1:] != (target.kind,))
+    if (target.kind, target.quantity) == ("supply", "voltage") and any(
+        str(n).endswith(".terminal_voltage") for n in results
+    ):
+        remedy = "name `string[n].voltage`, across the coils of a string"
+        raise InputError(source, f"channels.{target}", "every string has a supply of its own", remedy)
     there = ", ".join(str(n) for n in results)
     raise InputError(source, f"channels.{target}", "the scenario has no such quantity", f"it has: {there}")
 
@@ -132,11 +172,14 @@ def sample(series: Series, times: Array) -> Array:
     """Values at given times, shape (times,); beyond the run its end values hold.
 
     A flow is drawn with straight lines between outputs, a state with parabolas and cubics through four outputs, whose
-    error falls with the fourth power of the output step.
+    error falls with the fourth power of the output step. A value beyond `MOST`, or none, makes those drawn with it
+    infinite: the run has lost its way, and its squares would be no numbers.
     """
-    own, values = series.times, series.values
+    own, is_lost = series.times, ~(np.abs(series.values) <= MOST)
+    values = np.where(is_lost, 0.0, series.values)
     if series.is_flow or len(own) < 4:
-        return np.asarray(np.interp(times, own, values))
+        found = np.asarray(np.interp(times, own, values))
+        return np.where(np.interp(times, own, is_lost.astype(np.float64)) > 0.0, np.inf, found)
     clipped = np.clip(times, own[0], own[-1])
     first = np.clip(np.searchsorted(own, clipped, side="right") - 2, 0, len(own) - 4)
     nodes = own[first[:, None] + np.arange(4)]
@@ -145,4 +188,6 @@ def sample(series: Series, times: Array) -> Array:
         for j in range(4):
             if i != j:
                 weights[:, i] *= (clipped - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
-    return np.asarray(np.einsum("ij,ij->i", weights, values[first[:, None] + np.arange(4)]))
+    used = first[:, None] + np.arange(4)
+    found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
+    return np.where(np.any(is_lost[used], axis=1), np.inf, found)

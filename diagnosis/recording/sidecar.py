@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
 import pydantic
-from pydantic import Field, StrictFloat, StrictInt, model_validator
+from pydantic import AfterValidator, Field, StrictFloat, StrictInt, model_validator
 
 from cosim.components import AnyQuantity, Duration, Strict, Time
 from cosim.errors import InputError
@@ -16,12 +17,22 @@ from cosim.yaml_file import input_error, parse_yaml, read_text
 Number = StrictFloat | StrictInt
 
 
+def _is_usable(value: float) -> float:
+    if not math.isfinite(value) or value == 0.0:
+        raise ValueError(f"a factor of {value:g} leaves nothing of the column; give a number other than 0")
+    return value
+
+
+#: What a column is multiplied by.
+Factor = Annotated[Number, AfterValidator(_is_usable)]
+
+
 class Clock(Strict):
     """A column of times."""
 
     column: str = Field(default="time", description="Column of the table.")
     unit: str = Field(default="s", description="Unit of time of that column.")
-    zero: Number | None = Field(
+    zero: Annotated[Number, Field(allow_inf_nan=False)] | None = Field(
         default=None, description="Reading of the clock at the scenario's time 0, in that unit; default: its first."
     )
     offset_bound: Annotated[PhysicalValue, In("s", minimum=0.0)] = Field(
@@ -33,7 +44,8 @@ class ChannelEntry(Strict):
     """One measured quantity."""
 
     column: str = Field(description="Column of the table.")
-    unit: str = Field(description="Unit of that column, for example degC or mA.")
+    unit: str = Field(description="Unit of the values, for example degC or mA; without `factor` that of the column.")
+    factor: Factor = Field(default=1.0, description="Value = factor * column, in `unit`, for example mm to one pixel.")
     noise: AnyQuantity | None = Field(
         default=None, description="Standard deviation of the sensor; estimated where it is not given."
     )
@@ -56,7 +68,7 @@ class InputEntry(Strict):
 
     column: str
     unit: str = Field(description="Unit of the column after scaling, for example W or V.")
-    factor: Number = Field(default=1.0, description="Value = factor * column, in `unit`.")
+    factor: Factor = Field(default=1.0, description="Value = factor * column, in `unit`.")
     table: str | None = None
     time: Clock | None = None
 
@@ -81,12 +93,12 @@ class Sidecar(Strict):
         description="Recordings of one day share its room, its clocks and its zeros; two halves of a day have one "
         "name. Default: a day of its own.",
     )
-    order: StrictInt | None = Field(
+    order: Annotated[StrictInt, Field(ge=1)] | None = Field(
         default=None,
         description="Place among the recordings in time, from 1; what breaks in one stays broken in later ones. "
         "Default: as given to the command, those held out last.",
     )
-    cycles_before: Annotated[Number, Field(ge=0)] = Field(
+    cycles_before: Annotated[Number, Field(ge=0, allow_inf_nan=False)] = Field(
         default=0, description="Full cycles (heated and cooled) that the rig had made before this recording."
     )
     switch_margin: Duration = Field(
@@ -107,6 +119,8 @@ class Sidecar(Strict):
 
     @model_validator(mode="after")
     def _check(self) -> Sidecar:
+        if self.beginning is not None and self.beginning.to("s") <= 0.0:
+            raise ValueError(f"beginning ({self.beginning}) is a length of time; it must be more than 0 s")
         if self.begin is not None and self.end is not None and self.end.to("s") <= self.begin.to("s"):
             raise ValueError(f"end ({self.end}) must come after begin ({self.begin})")
         return self

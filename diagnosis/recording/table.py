@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
@@ -17,26 +19,38 @@ class Table:
     Args:
         file: CSV (with a header row) or Parquet file.
         header_lines: Lines of a CSV before its header row.
+        wanted: Columns that may be asked for; only these are held in memory. None: all.
 
     Raises:
         InputError: It cannot be read or has no rows.
     """
 
-    def __init__(self, file: Path, header_lines: int = 0) -> None:
+    def __init__(self, file: Path, header_lines: int = 0, wanted: Collection[str] | None = None) -> None:
         self.file = file
+        self._names: list[str] = []
         if not file.is_file():
             raise InputError(file, "", "there is no such table", "correct `table` in recording.yaml")
         try:
-            if file.suffix.lower() in (".parquet", ".pq"):
-                self._frame = pd.read_parquet(file)
-            else:
-                self._frame = pd.read_csv(file, skiprows=header_lines, skipinitialspace=True, comment=None)
+            self._frame = self._read(header_lines, wanted)
         except Exception as error:  # pandas and pyarrow raise many unrelated kinds
             raise InputError(file, "", f"it cannot be read as a table: {error}",
                              "give a CSV file with one header row (see `header_lines`), or a Parquet file",
                              ) from error  # fmt: skip
         if not len(self._frame):
             raise InputError(file, "", "the table has no rows", "give a table with values")
+
+    def _read(self, header_lines: int, wanted: Collection[str] | None) -> pd.DataFrame:
+        if self.file.suffix.lower() in (".parquet", ".pq"):
+            from pyarrow.parquet import read_schema  # type: ignore[import-untyped, unused-ignore]
+
+            self._names = [str(n) for n in read_schema(self.file).names]
+            columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
+            return pd.read_parquet(self.file, columns=columns)
+
+        how: dict[str, Any] = {"skiprows": header_lines, "skipinitialspace": True, "comment": None}
+        self._names = [str(n) for n in pd.read_csv(self.file, nrows=0, **how).columns]
+        columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
+        return pd.read_csv(self.file, usecols=columns, **how)
 
     def column(self, name: str, key: str) -> Array:
         """Values of a column, shape (rows,); what is empty is not a number.
@@ -49,7 +63,7 @@ class Table:
             InputError: No such column, or it holds text.
         """
         if name not in self._frame.columns:
-            there = ", ".join(str(c) for c in self._frame.columns[:12]) + (" ..." if self._frame.shape[1] > 12 else "")
+            there = ", ".join(self._names[:12]) + (" ..." if len(self._names) > 12 else "")
             raise InputError(self.file, key, f"there is no column `{name}`", f"there are: {there}")
         values = pd.to_numeric(self._frame[name], errors="coerce").to_numpy(dtype=np.float64)
         text = self._frame[name].notna().to_numpy() & np.isnan(values)

@@ -17,6 +17,7 @@ from cosim.unit import Array
 from diagnosis.compute.batch import Batches
 from diagnosis.compute.result import Task
 from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search import cosim_run
 from diagnosis.search.cosim_run import Changes, changed, setting, simulate
@@ -246,10 +247,10 @@ def _layout(recordings: Sequence[Recording]) -> Layout:
     channel, time = [], []
     names: list[str] = []
     units: list[str] = []
-    for recording in recordings:
+    for recording, label in zip(recordings, labels(recordings)):
         for c in recording.channels.values():
             channel.append(np.full(len(c.times), len(names)))
             time.append(c.times)
-            names.append(c.name if len(recordings) == 1 else f"{c.name} ({recording.path.name})")
+            names.append(c.name if len(recordings) == 1 else f"{c.name} ({label})")
             units.append(c.target.domain)
     return Layout(np.concatenate(channel), np.concatenate(time), tuple(names), tuple(units))

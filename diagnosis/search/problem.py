@@ -12,6 +12,10 @@ import numpy as np
 from cosim.unit import Array
 
 
+#: Logarithm of the largest factor that a value is changed by: 1e43 is beyond any rig, and far from the largest number.
+MOST_FOLD = 100.0
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A number that the model already has, and how far it may be off.
@@ -38,7 +42,7 @@ class Parameter:
     def value(self, z: float) -> float:
         """Value at a distance of z deviations."""
         if self.is_relative:
-            return self.nominal * math.exp(self.deviation * z)
+            return self.nominal * math.exp(max(-MOST_FOLD, min(MOST_FOLD, self.deviation * z)))
         return self.nominal + self.deviation * z
 
 

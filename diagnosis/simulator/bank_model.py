@@ -17,11 +17,12 @@ from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, stated_priors
-from diagnosis.simulator.runs import Run, clocks, deviation
+from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
 from diagnosis.simulator.term_at import term_at
 from diagnosis.simulator.translate import translate
 
@@ -29,6 +30,8 @@ from diagnosis.simulator.translate import translate
 UNIT_OF_QUANTITY = {
     "temperature": "thermal", "current": "electrical", "supply_current": "electrical", "resistance": "electrical",
     "power": "electrical", "extension": "mechanical", "length": "mechanical", "stiffness": "stiffness",
+    "tension": "mechanical", "voltage": "electrical", "string_voltage": "electrical",
+    "terminal_voltage": "electrical", "supply_power": "electrical",
 }  # fmt: skip
 
 
@@ -52,6 +55,9 @@ class BankModel:
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
+        for recording in recordings:  # what it cannot compare is said before it is compiled
+            for channel in recording.channels.values():
+                bank_quantity(channel.target, translations[0].layout, recording)
         self.bank = Bank(translations[0].layout, catalogue)
         self._candidates = {t.identifier: t for t in catalogue}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
@@ -84,13 +90,11 @@ class BankModel:
         channel, time = [], []
         names: list[str] = []
         units: list[str] = []
-        for run, recording in zip(self.runs, recordings):
+        for run, label in zip(self.runs, labels(recordings)):
             for series in run.series:
                 channel.append(np.full(len(series.samples), len(names)))
                 time.append(series.times)
-                names.append(
-                    series.channel.name if len(recordings) == 1 else f"{series.channel.name} ({recording.title})"
-                )
+                names.append(series.channel.name if len(recordings) == 1 else f"{series.channel.name} ({label})")
                 units.append(UNIT_OF_QUANTITY[series.quantity])
         return Layout(np.concatenate(channel), np.concatenate(time), tuple(names), tuple(units))
 

@@ -13,7 +13,7 @@ from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import coil_label
 from diagnosis.bank.sensitivities import Direction
-from diagnosis.search.problem import Parameter
+from diagnosis.search.problem import MOST_FOLD, Parameter
 from diagnosis.simulator.priors import Prior, matters
 
 #: Both branches of the stiffness moved along the temperature; no field of the bank.
@@ -75,7 +75,7 @@ def free_parameters(
         daily: The same for every recording by itself.
     """
     for name, prior in priors.items():
-        value = float(np.mean(nominal[name])) if name in nominal else 0.0
+        value = float(np.median(nominal[name])) if name in nominal else 0.0  # an open coil has 1e12 ohm
         if not matters(prior, set(measured)) or (prior.is_relative and value == 0.0):
             continue
         if name == "reference_resistance" and not layout.strings:
@@ -172,7 +172,7 @@ class FreeSet:
             else:
                 base[field] = np.asarray(base.get(field, 0.0)) + amount
         for name, exponent in exponents.items():
-            base[name] = np.asarray(base[name]) * np.exp(exponent)
+            base[name] = np.asarray(base[name]) * np.exp(np.clip(exponent, -MOST_FOLD, MOST_FOLD))
 
 
 def directions(free: Free, parameters: BankParameters) -> list[tuple[Direction, float]]:

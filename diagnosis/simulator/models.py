@@ -12,6 +12,7 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.compute.batch import Batches
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.runs import fabric_of
+from diagnosis.recording.fits import fitting
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.bank_model import BankModel
@@ -142,6 +143,7 @@ def model_of(
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
+    recordings = fitting(scenario, recordings)
     if fabric_of(scenario) is not None:
         return FabricModel(scenario, recordings, catalogue, batches, without)
     try:

@@ -30,8 +30,7 @@ class Prior:
     needs: tuple[str, ...] = ()
 
 
-_MECHANICAL = ("extension", "length", "stiffness")
-_ELECTRICAL = ("current", "supply_current", "resistance", "power")
+_MECHANICAL = ("extension", "length", "stiffness", "tension")
 
 #: Base parameter of the bank to its prior. `heating_shift` and `cooling_shift` move a branch of the stiffness along
 #: the temperature, `transformation_shift` both [K].

@@ -17,6 +17,7 @@ from diagnosis.bank.steps import choose_step
 from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.usage import near_switch
 from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.translate import Translation
 
@@ -74,6 +75,7 @@ class Run:
         self.translation = translation
         layout = translation.layout
         entries = [(c, *bank_quantity(c.target, layout, recording)) for c in recording.channels.values()]
+        _refuse_doubles(entries, recording)
         self.times: dict[str, Array] = {}
         for channel, quantity, _ in entries:
             inside = channel.times[channel.times >= translation.start]
@@ -106,10 +108,7 @@ class Run:
     def _series(self, entry: tuple[Channel, str, int], switches: Array, margin: float) -> Series:
         channel, quantity, element = entry
         known = channel.times >= self.translation.start
-        used = known & ~channel.is_clipped
-        if switches.size and len(switches) < 0.2 * len(channel.times):  # a course recorded as an input always jumps
-            nearest = np.min(np.abs(channel.times[:, None] - switches[None, :]), axis=1)
-            used &= nearest > margin
+        used = known & ~channel.is_clipped & ~near_switch(channel.times, switches, margin)
         samples = np.searchsorted(self.times[quantity], channel.times[known])
         return Series(channel, quantity, element, samples, used[known])
 
@@ -136,6 +135,16 @@ class Run:
         return self._whitening.slopes(slopes, len(slopes) if rows is None else rows, into, factors)
 
 
+def _refuse_doubles(entries: Sequence[tuple[Channel, str, int]], recording: Recording) -> None:
+    """Two channels of one quantity: no law of the bank could say which of the two sensors is wrong."""
+    known: dict[tuple[str, int], Channel] = {}
+    for channel, quantity, element in entries:
+        other = known.setdefault((quantity, element), channel)
+        if other is not channel:
+            key, problem = f"channels.{channel.name}", f"it measures the same as {other.name}"
+            raise InputError(recording.path / "recording.yaml", key, problem, "leave one of the two out")
+
+
 def clocks(runs: Sequence[Run]) -> Clocks:
     """How late readings may be."""
     late: dict[str, float] = {}
@@ -159,22 +168,57 @@ def bank_quantity(target: Target, layout: BankLayout, recording: Recording) -> t
         InputError: The scenario has no such quantity.
     """
     source = recording.path / "recording.yaml"
-    if target.kind == "supply" and target.quantity == "current" and layout.strings:
-        return "supply_current", 0
-    if target.kind == "string" and target.quantity == "current" and target.element[0] <= len(layout.strings):
-        return "current", target.element[0] - 1
-    if target.kind == "coil" and target.quantity in QUANTITIES and QUANTITIES[target.quantity].axis == "coil":
-        coil = _coil(target.element, layout)
-        if coil is not None:
-            return target.quantity, coil
-    raise InputError(source, f"channels.{target}", "the scenario has no such quantity",
-                     f"it has {layout.coils} coils in {len(layout.strings)} strings")  # fmt: skip
+    place = _place(target, layout)
+    if place is not None:
+        return place
+    problem, remedy = "the scenario has no such quantity", f"it has {_rig(layout)}"
+    if (target.kind, target.quantity) == ("supply", "voltage") and layout.sources > 1:
+        problem, remedy = "every string has a supply of its own", "name `string[n].voltage`, across its coils"
+    elif (target.kind, target.quantity) in _CIRCUIT and not layout.strings:
+        problem, remedy = "the scenario has no circuit: it gives the power of its heaters", "leave the channel out"
+    elif target.is_component:
+        problem = "a network of coils is compared by the names of its supply, strings and coils"
+        remedy = "write for example `coil[1].temperature`; docs/recordings.md lists the names"
+    raise InputError(source, f"channels.{target}", problem, remedy)
+
+
+#: Quantity of the bank by kind and quantity of a channel where their names differ; those of a circuit.
+_CIRCUIT = {
+    ("supply", "current"): "supply_current",
+    ("supply", "voltage"): "terminal_voltage",
+    ("supply", "power"): "supply_power",
+    ("string", "current"): "current",
+    ("string", "voltage"): "string_voltage",
+    ("coil", "current"): "current",
+    ("coil", "voltage"): "voltage",
+}
+
+
+def _place(target: Target, layout: BankLayout) -> tuple[str, int] | None:
+    """Quantity of the bank and number of its element; None: it has none."""
+    name = _CIRCUIT.get((target.kind, target.quantity), target.quantity)
+    if target.kind not in ("supply", "string", "coil") or name not in QUANTITIES or not layout.elements(name):
+        return None
+    if target.kind == "supply":
+        return (name, 0) if name != "terminal_voltage" or layout.sources == 1 else None
+    if target.kind == "string":
+        return (name, target.element[0] - 1) if target.element[0] <= len(layout.strings) else None
+    coil = _coil(target.element, layout)
+    if coil is None or (QUANTITIES[name].axis != "coil" and name != "current"):
+        return None
+    return name, int(layout.string_of_coil[coil]) if name == "current" else coil
+
+
+def _rig(layout: BankLayout) -> str:
+    return f"{layout.coils} coils in {len(layout.strings)} strings" if layout.strings else f"{layout.coils} coils"
 
 
 def _coil(element: tuple[int, ...], layout: BankLayout) -> int | None:
+    """Number of a coil from 0; without a circuit all coils are one string."""
+    strings = layout.strings or (layout.coils,)
     if len(element) == 1:
         return element[0] - 1 if element[0] <= layout.coils else None
     string, place = element
-    if string > len(layout.strings) or place > layout.strings[string - 1]:
+    if string > len(strings) or place > strings[string - 1]:
         return None
-    return layout.first[string - 1] + place - 1
+    return sum(strings[: string - 1]) + place - 1

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from circuit.netlist import Network
 from cosim.assemble import Assembly, assemble
 from cosim.components import (
     CircuitComponent,
@@ -110,8 +111,6 @@ class _Reader:
         else:
             circuit = self.scenario.components[self.circuit]
             assert isinstance(circuit, CircuitComponent)
-            if circuit.open_coils or circuit.shorted_coils:
-                raise NoBank("a bank begins with whole coils (give open_coils as a finding, not in the scenario)")
             layout = BankLayout(coils, tuple(circuit.strings), circuit.supply)
             drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage"))
         own = self.assembly.parameters[self.actuator]
@@ -174,11 +173,24 @@ class _Reader:
             assert isinstance(circuit, CircuitComponent)
             base["string_resistance"] = circuit.string_resistance.to("ohm")
             base["supply_resistance"] = circuit.supply_resistance.to("ohm")
+            self._break_coils(base, circuit)
         if self.load is not None:
             load = self.scenario.components[self.load]
             assert isinstance(load, HangingMassComponent)
             base["load"] = load.mass.to("kg") * GRAVITY
         return BankParameters(base)
+
+    def _break_coils(self, base: dict[str, float | Array], circuit: CircuitComponent) -> None:
+        """Coils that are open or shorted in the scenario have the resistance that the circuit gives them."""
+        network = Network(tuple(circuit.strings), open_coils=tuple(circuit.open_coils))
+        fixed = {**network.open_resistances(), **dict.fromkeys(circuit.shorted_coils, 0.0)}
+        if not fixed:
+            return
+        for name in ("reference_resistance", "resistance_temperature_coefficient"):
+            values = np.broadcast_to(np.asarray(base[name], dtype=np.float64), (network.coils,)).copy()
+            for coil, resistance in fixed.items():
+                values[coil - 1] = resistance if name == "reference_resistance" else 0.0
+            base[name] = values
 
     def _fmu_values(self) -> dict[str, Array]:
         """Values of the FMU's parameters: its own start values, replaced by those of the scenario."""

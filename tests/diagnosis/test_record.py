@@ -7,16 +7,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
 from cosim.errors import InputError
+from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
 from diagnosis.recording.channels import chosen, offered
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.quantity import parse_quantity
+from diagnosis.recording.quantity import Target, parse_quantity
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import Sensor, SensorFile, lag, load_sensors, read_with
@@ -51,14 +53,90 @@ def test_a_perfect_recording_is_the_run_itself(tmp_path):
         np.testing.assert_allclose(found.values, results[name].values, rtol=1e-12)
 
 
-def test_a_recording_brings_back_its_conditions(tmp_path):
-    (tmp_path / "short.yaml").write_text(PENDULUM)
-    out = tmp_path / "r"
-    done = CliRunner().invoke(app, ["record", str(tmp_path / "short.yaml"), "--out", str(out)])
+HEATER = """
+title: one heater
+time: {start: 2 s, stop: 12 s, macro_step: 100 ms, output_step: 500 ms, checkpoint_step: 10 s}
+components:
+  drive: {kind: programme, outputs: {power: {unit: W, points: [[2 s, 0 W], [4 s, 1 W], [9 s, 0.2 W]]}}}
+  room: {kind: programme, outputs: {temperature: {unit: K, constant: 19.5 degC}}}
+  heater: {kind: fmu, fmu: thermal_stiffness, structure: {coils: 1}, parameter_set: tclab_heater,
+           parameters: {initial_temperature: 31 degC}}
+connections:
+  - drive.power -> heater.power[1]
+  - room.temperature -> heater.ambient_temperature
+"""
+#: What somebody may change in the scenario after the recording was made.
+LATER = [
+    ("points: [[2 s, 0 W], [4 s, 1 W], [9 s, 0.2 W]]", "interpolation: linear, points: [[0 s, 3 W], [100 s, 5 W]]"),
+    ("constant: 19.5 degC", "points: [[0 s, 25 degC], [9 s, 40 degC]]"),
+    ("initial_temperature: 31 degC", "initial_temperature: 50 degC"),
+    ("start: 2 s, stop: 12 s", "start: 0 s, stop: 700 s"),
+]
+
+
+@pytest.mark.parametrize("is_run_folder", [False, True])
+def test_a_recording_holds_its_conditions_whatever_the_scenario_says_later(tmp_path, is_run_folder):
+    file, out = tmp_path / "heater.yaml", tmp_path / "r"
+    file.write_text(HEATER)
+    original = parse_scenario(HEATER, file)
+    if is_run_folder:
+        run(original, tmp_path / "done")
+    done = CliRunner().invoke(app, ["record", str(tmp_path / "done" if is_run_folder else file), "--out", str(out)])
     assert done.exit_code == 0, done.output
-    again = scenario_of(parse_scenario(PENDULUM, tmp_path / "short.yaml"), load_recording(out))
-    assert again.time.stop.to("s") == 2.0
-    assert again.components == pendulum().components
+    text = HEATER
+    for before, after in LATER:
+        assert before in text
+        text = text.replace(before, after)
+    file.write_text(text)
+    again = scenario_of(parse_scenario(text, file), load_recording(out))
+    assert again.components["drive"] == original.components["drive"]
+    assert again.components["room"] == original.components["room"]
+    assert again.components["heater"].parameters["initial_temperature"].to("degC") == 31.0
+    assert (again.time.start.to("s"), again.time.stop.to("s")) == (2.0, 12.0)
+    np.testing.assert_array_equal(run(again)["heater.temperature"].values, run(original)["heater.temperature"].values)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [HEATER.replace(",\n           parameters: {initial_temperature: 31 degC}", ""), PENDULUM],
+    ids=["FMU", "pendulum"],
+)
+def test_a_start_that_the_scenario_does_not_state_is_recorded_too(tmp_path, text):
+    """It is that of the FMU's own description, or of the pendulum's design."""
+    file, out = tmp_path / "own.yaml", tmp_path / "r"
+    file.write_text(text)
+    assert CliRunner().invoke(app, ["record", str(file), "--out", str(out)]).exit_code == 0
+    recording = load_recording(out)
+    (parameters,) = (c["parameters"] for c in recording.overrides["components"].values() if "parameters" in c)
+    if "arm" in text:
+        assert parameters == {"initial_angle": "2 rad", "initial_angular_velocity": "0.0 rad/s"}
+    else:
+        first = recording.channels["coil[1].temperature"].values[0]
+        assert PhysicalValue.parse(parameters["initial_temperature"]).to("K") == pytest.approx(first, abs=1e-9)
+    np.testing.assert_array_equal(
+        next(iter(run(scenario_of(parse_scenario(text, file), recording)).values())).values,
+        next(iter(run(parse_scenario(text, file)).values())).values,
+    )
+
+
+def test_recorded_conditions_are_not_changed_by_reading_them(tmp_path):
+    path, drive = tmp_path / "r", {"unit": "W", "points": [["0 s", "0 W"]]}
+    (tmp_path / "heater.yaml").write_text(HEATER)
+    write_recording(
+        path,
+        {
+            "coil[1].temperature": read_results(
+                run(parse_scenario(HEATER, tmp_path / "heater.yaml")), [], SensorFile(), 0, tmp_path
+            )["coil[1].temperature"]
+        },
+        Notes("h", overrides={"components": {"drive": {"outputs": {"power": drive}}}}),
+    )
+    content = yaml.safe_load((path / "recording.yaml").read_text())
+    content["inputs"] = {"drive.power": {"column": "coil[1].temperature", "unit": "W"}}
+    (path / "recording.yaml").write_text(yaml.safe_dump(content))
+    recording = load_recording(path)
+    scenario_of(parse_scenario(HEATER, tmp_path / "heater.yaml"), recording)
+    assert recording.overrides["components"]["drive"]["outputs"]["power"] == drive
 
 
 def test_every_sensor_fault_leaves_its_own_mark(tmp_path):
@@ -135,6 +213,20 @@ def test_samples_between_outputs_are_right_to_fourth_order():
         at = np.linspace(0.0, 2.0, 997)
         errors.append(np.max(np.abs(sample(series, at) - np.sin(3.0 * at))))
     assert 3.5 < math.log2(errors[0] / errors[1]) < 4.3
+
+
+@pytest.mark.parametrize("is_flow", [False, True])
+def test_a_run_that_loses_its_way_is_infinitely_wrong_without_a_warning(is_flow):
+    """Warnings are errors here: neither overflow nor `invalid value` may come up."""
+    times = np.arange(0.0, 10.0)
+    values = np.array([1.0, 2.0, 3.0, 4.0, 1e308, -1e308, math.inf, math.nan, 5.0, 6.0])
+    dataset = xr.Dataset({"a.b": ("time", values, {"units": "km"})}, {"time": times})
+    series = series_of(dataset, Target("a", (), "b", "mm"), Path("r"))
+    found = sample(Series(series.times, series.values, is_flow, "mm"), np.array([0.0, 0.5, 2.5, 4.0, 5.5, 7.0, 9.0]))
+    np.testing.assert_allclose(found[:2], [1e6, 1.5e6])
+    assert np.isposinf(found[3:6]).all()
+    assert not np.isnan(found).any()
+    assert found[6] == (6e6 if is_flow else math.inf)  # the cubic of the last samples is drawn with a lost one
 
 
 def test_most_exact_sensor_entry_holds():

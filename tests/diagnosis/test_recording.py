@@ -283,6 +283,12 @@ def test_noise_scales_with_the_unit_and_ignores_value_and_slope(scale, slope, se
     )
 
 
+def test_a_reading_that_stands_still_but_for_its_last_digits_has_no_step():
+    values = 0.4905 + 1e-13 * np.repeat([0.0, 1.0, 2.0, 1.0, 3.0], 8)
+    assert find_quantum(values) == 0.0
+    assert 0.0 < estimate_noise(np.arange(40.0), values) < 1e-9
+
+
 def test_the_step_of_a_rounded_reading_is_found_and_a_smooth_one_has_none():
     times, values = heating(0.05, 0.0625, 3)
     assert find_quantum(values) == pytest.approx(0.0625, rel=1e-9)

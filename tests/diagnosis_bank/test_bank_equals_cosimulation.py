@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 
+from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.inputs import Drive, Programme, grid
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.parameters import BankParameters
+from diagnosis.recording.quantity import parse_quantity
+from diagnosis.recording.series import series_of
 
 #: Both make the same exact steps; the bank's exp is right to 1e-15 and rounding adds up over some thousand steps.
 TOLERANCE = 1e-9
@@ -21,6 +24,9 @@ NAMES = {
     "current": "circuit.string_current",
     "supply_current": "circuit.supply_current",
 }
+#: Derived quantities of the bank to their variables, or to the channels that are made of several.
+DERIVED = {"voltage": "circuit.voltage", "tension": "load.tension"}
+MADE = {"string_voltage": [f"string[{n}].voltage" for n in range(1, 7)], "supply_power": ["supply.power"]}
 
 NETWORK = """
 title: network under load
@@ -101,12 +107,26 @@ def test_loaded_networks_follow_the_co_simulation(tmp_path, supply, regressed):
             np.array([[0.0] * 6, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0], [1.0, 0.0, 1.0, 0.0, 1.0, 0.0]]),
         )
     room = Programme(np.array([0.0, 40.0]), np.array([295.0, 299.0]), is_linear=True)
+    wanted = dict.fromkeys((*NAMES, "extension", "length", *DERIVED, *MADE, "terminal_voltage"), dataset.time.values)
     result = simulate(
-        BankLayout(36, (6,) * 6, supply), Drive(room, voltage), 0.02, 40.0, dataset.time.values,
+        BankLayout(36, (6,) * 6, supply), Drive(room, voltage), 0.02, 40.0, wanted,
         {"supply_resistance": 0.4, "string_resistance": 0.2, "resistance_temperature_coefficient": 0.002,
          "use_regressed_cooling_rate": float(regressed == "true"), "load": 0.1 * 9.81},
     )  # fmt: skip
     assert np.ptp(dataset["actuator.stiffness"].values) > 100.0
-    assert_equal(
-        result, dataset, {**NAMES, "extension": "load.extension", "length": "load.length"}
-    )  # fmt: skip
+    assert_equal(result, dataset, {**NAMES, **DERIVED, "extension": "load.extension", "length": "load.length"})
+    for quantity, channels in MADE.items():
+        wanted = np.stack([series_of(dataset, parse_quantity(c), tmp_path).values for c in channels], axis=1)
+        np.testing.assert_allclose(result[quantity], wanted, rtol=TOLERANCE, atol=TOLERANCE * wanted.max())
+    terminal = dataset["circuit.terminal_voltage"].values.reshape(len(dataset.time), -1)
+    np.testing.assert_allclose(
+        result["terminal_voltage"], np.broadcast_to(terminal, (len(terminal), 6)), rtol=TOLERANCE
+    )
+    if supply == "common":
+        assert terminal[20, 0] == pytest.approx(9.0 - 0.4 * dataset["circuit.supply_current"].values[20], rel=1e-9)
+        np.testing.assert_array_equal(
+            series_of(dataset, parse_quantity("supply.voltage"), tmp_path).values, terminal[:, 0]
+        )
+    else:
+        with pytest.raises(InputError, match="a supply of its own"):
+            series_of(dataset, parse_quantity("supply.voltage"), tmp_path)

@@ -66,6 +66,42 @@ def test_grouped_derivatives_are_those_of_single_simulations(parameters, monkeyp
         assert np.allclose(grouped[quantity], values, rtol=0.0, atol=1e-9 * max(1.0, np.abs(values).max())), quantity
 
 
+@pytest.mark.parametrize("supply_resistance", [0.0, 0.3])
+@pytest.mark.parametrize("quantity", ["voltage", "string_voltage", "terminal_voltage", "supply_power", "tension"])
+def test_derivatives_of_derived_quantities_are_those_of_single_simulations(quantity, supply_resistance):
+    bank, times = full_bank(NETWORK), {quantity: TIMES, "temperature": TIMES}
+    parameters = WARM.with_base(supply_resistance=supply_resistance, sensor_lag=0.2, clock_offset=0.1)
+    directions = [logarithmic(name, EYE[i]) for name in ("reference_resistance", "conductance") for i in (2, 7)]
+    directions += [Direction("string_resistance", np.array([0.0, 1.0]), 1e-4), Direction("load", EYE[4], 1e-4)]
+    base, found = sensitivities(bank, parameters, network_inputs(), times, directions)
+    for n, d in enumerate(directions):
+        size = 12 if d.parameter in COIL_FIELDS else 2
+        start = np.full(size, parameters.base.get(d.parameter, COIL_FIELDS.get(d.parameter, (0.0, ""))[0]))
+        both = [
+            bank.simulate(
+                parameters.with_base(**{d.parameter: start + sign * d.step * d.mask}), network_inputs(), times
+            )
+            for sign in (1.0, -1.0)
+        ]
+        expected = (both[0][quantity] - both[1][quantity]) / (2.0 * d.step)
+        atol = 1e-9 * max(1.0, np.abs(expected).max(), np.abs(base[quantity]).max())  # 1e-16 * value / 1e-4
+        np.testing.assert_allclose(found[quantity][n], expected, rtol=0.0, atol=atol)
+    if quantity == "terminal_voltage" and supply_resistance == 0.0:
+        assert np.abs(found[quantity]).max() < 1e-9  # an ideal supply does not feel its strings
+    else:
+        assert np.abs(found[quantity]).max() > 1e-3
+
+
+def test_without_a_circuit_nothing_electrical_is_recorded():
+    layout = BankLayout(2)
+    assert [q for q in ("voltage", "string_voltage", "terminal_voltage", "supply_power") if layout.elements(q)] == []
+    bank, inputs = full_bank(layout), heater(0.1, 5.0, coils=2)
+    found = bank.simulate(BankParameters({"load": 0.5}), inputs, {"tension": TIMES[:3], "stiffness": TIMES[:3]})
+    np.testing.assert_array_equal(found["tension"], np.full((3, 2), 0.5))
+    with pytest.raises(ValueError, match="voltage needs a circuit"):
+        bank.simulate(BankParameters(), inputs, {"voltage": TIMES[:3]})
+
+
 def test_coils_that_feel_each_other_are_not_grouped():
     plain = BankParameters()
     for term in ("neighbour_heat", "shared_mass", "supply_source_resistance", "wrong_identity"):
