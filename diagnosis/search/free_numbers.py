@@ -108,7 +108,7 @@ def free_parameters(scenario: Scenario, recordings: Sequence[Recording]) -> list
     """Numbers that may be off: those whose parameter set states an uncertainty, and what a recording says itself.
 
     Of a component whose parameters state none, those of `USUAL` may be off. What a recording doubts of a programme, or
-    of a temperature, is divided into what the rig shares and what each recording or day has (`diagnosis.search.shares`).
+    of a temperature, is divided into what the rig shares and what each recording or day has (module `shares`).
     Any other initial state is set by hand each time, and belongs to its recording alone.
 
     Raises:
