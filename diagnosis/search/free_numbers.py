@@ -304,9 +304,9 @@ def _of_fmu(scenario: Scenario, given: FmuComponent, component: str, name: str) 
         archive.remove()
     unit = si_unit(v.unit)
     factor, offset = conversion(v.unit, unit)
-    return Number(
-        tuple((factor * np.asarray(array, dtype=np.float64).reshape(-1) + offset).tolist()), unit, bool(v.shape)
-    )
+    # in FMI 3.0 one start value may stand for all elements
+    values = factor * np.broadcast_to(np.asarray(array, dtype=np.float64), v.shape).reshape(-1) + offset
+    return Number(tuple(values.tolist()), unit, bool(v.shape))
 
 
 def si_unit(unit: str) -> str:
