@@ -266,27 +266,24 @@ def _number(scenario: Scenario, component: str, name: str) -> Number | None:
     if isinstance(given, ProgrammeComponent):
         output = given.outputs.get(name)
         return None if output is None else Number((0.0,), si_unit(output.unit))
-    if isinstance(given, FmuComponent):
-        return _of_fmu(scenario, given, component, name)
     assembly = assemble(scenario)
     try:
-        value = assembly.parameters[component].values.get(name) if component in assembly.parameters else None
+        given = assembly.scenario.components[component]  # an actuator with its size
+        resolved = assembly.parameters.get(component)
+        value = None if resolved is None else resolved.values.get(name)
     finally:
         assembly.system.terminate()
+    if isinstance(given, FmuComponent):
+        return _of_fmu(given, component, name, value, scenario.path or Path())
     if not isinstance(value, PhysicalValue):
         return None
     unit = si_unit(value.unit)
     return Number((value.to(unit),), unit)
 
 
-def _of_fmu(scenario: Scenario, given: FmuComponent, component: str, name: str) -> Number | None:
+def _of_fmu(given: FmuComponent, component: str, name: str, value: object, source: Path) -> Number | None:
     """A parameter of an FMU: what the scenario or its set gives, else the FMU's own start value."""
-    assembly = assemble(scenario)
-    try:
-        value = assembly.parameters[component].values.get(name)
-    finally:
-        assembly.system.terminate()
-    archive = open_fmu(find_fmu(given, scenario.path or Path()))
+    archive = open_fmu(find_fmu(given, source))
     try:
         table = Table(component, archive, FmuSettings(given.structure))
         variable = table.all.get(name)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from cosim.errors import InputError
+from cosim.scenario import load_scenario
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.own_numbers import own_numbers
@@ -251,3 +252,27 @@ def test_a_doubt_about_nothing_is_one_error(tmp_path, name, problem):
     recording = record(base, tmp_path / "one", {}, 1, uncertain={name: "1 K"})
     with pytest.raises(InputError, match=problem):
         closed(base, recording)
+
+
+def test_an_actuator_that_takes_its_size_from_its_neighbours_has_its_starts_too(tmp_path):
+    text = """
+title: Three muscles in a string
+time: {stop: 2 s, macro_step: 100 ms, output_step: 200 ms, checkpoint_step: 1 s}
+components:
+  supply: {kind: programme, outputs: {voltage: {unit: V, constant: 1 V}}}
+  circuit: {kind: ngspice, strings: [3], start: {resistance: 1.15 ohm}}
+  room: {kind: programme, outputs: {temperature: {unit: K, points: [[0 s, 21 degC], [1 s, 22 degC]]}}}
+  muscles: {kind: actuator, fmu: tcp_muscle, electrical: circuit, ambient: room}
+connections: [supply.voltage -> circuit.supply_voltage]
+"""
+    (tmp_path / "scenario.yaml").write_text(text)
+    base = load_scenario(tmp_path / "scenario.yaml")
+    recording = record(base, tmp_path / "one", {}, 1, channels="coil[*].temperature", uncertain={
+        "muscles.initial_temperature[3]": "2 K", "room.temperature": "0.5 degC"})  # fmt: skip
+    model = closed(base, recording)
+    point = Point(np.array([1.0 if "[3]" in p.name else 0.0 for p in model.parameters]))
+    changed = model.scenario_at(Point(point.base + 0.5), 0).components
+    starts = [v.to("degC") for v in changed["muscles"].parameters["initial_temperature"]]
+    np.testing.assert_allclose(starts, [22.0, 22.0, 25.0])
+    rooms = [v.to("degC") for _, v in changed["room"].outputs["temperature"].points]
+    np.testing.assert_allclose(rooms, np.array([21.0, 22.0]) + np.sqrt(0.5) * 0.5, rtol=1e-12)  # two halves of variance
