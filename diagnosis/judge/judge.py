@@ -12,6 +12,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
+from diagnosis.search.shares import departures
 from diagnosis.simulator.models import DiagnosisModel
 
 #: Half width of a 95 % interval in standard deviations.
@@ -207,12 +208,13 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
 
 def recalibration(model: DiagnosisModel, fit: Fit) -> dict[str, float]:
     """Parameters that moved by more than `MOVED` prior deviations: factor where relative, change where not."""
-    moved = {}
-    for parameter, z in zip(model.parameters, fit.point.base):
-        if abs(z) > MOVED:
-            amount = parameter.deviation * float(z)
-            moved[parameter.name] = float(np.exp(amount)) if parameter.is_relative else amount
-    return moved
+    names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
+    relative = {p.name for p in model.parameters if p.is_relative}
+    return {
+        name: float(np.exp(amount)) if name in relative else amount
+        for name, (amount, z) in departures(names, deviations, fit.point.base).items()
+        if abs(z) > MOVED
+    }
 
 
 def nominal_cost(model: DiagnosisModel) -> float:

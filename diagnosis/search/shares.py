@@ -13,7 +13,9 @@ ed. 2013, section 5.4).
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+
+from cosim.unit import Array
 
 #: Stands in the name of every parameter that belongs to some recordings alone.
 OWN = " of recording "
@@ -58,3 +60,25 @@ def shared_deviation(stated: Collection[float], most: float = math.inf) -> float
 def own_deviation(stated: float, shared: float) -> float:
     """Standard deviation of what is left to a recording: the variances add to the one that it states."""
     return math.sqrt(stated**2 - shared**2)
+
+
+def departures(names: Sequence[str], deviations: Array, z: Array) -> dict[str, tuple[float, float]]:
+    """How far numbers are from their nominal values: what is shared and what is a recording's own taken together.
+
+    Args:
+        names: Of all parameters.
+        deviations: Their prior deviations, shape (parameters,).
+        z: Their distances in these, shape (parameters,).
+
+    Returns:
+        Name to the amount, and the amount in deviations of the sum; what is shared stands in the sums alone.
+    """
+    known = dict(zip(names, zip((deviations * z).tolist(), deviations.tolist())))
+    parts = {name: name.split(OWN)[0] for name in names if is_own(name) and name.split(OWN)[0] in known}
+    found = {}
+    for name, (amount, deviation) in known.items():
+        if name in parts.values():
+            continue
+        more, doubt = known[parts[name]] if name in parts else (0.0, 0.0)
+        found[name] = amount + more, (amount + more) / math.hypot(deviation, doubt)
+    return found
