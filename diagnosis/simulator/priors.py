@@ -53,8 +53,12 @@ PRIORS: Mapping[str, Prior] = {
     "load": Prior(0.02, 0.012, needs=_MECHANICAL),
     "power_gain": Prior(0.0, needs=("temperature",)),
 }
-#: Doubt about the temperature of the surroundings where a recording states none [K].
-AMBIENT = 0.5
+#: Doubt about the room and the start of every recording that states none [K]; divided into what all recordings share
+#: and what each has (`diagnosis.search.shares`).
+DAILY: Mapping[str, Prior] = {
+    "ambient_offset": Prior(0.5, is_relative=False),
+    "initial_temperature": Prior(RIG_START, is_relative=False),
+}
 #: Number and the element in brackets.
 _ELEMENT = re.compile(r"^(?P<name>.*?)(?:\[(?P<element>\d+)\])?$")
 
@@ -71,7 +75,7 @@ class OwnPriors:
         day: Name of its day; empty: one of its own.
     """
 
-    ambient: float = AMBIENT
+    ambient: float = DAILY["ambient_offset"].shared
     starts: Mapping[int, float] = field(default_factory=dict)
     positions: Mapping[int, float] = field(default_factory=dict)
     are_all_stated: bool = False
@@ -134,7 +138,7 @@ def own_priors(recording: Recording, actuator: str, ambient: str, coils: int) ->
     Raises:
         InputError: It states a number that a coil bank cannot vary, of no coil, or no positive deviation.
     """
-    room, starts, positions = AMBIENT, dict[int, float](), dict[int, float]()
+    room, starts, positions = DAILY["ambient_offset"].shared, dict[int, float](), dict[int, float]()
     places = {f"{actuator}.initial_temperature": (starts, "K"), f"{actuator}.initial_loop_position": (positions, "1")}
     # those of single coils last: they count more than one for all
     for name, given in sorted(recording.uncertain.items(), key=lambda item: item[0].endswith("]")):
