@@ -112,8 +112,9 @@ def _daily(layout: BankLayout, daily: DailyPriors) -> Iterator[Free]:
     for number, own in enumerate(daily.own):
         alone = frozenset((number,))
         if not own.are_all_stated:
-            label = own_label("initial_temperature", number)
-            yield Free("initial_temperature", every, _offset(label, daily.start), alone)
+            label, others = own_label("initial_temperature", number), every.copy()
+            others[list(own.starts)] = 0.0  # a coil whose start is stated is off by that alone
+            yield Free("initial_temperature", others, _offset(label, daily.start), alone)
         for name, unit, stated in (
             ("initial_temperature", "K", own.starts), ("initial_loop_position", "1", own.positions)
         ):  # fmt: skip

@@ -71,7 +71,7 @@ class OwnPriors:
         ambient: Of the temperature of the surroundings [K].
         starts: Of the temperature at the start, coil to [K]: each by itself.
         positions: Of the place in the hysteresis loop at the start, coil to [1]: each by itself.
-        are_all_stated: Whether `starts` has every coil; else all coils together are off by `RIG_START` besides.
+        are_all_stated: Whether `starts` has every coil; else the others together are off by the default.
         day: Name of its day; empty: one of its own.
     """
 

@@ -7,6 +7,7 @@ import pytest
 
 from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.own_numbers import own_numbers
@@ -14,6 +15,7 @@ from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
 from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.closed_loop import ClosedLoopModel
 from tests.diagnosis.two_heaters import conditions, record, scenario
 
 CELSIUS = 273.15
@@ -71,6 +73,9 @@ def test_one_coil_whose_start_is_unknown_leaves_the_other(tmp_path):
     own = {p.name: p.deviation for p in model.parameters if "coil" in p.name and "initial" in p.name}
     assert set(own) == {"coil[2].initial_temperature of recording 1"}
     assert own["coil[2].initial_temperature of recording 1"] == pytest.approx(10.0, rel=1e-3)
+    number = [p.name for p in model.parameters].index("initial_temperature of recording 1")
+    moved = Point(np.eye(len(model.parameters))[number])
+    np.testing.assert_array_equal(total(model, moved, 0, "initial_temperature")[1], 50.0 + CELSIUS)
     found = total(model, fitted(model), 0, "initial_temperature") - CELSIUS
     np.testing.assert_allclose(found, [50.0, 42.0], atol=0.2)
 
@@ -276,3 +281,18 @@ connections: [supply.voltage -> circuit.supply_voltage]
     np.testing.assert_allclose(starts, [22.0, 22.0, 25.0])
     rooms = [v.to("degC") for _, v in changed["room"].outputs["temperature"].points]
     np.testing.assert_allclose(rooms, np.array([21.0, 22.0]) + np.sqrt(0.5) * 0.5, rtol=1e-12)  # two halves of variance
+
+
+def test_an_amended_scenario_has_what_every_day_has_and_no_day_of_its_own(tmp_path):
+    base = scenario(tmp_path, "tcp_muscle")
+    given = {"room.temperature": "1 K", "heaters.initial_temperature": "2 K"}
+    days = [record(base, tmp_path / f"day_{n}", {}, n, conditions("30 degC", "25 degC"), uncertain=given)
+            for n in range(2)]  # fmt: skip
+    model = ClosedLoopModel(base, days)
+    z = [1.0 if " of recording " not in p.name else 5.0 for p in model.parameters]
+    path = amend_closed_loop(base, model, Point(np.array(z)), tmp_path / "amended")
+    written = load_scenario(path).components
+    room = written["room"].outputs["temperature"].constant.to("degC")
+    assert room == pytest.approx(21.0 + 1.0 / np.sqrt(2.0))
+    start = written["heaters"].parameters["initial_temperature"].to("degC")
+    assert start == pytest.approx(21.0 + 0.3 / np.sqrt(2.0))
