@@ -156,6 +156,9 @@ def _comment(scenario: Scenario, changes: Changes) -> str:
     lines = [f"# Amended scenario{name}, written by `cosim diagnose` (docs/amended-models.md).", "#"]
     if changes.factors:
         lines.append(f"# Recalibrated: {', '.join(changes.factors)}.")
+    moved = ", ".join(f"{name} by {amount:.4g} K" for name, amount in changes.offsets.items())
+    if moved:
+        lines.append(f"# Moved by what all recordings share: {moved}.")
     for fitted in changes.terms:
         lines.append(f"# {fitted.part.value}: {fitted.term.name}: {fitted.term.law}")
         for parameter in fitted.term.parameters:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,9 +13,12 @@ from diagnosis.bank.layout import QUANTITY_FIELDS, Array
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.search.problem import Point
+from diagnosis.search.shares import is_own
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.translate import Translation, translate
 
+#: Fields of the bank that are moved by an amount and not by a factor: the room, and the start.
+OFFSETS = ("ambient_offset", "initial_temperature")
 #: Values this close to each other are one value: what is written has ten digits.
 SAME = 1e-10
 
@@ -51,12 +54,14 @@ class Changes:
         factors: Base parameter of the bank to the factor that the fit found, a number or one per element.
         terms: Terms in the order of the catalogue.
         sensors: Base parameters of the sensors (how late the clock of every quantity is) with their values.
+        offsets: Those of `OFFSETS` that all recordings share, and by how much they are moved [K].
     """
 
     translation: Translation
     factors: Mapping[str, Array]
     terms: Sequence[FittedTerm]
     sensors: Mapping[str, Array]
+    offsets: Mapping[str, float] = field(default_factory=dict)
 
     def of(self, part: Part) -> list[FittedTerm]:
         """The terms of a part."""
@@ -71,26 +76,35 @@ class Changes:
 def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     """What a fitted point changes in a scenario.
 
-    What belongs to a day alone (its ambient, its first temperature) is left as the scenario has it.
+    What belongs to a day alone (its ambient, its first temperature) is left as the scenario has it; what every day has
+    of it is in.
 
     Raises:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
     """
-    lasting = np.array(
-        [0.0 if " of recording " in p.name else z for p, z in zip(model.parameters, point.base)], dtype=np.float64
-    )
+    lasting = np.array([0.0 if is_own(p.name) else z for p, z in zip(model.parameters, point.base)], dtype=np.float64)
     nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
     fitted = model.bank_parameters(Point(lasting, point.terms), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
     terms = fitted_terms(model.bank.terms, fitted)
-    return Changes(translate(scenario), _factors(nominal, fitted), terms, sensors)
+    return Changes(translate(scenario), _factors(nominal, fitted), terms, sensors, _offsets(nominal, fitted))
+
+
+def _offsets(nominal: BankParameters, fitted: BankParameters) -> dict[str, float]:
+    """Shared by all coils: `diagnosis.simulator.free`."""
+    found = {}
+    for name in OFFSETS:
+        amount = np.asarray(fitted.base.get(name, 0.0)) - np.asarray(nominal.base.get(name, 0.0))
+        if np.any(amount):
+            found[name] = float(np.mean(amount))
+    return found
 
 
 def _factors(nominal: BankParameters, fitted: BankParameters) -> dict[str, Array]:
     factors = {}
     for name, value in fitted.base.items():
         before, after = (np.asarray(v, dtype=np.float64) for v in (nominal.base.get(name, 0.0), value))
-        if name in QUANTITY_FIELDS or np.array_equal(before, after):
+        if name in (*QUANTITY_FIELDS, *OFFSETS) or np.array_equal(before, after):
             continue
         if np.any(before == 0.0):
             raise CannotAmend(f"{name} was 0 in the scenario and is not any more")

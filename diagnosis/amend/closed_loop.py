@@ -9,7 +9,7 @@ import yaml
 from cosim.scenario import Scenario
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.written import comment_of, write_scenario
-from diagnosis.search.cosim_run import Changes, changed
+from diagnosis.search.cosim_run import changed
 from diagnosis.search.problem import Point
 from diagnosis.simulator.closed_loop import ClosedLoopModel
 
@@ -17,7 +17,7 @@ from diagnosis.simulator.closed_loop import ClosedLoopModel
 def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, folder: Path) -> Path:
     """Write the scenario with the fitted parameters and terms, which its components switch on themselves.
 
-    What belongs to one recording alone (its initial state) is left as the scenario has it.
+    What belongs to one recording or day alone (its initial state) is left as the scenario has it; what all share is in.
 
     Args:
         scenario: What was diagnosed.
@@ -28,12 +28,7 @@ def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, 
     Returns:
         The file that `cosim run` takes.
     """
-    given = model.model.changes_at(point, 0)
-    daily = {(f.component, f.name) for f in model.model.free if f.recording is not None}
-    lasting = Changes(
-        {c: {n: v for n, v in own.items() if (c, n) not in daily} for c, own in given.parameters.items()},
-        {c: {n: v for n, v in own.items() if (c, n) not in daily} for c, own in given.shifts.items()},
-    )
+    lasting = model.model.changes_at(point, None)
     folder.mkdir(parents=True, exist_ok=True)
     data = yaml.safe_load(changed(scenario, lasting).to_yaml())
     take_along(scenario, data, folder)

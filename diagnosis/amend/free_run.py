@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from cosim.components import FmuComponent, ProgrammeComponent
 from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario
@@ -29,16 +30,44 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import series_of
+from diagnosis.search.cosim_run import shifted
 from diagnosis.simulator.translate import Translation, translate
 
 
-def free_run(amended: AmendedModel, recording: Recording, times: Mapping[str, Array]) -> dict[str, Array]:
+@dataclass(frozen=True)
+class Start:
+    """The room and the start of one recording, as they were estimated.
+
+    Args:
+        ambient_offset: How much warmer its surroundings were than it says [K].
+        temperature: Of every coil at the start [K], one number or shape (coils,).
+        position: Of every coil in its hysteresis loop at the start, as `temperature`.
+    """
+
+    ambient_offset: float
+    temperature: Array
+    position: Array
+
+
+def start_of(parameters: BankParameters) -> Start:
+    """The start in parameters of the bank."""
+    ambient, temperature, position = (
+        np.asarray(parameters.base.get(n, 0.0), dtype=np.float64)
+        for n in ("ambient_offset", "initial_temperature", "initial_loop_position")
+    )
+    return Start(float(np.mean(ambient)), temperature, position)  # one room for all coils
+
+
+def free_run(
+    amended: AmendedModel, recording: Recording, times: Mapping[str, Array], start: Start | None = None
+) -> dict[str, Array]:
     """Run the amended scenario under the conditions of a recording, and read it.
 
     Args:
         amended: The model.
         recording: Whose conditions (programmes, ambient, first temperature) hold; nothing of what it measured is used.
         times: Quantity of the bank to sample times [s], rising.
+        start: Its room and start, where they were estimated; None: as it says, and off by what every day is off.
 
     Returns:
         Quantity to values at its samples, shape (samples, elements), SI, as the sensors read them, without noise.
@@ -47,14 +76,58 @@ def free_run(amended: AmendedModel, recording: Recording, times: Mapping[str, Ar
         InputError: The conditions do not fit the scenario.
         RunStopped: A unit failed.
     """
-    results = run(scenario_of(amended.scenario, carried(recording, amended)))
-    return read_run(results, translate(scenario_of(amended.original, recording)), times, amended.changes)
+    plain = scenario_of(amended.original, recording)
+    translation = translate(plain)
+    if start is None:
+        said, offsets = start_of(translation.parameters), amended.changes.offsets
+        start = replace(
+            said,
+            ambient_offset=offsets.get("ambient_offset", 0.0),
+            temperature=said.temperature + offsets.get("initial_temperature", 0.0),
+        )
+    own = started(scenario_of(amended.scenario, carried(recording, amended)), plain, translation, start)
+    return read_run(run(own), translation, times, amended.changes)
 
 
-def free_run_of(scenario: Scenario, recording: Recording, times: Mapping[str, Array]) -> dict[str, Array]:
-    """The same of a scenario as it is, without any change."""
-    own = scenario_of(scenario, recording)
-    return read_run(run(own), translate(own), times)
+def free_run_of(
+    scenario: Scenario, recording: Recording, times: Mapping[str, Array], start: Start | None = None
+) -> dict[str, Array]:
+    """The same of a scenario as it is, without any change but a start that was estimated."""
+    plain = scenario_of(scenario, recording)
+    translation = translate(plain)
+    own = plain if start is None else started(plain, plain, translation, start)
+    return read_run(run(own), translation, times)
+
+
+def started(scenario: Scenario, plain: Scenario, translation: Translation, start: Start) -> Scenario:
+    """A scenario with the room and the start of a recording.
+
+    Args:
+        scenario: What is to run, under the conditions of the recording.
+        plain: What was diagnosed, under the same conditions: its room is the one that the recording says.
+        translation: The same as a bank.
+        start: Of the recording.
+    """
+    components: dict[str, Any] = dict(scenario.components)
+    name, _, output = translation.ambient.partition(".")
+    room = plain.components[name]
+    assert isinstance(room, ProgrammeComponent)
+    moved = shifted(room.outputs[output], start.ambient_offset / translation.ambient_factor)
+    components[name] = room.model_copy(update={"outputs": {**room.outputs, output: moved}})
+    coils = components[translation.actuator]
+    assert isinstance(coils, FmuComponent)
+    own: dict[str, PhysicalValue | list[PhysicalValue]] = {"initial_temperature": _quantities(start.temperature, "K")}
+    if np.any(start.position):
+        own["initial_loop_position"] = _quantities(start.position, "1")
+    components[translation.actuator] = coils.model_copy(update={"parameters": {**coils.parameters, **own}})
+    return scenario.model_copy(update={"components": components})
+
+
+def _quantities(values: Array, unit: str) -> PhysicalValue | list[PhysicalValue]:
+    """One value, or one for each coil."""
+    numbers = np.unique(values).tolist() if np.ptp(values) == 0.0 else values.tolist()
+    found = [PhysicalValue(v, unit) for v in numbers]
+    return found[0] if len(found) == 1 else found
 
 
 def read_run(

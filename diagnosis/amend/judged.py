@@ -15,7 +15,7 @@ from cosim.unit import Array
 from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.closed_loop import amend_closed_loop
-from diagnosis.amend.free_run import free_run, free_run_of
+from diagnosis.amend.free_run import free_run, free_run_of, start_of
 from diagnosis.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.diagnosis import Diagnosis
@@ -119,7 +119,10 @@ def _free(
     judge: DiagnosisModel, points: Mapping[str, Point], fast: Predictions, scenario: Scenario,
     amended: Mapping[str, AmendedModel], held_out: Sequence[Recording],
 ) -> dict[str, list[list[Array]]]:  # fmt: skip
-    """Predictions of free runs, with what wrapped models add to their sensors."""
+    """Predictions of free runs, with what wrapped models add to their sensors.
+
+    They begin as the judge's point says, be it estimated from a first stretch (`beginning`) or known of the same day.
+    """
     inner, own = unwrapped(judge, points)
     assert isinstance(inner, BankModel)
     simulated = predictions(inner, own)
@@ -127,11 +130,11 @@ def _free(
     for stage in points:
         found[stage] = []
         for n, recording in enumerate(held_out):
-            run = inner.runs[n]
+            run, start = inner.runs[n], start_of(inner.bank_parameters(own[stage], n))
             if stage in amended:
-                values = free_run(amended[stage], recording, run.times)
+                values = free_run(amended[stage], recording, run.times, start)
             else:
-                values = free_run_of(scenario, recording, run.times)
+                values = free_run_of(scenario, recording, run.times, start)
             channels = [values[s.quantity][s.samples, s.element] for s in run.series]
             added = [np.asarray(f - s) for f, s in zip(fast[stage][n], simulated[stage][n])]
             found[stage].append([c + a for c, a in zip(channels, added)])

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cosim.actuator.resolve import default_parameter_set
-from cosim.components import FmuComponent
+from cosim.components import FmuComponent, ProgrammeOutput
 from cosim.parameters import resolve
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
@@ -21,6 +21,7 @@ from diagnosis.amend.fmu_source import parameter_name
 from diagnosis.amend.load_fmu import load_fields
 from diagnosis.amend.parts import Part, load_ports
 from diagnosis.bank.layout import COIL_FIELDS, Array
+from diagnosis.search.cosim_run import shifted
 from diagnosis.simulator.translate import GRAVITY
 
 #: Parameters of the FMU's coils with their units, by the field of the bank that they give.
@@ -95,9 +96,21 @@ def amended_data(scenario: Scenario, changes: Changes, files: Files) -> dict[str
     elif changes.of(Part.LOAD):
         raise CannotAmend("nothing hangs below the coils")
     _connect(data, changes)
+    _move_room(data, changes)
     data["title"] = f"{data.get('title', scenario.title)} (amended)"
     data.pop("description", None)
     return data
+
+
+def _move_room(data: dict[str, Any], changes: Changes) -> None:
+    """What every day has of its room: the programme of the surroundings, moved as a whole."""
+    amount = changes.offsets.get("ambient_offset", 0.0)
+    if not amount:
+        return
+    component, _, output = changes.translation.ambient.partition(".")
+    given = data["components"][component]["outputs"][output]
+    moved = shifted(ProgrammeOutput.model_validate(given), amount / changes.translation.ambient_factor)
+    data["components"][component]["outputs"][output] = moved.model_dump(mode="json", exclude_defaults=True)
 
 
 def _term_parameters(terms: list[FittedTerm]) -> dict[str, Any]:
@@ -150,6 +163,9 @@ def _coil_parameters(
             found[field] = write_number(changes.value(field), _DIRECT[field])
         elif field not in ("load", "power_gain", "string_resistance", "supply_resistance"):
             raise CannotAmend(f"a scenario cannot say {field}")
+    if "initial_temperature" in changes.offsets:
+        first = changes.translation.parameters.base["initial_temperature"]
+        found["initial_temperature"] = write_number(np.asarray(first) + changes.offsets["initial_temperature"], "K")
     return found
 
 

@@ -27,6 +27,7 @@ COIL_FIELDS: Mapping[str, tuple[float, str]] = {
     "off_power": (1e-9, "W"),
     "use_regressed_cooling_rate": (1.0, "1"),
     "initial_temperature": (295.15, "K"),
+    "initial_loop_position": (0.0, "1"),
     # These eight must follow each other: record.c reads them as two branches.
     "heating_a": (230.5, "N/m"),
     "heating_b": (17443.0, "1"),

@@ -99,7 +99,7 @@ static void begin(Step *s)
     find_resistance(s, s->temperature);
     find_stiffness(s);
     for (int64_t i = 0; i < s->width; i++) { /* a coil that was never heated is on the heating branch */
-        s->remembered[i] = s->heating[i];
+        s->remembered[i] = s->heating[i] + COIL(initial_loop_position)[i] * (s->cooling[i] - s->heating[i]);
     }
     find_stiffness(s);
     START_states(s); /* again: some states begin at the phase */

@@ -16,6 +16,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit
 from diagnosis.search.objective import STEP
 from diagnosis.search.problem import Layout, Point, Term
+from diagnosis.search.shares import is_own
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.runs import Run, deviation
 
@@ -102,7 +103,7 @@ class Bench:
         counts = np.cumsum([len(r.series) for r in model.runs])
         every = np.ones(int(counts[-1])) if inflation is None else inflation
         self._inflation = np.split(every, counts[:-1])
-        self._daily = np.array([" of recording " in p.name for p in model.parameters])
+        self._daily = np.array([is_own(p.name) for p in model.parameters])
         self._points = [self._restarted(b.point) for b in beliefs]
         has_sensor = any(t.unit == "measurement" for b in beliefs for t in b.point.terms)
         finest = float(min(np.max(np.diff(run.inputs.time)) for run in model.runs))

@@ -54,7 +54,7 @@ def amend_fabric(scenario: Scenario, model: FabricModel, point: Point, folder: P
 
 
 def _put(data: dict[str, Any], model: FabricModel, point: Point) -> None:
-    daily = {f.name for f in model.free if f.recording is not None}
+    daily = {f.name for f in model.free if f.is_own}
     numbers = model.fabric_parameters(point, 0)
     lasting = {name: f"{v.number!r} {v.unit}" for name, v in numbers.items() if name not in daily}
     fabric = data["components"][model.component]

@@ -210,7 +210,7 @@ class FabricModel:
         own = self.own_point(point)
         found = {}
         for free, z in zip(self.free, own.base):
-            if free.recording in (None, number) and z:
+            if free.belongs_to(number) and z:
                 found[free.name] = PhysicalValue(free.parameter.value(float(z)), free.parameter.unit)
         for term, values in own.terms.items():
             for name, parameter, value in zip(self._laws[term].place.names, term.parameters, values):

@@ -10,6 +10,7 @@ from cosim.unit import Array
 from diagnosis.judge.diagnosis import ChannelFit, Difference
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
+from diagnosis.search.shares import is_carried
 from diagnosis.search.structure import WINDOWS
 from diagnosis.simulator.models import DiagnosisModel
 
@@ -24,13 +25,16 @@ Predictions = Mapping[str, Sequence[Sequence[Array]]]
 
 
 def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -> Point:
-    """A fitted point for other recordings: what belongs to a day (its ambient) is taken as the scenario has it.
+    """A fitted point for other recordings: what belongs to a day is known of the days that were fitted alone.
 
-    Nothing is fitted to held-out recordings, not even their ambient temperature. Terms that the other recordings do not
-    have (a fault of one day) are left away.
+    Parameters are the same by their names (`diagnosis.search.shares`): what all recordings share, and what belongs to a
+    day with a name, where both models have recordings of it. Nothing is fitted to held-out recordings; what is theirs
+    alone is taken as the scenario has it. Where the two models doubt a number differently, its amount is carried.
+    Terms that the other recordings do not have (a fault of one day) are left away.
     """
-    values = {p.name: z for p, z in zip(trained.parameters, point.base) if " of recording " not in p.name}
-    base = np.array([values.get(p.name, 0.0) for p in other.parameters])
+    known = {p.name: (z, p.deviation) for p, z in zip(trained.parameters, point.base) if is_carried(p.name)}
+    found = [(p, *known.get(p.name, (0.0, 1.0))) for p in other.parameters]
+    base = np.array([z * (deviation / p.deviation) for p, z, deviation in found])
     same = {str(t): t for t in other.terms()}
     return Point(base, {same[str(t)]: v for t, v in point.terms.items() if str(t) in same})
 

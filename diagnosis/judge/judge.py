@@ -15,6 +15,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
+from diagnosis.search.shares import departures
 from diagnosis.simulator.models import DiagnosisModel
 
 #: Half width of a 95 % interval in standard deviations.
@@ -310,20 +311,20 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
 
 def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
     """Parameters that moved by more than `MOVED` prior deviations, the farthest first."""
-    found = []
-    for parameter, z in zip(model.parameters, fit.point.base):
-        amount = parameter.deviation * float(z)
-        if abs(z) > MOVED:
-            is_factor = parameter.is_relative
-            found.append(
-                Moved(
-                    parameter.name,
-                    "1" if is_factor else parameter.unit,
-                    float(np.exp(amount)) if is_factor else amount,
-                    is_factor,
-                    float(z),
-                )
-            )
+    names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
+    units = {p.name: p.unit for p in model.parameters}
+    relative = {p.name for p in model.parameters if p.is_relative}
+    found = [
+        Moved(
+            name,
+            "1" if name in relative else units.get(name, ""),
+            float(np.exp(amount)) if name in relative else amount,
+            name in relative,
+            float(z),
+        )
+        for name, (amount, z) in departures(names, deviations, fit.point.base).items()
+        if abs(z) > MOVED
+    ]
     return tuple(sorted(found, key=lambda m: -abs(m.deviations)))
 
 

@@ -8,14 +8,15 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.search.problem import Point, Term
+from diagnosis.search.shares import is_carried
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.wrapped import WrappedModel
 
 
 def own_numbers(judge: DiagnosisModel, trained: DiagnosisModel) -> list[int]:
-    """Numbers of the parameters of the judge that belong to its recordings alone."""
-    known = {p.name for p in trained.parameters}
-    return [i for i, p in enumerate(judge.parameters) if p.name not in known or " of recording " in p.name]
+    """Numbers of the parameters of the judge that belong to its recordings alone, or to days that were not fitted."""
+    known = {p.name for p in trained.parameters if is_carried(p.name)}
+    return [i for i, p in enumerate(judge.parameters) if p.name not in known]
 
 
 class OwnNumbers(WrappedModel):

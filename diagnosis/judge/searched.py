@@ -8,6 +8,7 @@ from cosim.components import ProgrammeComponent
 from cosim.scenario import Scenario
 from diagnosis.judge.diagnosis import Domain, Searched
 from diagnosis.search.problem import Term
+from diagnosis.search.shares import is_own
 from diagnosis.simulator.models import DiagnosisModel
 
 
@@ -35,6 +36,6 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str]) 
     if not any(d.laws for d in domains if d.name not in ("measurement", "input")):
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
-    if not any(" of recording " not in p.name for p in model.parameters):
+    if not any(not is_own(p.name) for p in model.parameters):
         untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
     return Searched(domains, tuple(untried))

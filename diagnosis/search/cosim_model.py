@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 
-from cosim.assemble import assemble
 from cosim.components import ProgrammeComponent
-from cosim.errors import InputError
 from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario
 from cosim.unit import Array
@@ -21,33 +19,13 @@ from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search import cosim_run
 from diagnosis.search.cosim_run import Changes, changed, setting, simulate
+from diagnosis.search.free_numbers import Free, Numbers, free_parameters, moved
 from diagnosis.search.problem import Layout, Parameter, Point, Term
+
+__all__ = ["ComponentTerm", "CosimModel", "Free", "free_parameters", "predicted"]
 
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
 STEP = 1e-3
-#: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
-#: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
-USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
-#: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
-_SI = ("rad", "rad/s", "K", "m", "kg", "kg*m^2", "m^2", "m^3", "W/(m^2*K)", "J/(kg*K)", "kg/m^3", "1", "ohm", "V", "W",
-       "N/m", "N*m", "N*m*s", "1/K", "m/s^2")  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Free:
-    """A number of the scenario that may be off.
-
-    Args:
-        parameter: Name, unit, nominal value and prior.
-        component: Component that has it.
-        name: Its parameter, or an output of a programme, which is moved as a whole.
-        recording: Recording that it belongs to alone (an initial state), or None.
-    """
-
-    parameter: Parameter
-    component: str
-    name: str
-    recording: int | None = None
 
 
 @dataclass(frozen=True)
@@ -87,6 +65,7 @@ class CosimModel:
         self.scenarios = [scenario_of(scenario, r) for r in recordings]
         self.settings = [setting(s, r) for s, r in zip(self.scenarios, recordings)]
         self.free = list(free)
+        self._own, self._numbers_of = Numbers(scenario), [Numbers(s) for s in self.scenarios]
         self.parameters: Sequence[Parameter] = [f.parameter for f in free]
         self._terms = {t.term: t for t in terms}
         self.layout = _layout(recordings)
@@ -99,23 +78,31 @@ class CosimModel:
         """Every law that may be missing."""
         return list(self._terms)
 
-    def changes_at(self, point: Point, number: int) -> Changes:
-        """What a point changes in the scenario of one recording."""
+    def changes_at(self, point: Point, number: int | None) -> Changes:
+        """What a point changes in the scenario of one recording; None: in the scenario itself, on no day of its own."""
+        numbers = self._own if number is None else self._numbers_of[number]
+        own = [
+            (f, float(z))
+            for f, z in zip(self.free, point.base)
+            if (not f.is_own if number is None else f.belongs_to(number))
+        ]
         parameters: dict[str, dict[str, PhysicalValue]] = {}
+        lists: dict[str, dict[str, tuple[PhysicalValue, ...]]] = {}
         shifts: dict[str, dict[str, float]] = {}
-        for free, z in zip(self.free, point.base):
-            if free.recording not in (None, number):
-                continue
-            value = free.parameter.value(float(z))
-            if isinstance(self.scenarios[number].components[free.component], ProgrammeComponent):
-                shifts.setdefault(free.component, {})[free.name] = value - free.parameter.nominal
+        for (component, name), found in moved(numbers, own).items():
+            given = numbers.scenario.components[component]
+            if isinstance(given, ProgrammeComponent):
+                factor = conversion(found.unit, given.outputs[name].unit)[0]
+                shifts.setdefault(component, {})[name] = factor * found.values[0]
+            elif found.is_list and len(set(found.values)) > 1:
+                lists.setdefault(component, {})[name] = tuple(PhysicalValue(v, found.unit) for v in found.values)
             else:
-                parameters.setdefault(free.component, {})[free.name] = PhysicalValue(value, free.parameter.unit)
+                parameters.setdefault(component, {})[name] = PhysicalValue(found.values[0], found.unit)
         for term, values in point.terms.items():
-            own = self._terms[term]
-            for name, parameter, value in zip(own.names, term.parameters, values):
-                parameters.setdefault(own.component, {})[name] = PhysicalValue(value, parameter.unit)
-        return Changes(parameters, shifts)
+            law = self._terms[term]
+            for name, parameter, value in zip(law.names, term.parameters, values):
+                parameters.setdefault(law.component, {})[name] = PhysicalValue(value, parameter.unit)
+        return Changes(parameters, shifts, lists)
 
     def scenario_at(self, point: Point, number: int) -> Scenario:
         """The scenario of one recording with the values of a point; it can be run as it is."""
@@ -154,16 +141,20 @@ class CosimModel:
         )
 
     def base_jacobian(self, point: Point) -> Array:
-        """See `diagnosis.search.problem.Model`; central differences, a number of one recording runs that one alone."""
+        """See `diagnosis.search.problem.Model`; central differences, a number of one recording runs that one alone.
+
+        What recordings share moves each of them as what it has by itself does, and needs no runs of its own.
+        """
         wanted: list[tuple[Point, int]] = []
         places: list[tuple[int, int]] = []
+        numbers = range(len(self.recordings))
         for column, free in enumerate(self.free):
             sides = []
             for sign in (1.0, -1.0):
                 base = point.base.copy()
                 base[column] += sign * STEP
                 sides.append(replace(point, base=base))
-            for number in range(len(self.recordings)) if free.recording is None else (free.recording,):
+            for number in (n for n in numbers if free.belongs_to(n) and not self._parts(free, n)):
                 wanted += [(side, number) for side in sides]
                 places.append((column, number))
         rows = self._rows(wanted)
@@ -173,7 +164,28 @@ class CosimModel:
             with np.errstate(invalid="ignore"):
                 slope = (high - low) / (2 * STEP)
             jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
+        for column, free in enumerate(self.free):
+            for number in numbers:
+                own = slice(begin[number], begin[number + 1])
+                for part in self._parts(free, number):
+                    scale = free.parameter.deviation / self.free[part].parameter.deviation
+                    jacobian[own, column] += scale * jacobian[own, part]
         return jacobian
+
+    def _parts(self, free: Free, number: int) -> list[int]:
+        """Numbers of one recording whose offsets together are an offset that all share; empty where they are not."""
+        if free.is_own or free.parameter.is_relative:
+            return []
+        same = [
+            i
+            for i, f in enumerate(self.free)
+            if f.is_own and (f.component, f.name) == (free.component, free.name) and f.belongs_to(number)
+        ]
+        elements = {self.free[i].element for i in same}
+        if elements == {None}:
+            return same
+        known = self._numbers_of[number].of(free.component, free.name)
+        return same if known is not None and elements == set(range(len(known.values))) else []
 
 
 def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Array:
@@ -183,64 +195,6 @@ def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Ar
         InputError: The run has no such quantity.
     """
     return cosim_run.predicted(results, channel.target, channel.times, recording.path / "recording.yaml")
-
-
-def free_parameters(scenario: Scenario, recordings: Sequence[Recording]) -> list[Free]:
-    """Numbers that may be off: those whose parameter set states an uncertainty, and what a recording says itself.
-
-    Of a component whose parameters state none, those of `USUAL` may be off.
-
-    Raises:
-        InputError: A recording names something that the scenario does not have.
-    """
-    found = []
-    assembly = assemble(scenario_of(scenario, recordings[0]))
-    try:
-        for component, resolved in assembly.parameters.items():
-            usual = USUAL.get(scenario.components[component].kind, {})
-            for name, deviation in (resolved.uncertainty or usual).items():
-                value = resolved.values[name]
-                if deviation and isinstance(value, PhysicalValue):
-                    unit = _si(value.unit)
-                    parameter = Parameter(f"{component}.{name}", unit, value.to(unit), deviation)
-                    found.append(Free(parameter, component, name))
-    finally:
-        assembly.system.terminate()
-    for number, recording in enumerate(recordings):
-        own = scenario_of(scenario, recording)
-        found += [_own(own, recording, number, name, d) for name, d in recording.uncertain.items()]
-    return found
-
-
-def _own(scenario: Scenario, recording: Recording, number: int, name: str, deviation: PhysicalValue) -> Free:
-    """A number that one recording does not know exactly."""
-    file, key = recording.path / "recording.yaml", f"uncertain.{name}"
-    component, _, own = name.partition(".")
-    given = scenario.components.get(component)
-    if isinstance(given, ProgrammeComponent):
-        output = given.outputs.get(own)
-        value = None if output is None else output.constant
-    else:
-        value = getattr(given, "parameters", {}).get(own)
-    if not isinstance(value, PhysicalValue):
-        raise InputError(file, key, "the scenario gives no such number",
-                         "name `component.parameter`, or an output of a programme that is constant")  # fmt: skip
-    unit = _si(value.unit)
-    factor = conversion(deviation.unit or unit, unit)[0]
-    parameter = Parameter(f"{name} of {recording.path.name}", unit, value.to(unit), factor * deviation.number, False)
-    return Free(parameter, component, own, number)
-
-
-def _si(unit: str) -> str:
-    """SI unit of the same dimension."""
-    base = PhysicalValue(1.0, unit)
-    for candidate in _SI:
-        try:
-            base.to(candidate)
-        except ValueError:
-            continue
-        return candidate
-    return unit
 
 
 def _layout(recordings: Sequence[Recording]) -> Layout:

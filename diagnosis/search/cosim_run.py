@@ -40,16 +40,22 @@ class Changes:
     Args:
         parameters: Component to its parameters that have other values.
         shifts: Programme to its outputs that are moved as a whole, and by how much, in the unit of the output.
+        lists: Component to its parameters that are lists, each whole.
     """
 
     parameters: Mapping[str, Mapping[str, PhysicalValue]] = field(default_factory=dict)
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    lists: Mapping[str, Mapping[str, Sequence[PhysicalValue]]] = field(default_factory=dict)
 
     def text(self) -> str:
         """Every number to its last bit, in an order that does not depend on how it was put together."""
         parameters = {c: {n: (v.number.hex(), v.unit) for n, v in own.items()} for c, own in self.parameters.items()}
         shifts = {c: {o: float(s).hex() for o, s in own.items()} for c, own in self.shifts.items()}
-        return json.dumps([parameters, shifts], sort_keys=True)
+        lists = {
+            c: {n: [(v.number.hex(), v.unit) for v in values] for n, values in own.items()}
+            for c, own in self.lists.items()
+        }
+        return json.dumps([parameters, shifts, *([lists] if lists else [])], sort_keys=True)
 
 
 @dataclass(frozen=True)
@@ -139,22 +145,35 @@ def predicted(results: xr.Dataset, target: Target, times: Array, source: Path) -
 
 
 def changed(scenario: Scenario, changes: Changes) -> Scenario:
-    """The scenario with other parameters, and with constants of programmes moved."""
+    """The scenario with other parameters, and with outputs of programmes moved."""
     components: dict[str, Any] = dict(scenario.components)
     for name, values in changes.parameters.items():
         own = components[name]
         components[name] = own.model_copy(update={"parameters": {**own.parameters, **values}})
+    for name, lists in changes.lists.items():
+        own = components[name]
+        whole = {n: list(values) for n, values in lists.items()}
+        components[name] = own.model_copy(update={"parameters": {**own.parameters, **whole}})
     for name, moved in changes.shifts.items():
         own = components[name]
-        outputs = {o: _shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
+        outputs = {o: shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
     return scenario.model_copy(update={"components": components})
 
 
-def _shifted(given: ProgrammeOutput, amount: float) -> ProgrammeOutput:
-    if not amount or not isinstance(given.constant, PhysicalValue):
+def shifted(given: ProgrammeOutput, amount: float) -> ProgrammeOutput:
+    """The output moved as a whole, by an amount in its unit."""
+    if not amount:
         return given
-    return given.model_copy(update={"constant": PhysicalValue(given.constant.to(given.unit) + amount, given.unit)})
+
+    def later(value: PhysicalValue | list[PhysicalValue]) -> PhysicalValue | list[PhysicalValue]:
+        if isinstance(value, list):
+            return [PhysicalValue(v.to(given.unit) + amount, given.unit) for v in value]
+        return PhysicalValue(value.to(given.unit) + amount, given.unit)
+
+    if given.constant is not None:
+        return given.model_copy(update={"constant": later(given.constant)})
+    return given.model_copy(update={"points": [(t, later(v)) for t, v in given.points or []]})
 
 
 @functools.cache

@@ -21,7 +21,7 @@ from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
-from diagnosis.simulator.priors import daily_priors, stated_priors
+from diagnosis.simulator.priors import daily_priors, own_priors, stated_priors
 from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
 from diagnosis.simulator.term_at import term_at
 from diagnosis.simulator.translate import translate
@@ -65,7 +65,7 @@ class BankModel:
         nominal = translations[0].parameters.base
         first = translations[0]
         priors = stated_priors(first.uncertainty, first.scatter)
-        daily = [daily_priors(r, f"{first.actuator}.initial_temperature", first.ambient) for r in recordings]
+        daily = daily_priors([own_priors(r, first.actuator, first.ambient, first.layout.coils) for r in recordings])
         self._free = list(free_parameters(self.coils, nominal, self.measured, clocks(self.runs), priors, daily))
         self._sensors = sensor_values(self._free)
         self._sets = [FreeSet(self._free, number) for number in range(len(self.runs))]
@@ -235,7 +235,7 @@ class BankModel:
             parameters = self.bank_parameters(point, number)
             along, columns = [], []
             for i, free in enumerate(self._free):
-                if free.recording in (None, number):
+                if free.belongs_to(number):
                     for direction, weight in directions(free, parameters):
                         along.append(direction)
                         columns.append((i, weight))

@@ -14,7 +14,8 @@ from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import coil_label
 from diagnosis.bank.sensitivities import Direction
 from diagnosis.search.problem import MOST_FOLD, Parameter
-from diagnosis.simulator.priors import Prior, matters
+from diagnosis.search.shares import own_label
+from diagnosis.simulator.priors import DailyPriors, Prior, matters
 
 #: Both branches of the stiffness moved along the temperature; no field of the bank.
 SHIFTS: Mapping[str, tuple[str, ...]] = {
@@ -22,6 +23,8 @@ SHIFTS: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
+#: Field of the bank that begins and ends at a branch of the loop.
+POSITION, HALF_WAY = "initial_loop_position", 0.5
 #: Of a stated bound half is one deviation of a clock, a fifth the typical lag of a sensor.
 LATE_SHARE, LAG_SHARE = 0.5, 0.2
 #: Deviation of the logarithm of a sensor's lag.
@@ -50,19 +53,23 @@ class Free:
     Args:
         field: Base parameter of the bank, or one of `SHIFTS`.
         mask: Weight at every element of the field's axis.
-        recording: Number of the recording that it belongs to, or None: all.
         parameter: As the search sees it.
+        recordings: Numbers of the recordings that it belongs to, or None: all.
     """
 
     field: str
     mask: Array
-    recording: int | None
     parameter: Parameter
+    recordings: frozenset[int] | None = None
+
+    def belongs_to(self, recording: int) -> bool:
+        """Whether it acts in a recording."""
+        return self.recordings is None or recording in self.recordings
 
 
 def free_parameters(
     layout: BankLayout, nominal: Mapping[str, float | Array], measured: Collection[str], clocks: Clocks,
-    priors: Mapping[str, Prior], daily: Sequence[Mapping[str, Prior]],
+    priors: Mapping[str, Prior], daily: DailyPriors,
 ) -> Iterator[Free]:  # fmt: skip
     """All that may be off.
 
@@ -72,7 +79,7 @@ def free_parameters(
         measured: Quantities of which there are channels.
         clocks: How late readings may be.
         priors: Base parameter of the bank to how far it may be off.
-        daily: The same for every recording by itself.
+        daily: What recordings share of their room and their start, and what each has by itself.
     """
     for name, prior in priors.items():
         value = float(np.median(nominal[name])) if name in nominal else 0.0  # an open coil has 1e12 ohm
@@ -82,15 +89,42 @@ def free_parameters(
             continue  # power is given: the resistance does nothing
         size = layout.coils if name in SHIFTS else layout.size(AXIS_OF_FIELD[name])
         if prior.shared:
-            yield _free(name, name, np.ones(size), None, (value, prior.shared), prior)
+            yield _free(name, name, np.ones(size), (value, prior.shared), prior)
         for i in range(size if prior.scatter and size > 1 else 0):
-            yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], None, (value, prior.scatter), prior)
+            yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], (value, prior.scatter), prior)
     yield from _sensors(clocks)
     yield from _supply_gain(measured)
-    for number, own in enumerate(daily):
-        for name, prior in own.items():
-            label = f"{name} of recording {number + 1}"
-            yield _free(label, name, np.ones(layout.coils), number, (0.0, prior.shared), prior)
+    yield from _daily(layout, daily)
+
+
+def _daily(layout: BankLayout, daily: DailyPriors) -> Iterator[Free]:
+    """The room and the start: what all recordings share, what those of a day share, what each has by itself."""
+    every = np.ones(layout.coils)
+    for name, deviation in daily.shared.items():
+        yield Free(name, every, _offset(name, deviation))
+    days: dict[str, set[int]] = {}
+    for number, own in enumerate(daily.own):
+        days.setdefault(own_label("ambient_offset", number, own.day), set()).add(number)
+    for label, members in days.items():
+        # recordings of one day that doubt their room differently: the one that knows it best knows it for all
+        deviation = min(daily.own[n].ambient for n in members)
+        yield Free("ambient_offset", every, _offset(label, deviation), frozenset(members))
+    for number, own in enumerate(daily.own):
+        alone = frozenset((number,))
+        if not own.are_all_stated:
+            label, others = own_label("initial_temperature", number), every.copy()
+            others[list(own.starts)] = 0.0  # a coil whose start is stated is off by that alone
+            yield Free("initial_temperature", others, _offset(label, daily.start), alone)
+        for name, unit, stated in (
+            ("initial_temperature", "K", own.starts), ("initial_loop_position", "1", own.positions)
+        ):  # fmt: skip
+            for i, deviation in stated.items():
+                label = own_label(f"{coil_label(layout, i)}.{name}", number)
+                yield Free(name, np.eye(layout.coils)[i], _offset(label, deviation, unit), alone)
+
+
+def _offset(label: str, deviation: float, unit: str = "K") -> Parameter:
+    return Parameter(label, unit, 0.0, deviation, is_relative=False)
 
 
 def _sensors(clocks: Clocks) -> Iterator[Free]:
@@ -98,11 +132,11 @@ def _sensors(clocks: Clocks) -> Iterator[Free]:
     for quantity, late in clocks.late.items():
         deviation, label = LATE_SHARE * late, f"delay of every {quantity}"
         clock = Parameter(label, "s", 0.0, deviation, is_relative=False, bounds=1.0 / LATE_SHARE)
-        yield Free("clock_offset", _over(quantity), None, clock)
+        yield Free("clock_offset", _over(quantity), clock)
     for quantity, slow in clocks.slow.items():
         most = -math.log(LAG_SHARE) / LAG_SPREAD  # as far below the typical lag as the bound is above it
         lag = Parameter(f"lag of every {quantity}", "s", LAG_SHARE * slow, LAG_SPREAD, bounds=most)
-        yield Free("sensor_lag", _over(quantity), None, lag)
+        yield Free("sensor_lag", _over(quantity), lag)
 
 
 def _over(quantity: str) -> Array:
@@ -114,17 +148,13 @@ def _supply_gain(measured: Collection[str]) -> Iterator[Free]:
     """Where the currents of the strings are read too, the supply's must be their sum: two calibrations meet."""
     if {"supply_current", "current"} <= set(measured):
         label = "gain of supply.current"
-        yield Free(
-            "gain_error", _over("supply_current"), None, Parameter(label, "1", 0.0, CALIBRATION, is_relative=False)
-        )
+        yield Free("gain_error", _over("supply_current"), Parameter(label, "1", 0.0, CALIBRATION, is_relative=False))
 
 
-def _free(
-    name: str, field: str, mask: Array, recording: int | None, size: tuple[float, float], prior: Prior
-) -> Free:  # fmt: skip
+def _free(name: str, field: str, mask: Array, size: tuple[float, float], prior: Prior) -> Free:
     nominal, deviation = size
     unit = "K" if not prior.is_relative else "1"
-    return Free(field, mask, recording, Parameter(name, unit, nominal, deviation, prior.is_relative))
+    return Free(field, mask, Parameter(name, unit, nominal, deviation, prior.is_relative))
 
 
 def sensor_values(free: Sequence[Free]) -> dict[str, float | Array]:
@@ -147,7 +177,7 @@ class FreeSet:
     def __init__(self, free: Sequence[Free], recording: int) -> None:
         fields: dict[tuple[str, bool], list[int]] = {}
         for i, one in enumerate(free):
-            if one.recording in (None, recording):
+            if one.belongs_to(recording):
                 fields.setdefault((one.field, one.parameter.is_relative), []).append(i)
         self._fields = [
             (field, is_relative, np.array(members),
@@ -171,6 +201,8 @@ class FreeSet:
                     exponents[f"{branch}_b"] = exponents.get(f"{branch}_b", 0.0) + slope
             else:
                 base[field] = np.asarray(base.get(field, 0.0)) + amount
+                if field == POSITION:
+                    base[field] = np.clip(base[field], 0.0, 1.0)
         for name, exponent in exponents.items():
             base[name] = np.asarray(base[name]) * np.exp(np.clip(exponent, -MOST_FOLD, MOST_FOLD))
 
@@ -192,4 +224,6 @@ def directions(free: Free, parameters: BankParameters) -> list[tuple[Direction, 
         ]  # fmt: skip
     if free.parameter.is_relative:
         return [(Direction(free.field, np.asarray(base[free.field]) * free.mask, 1e-4, is_central=False), deviation)]
-    return [(Direction(free.field, free.mask, 1e-3, is_central=False), deviation)]
+    # A place in the loop ends at 0 and 1: a step goes inwards.
+    step = -1e-3 if free.field == POSITION and float(np.max(base[POSITION] * free.mask)) > HALF_WAY else 1e-3
+    return [(Direction(free.field, free.mask, step, is_central=False), deviation)]

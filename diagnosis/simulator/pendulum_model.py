@@ -77,7 +77,7 @@ def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free],
     values = _grid_of(scenario).values
     is_driven = any(values[n] for n, unit in PENDULUM_UNITS.items() if n in LAWS and unit.startswith(TORQUE))
     is_reshaped = any(f.name == "central_inertia" for f in free)
-    masses = [f for f in free if f.name == "mass" and f.recording is None]
+    masses = [f for f in free if f.name == "mass" and not f.is_own]
     if is_driven or is_reshaped or not masses:
         return list(free), 0.0
     return [f for f in free if f not in masses], masses[0].parameter.deviation
@@ -86,7 +86,7 @@ def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free],
 class PendulumModel(CosimModel):
     """See `CosimModel`; residuals come from arms in one world, `predictions` from the co-simulation."""
 
-    def changes_at(self, point: Point, number: int) -> Changes:
+    def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
 
         A free swing shows ratios to the inertia alone. So varied, the mass does nothing but scale torques; were it
@@ -96,10 +96,10 @@ class PendulumModel(CosimModel):
         parameters = {component: dict(own) for component, own in found.parameters.items()}
         for own in parameters.values():
             if "mass" in own and "central_inertia" not in own:
-                values = self._grids[number].values
+                values = self._grids[number or 0].values
                 central = values["central_inertia"] * own["mass"].to("kg") / values["mass"]
                 own["central_inertia"] = PhysicalValue(central, "kg*m^2")
-        return Changes(parameters, found.shifts)
+        return Changes(parameters, found.shifts, found.lists)
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`; forward differences: half the arms, and exact enough for their use.
@@ -121,7 +121,7 @@ class PendulumModel(CosimModel):
         found = np.zeros((begin[-1], len(self.free)))
         numbers = range(len(self.recordings))
         wanted = range(len(self.free)) if columns is None else columns
-        places = [(i, n) for n in numbers for i in wanted if self.free[i].recording in (None, n)]
+        places = [(i, n) for n in numbers for i in wanted if self.free[i].belongs_to(n)]
         moved = {i: replace(point, base=point.base + steps[i] * (np.arange(len(self.free)) == i)) for i in wanted}
         rows = self._rows([*((point, n) for n in numbers), *((moved[i], n) for i, n in places)])
         for (column, number), row in zip(places, rows[len(numbers) :]):

@@ -6,11 +6,14 @@ The defaults are those of a careful rig: a few per cent. A parameter set can say
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from cosim.errors import InputError
+from cosim.quantity import PhysicalValue, conversion
 from diagnosis.recording.recording import Recording
+from diagnosis.search.shares import RIG_START, own_deviation, shared_deviation
 
 
 @dataclass(frozen=True)
@@ -49,11 +52,48 @@ PRIORS: Mapping[str, Prior] = {
     "load": Prior(0.02, 0.012, needs=_MECHANICAL),
     "power_gain": Prior(0.0, needs=("temperature",)),
 }
-#: The same for every recording by itself (another day): [K].
+#: Doubt about the room and the start of every recording that states none [K]; divided into what all recordings share
+#: and what each has (`diagnosis.search.shares`).
 DAILY: Mapping[str, Prior] = {
     "ambient_offset": Prior(0.5, is_relative=False),
-    "initial_temperature": Prior(0.3, is_relative=False),
+    "initial_temperature": Prior(RIG_START, is_relative=False),
 }
+#: Number and the element in brackets.
+_ELEMENT = re.compile(r"^(?P<name>.*?)(?:\[(?P<element>\d+)\])?$")
+
+
+@dataclass(frozen=True)
+class OwnPriors:
+    """What one recording does not know exactly itself: standard deviations.
+
+    Args:
+        ambient: Of the temperature of the surroundings [K].
+        starts: Of the temperature at the start, coil to [K]: each by itself.
+        positions: Of the place in the hysteresis loop at the start, coil to [1]: each by itself.
+        are_all_stated: Whether `starts` has every coil; else the others together are off by the default.
+        day: Name of its day; empty: one of its own.
+    """
+
+    ambient: float = DAILY["ambient_offset"].shared
+    starts: Mapping[int, float] = field(default_factory=dict)
+    positions: Mapping[int, float] = field(default_factory=dict)
+    are_all_stated: bool = False
+    day: str = ""
+
+
+@dataclass(frozen=True)
+class DailyPriors:
+    """What all recordings of a rig share of their room and their start, and what is left to each.
+
+    Args:
+        shared: `ambient_offset` and `initial_temperature` to the deviation of what all recordings share [K].
+        own: Of every recording, less what is shared.
+    """
+
+    shared: Mapping[str, float] = field(default_factory=dict)
+    own: Sequence[OwnPriors] = ()
+    #: Deviation of the start of all coils together of a recording that does not state it of every coil [K].
+    start: float = 0.0
 
 
 def matters(prior: Prior, measured: set[str]) -> bool:
@@ -85,26 +125,69 @@ def stated_priors(uncertainty: Mapping[str, float], scatter: Mapping[str, float]
     return found
 
 
-def daily_priors(recording: Recording, initial: str, ambient: str) -> dict[str, Prior]:
-    """What belongs to one recording alone, as it states it (`uncertain`); the defaults where it does not.
+def own_priors(recording: Recording, actuator: str, ambient: str, coils: int) -> OwnPriors:
+    """What one recording does not know exactly itself, as it states it (`uncertain`); the defaults where it does not.
 
     Args:
         recording: The recording.
-        initial: `component.parameter` of the initial temperature.
+        actuator: Component of the coils.
         ambient: `component.output` of the programme of the surroundings.
+        coils: How many there are.
 
     Raises:
-        InputError: It states a number that a coil bank cannot vary.
+        InputError: It states a number that a coil bank cannot vary, of no coil, or no positive deviation.
     """
-    names = {ambient: "ambient_offset", initial: "initial_temperature"}
-    found = dict(DAILY)
-    for name, deviation in recording.uncertain.items():
+    room, starts, positions = DAILY["ambient_offset"].shared, dict[int, float](), dict[int, float]()
+    places = {f"{actuator}.initial_temperature": (starts, "K"), f"{actuator}.initial_loop_position": (positions, "1")}
+    # those of single coils last: they count more than one for all
+    for name, given in sorted(recording.uncertain.items(), key=lambda item: item[0].endswith("]")):
         file, key = recording.path / "recording.yaml", f"uncertain.{name}"
-        if name not in names:
+        match = _ELEMENT.match(name)
+        assert match is not None  # it matches any text
+        element = None if match["element"] is None else int(match["element"])
+        if name == ambient:
+            room = stated_deviation(given, "K", recording, name)
+        elif match["name"] not in places:
             raise InputError(file, key, "this number of a network of coils cannot be estimated",
-                             f"name {ambient} or {initial}")  # fmt: skip
-        if not deviation.number > 0:
-            raise InputError(file, key, f"{deviation} is not positive",
-                             "give a positive difference in K or degC")  # fmt: skip
-        found[names[name]] = Prior(deviation.number, is_relative=False)  # a difference: K and degC are the same
-    return found
+                             f"name {ambient}, {' or '.join(places)}")  # fmt: skip
+        elif element is not None and not 1 <= element <= coils:
+            raise InputError(file, key, f"there are {coils} coils", f"name an element from 1 to {coils}")
+        else:
+            target, unit = places[match["name"]]
+            deviation = stated_deviation(given, unit, recording, name)
+            target.update(dict.fromkeys(range(coils) if element is None else (element - 1,), deviation))
+    return OwnPriors(room, starts, positions, len(starts) == coils, recording.day)
+
+
+def stated_deviation(given: PhysicalValue, unit: str, recording: Recording, name: str) -> float:
+    """A standard deviation that a recording states (`uncertain`), in a unit; a difference, so that K and degC are one.
+
+    Raises:
+        InputError: It is not positive, or of another dimension.
+    """
+    file, key = recording.path / "recording.yaml", f"uncertain.{name}"
+    try:
+        factor = conversion(given.unit or unit, unit)[0]
+    except ValueError as error:
+        raise InputError(file, key, str(error), f"give a positive difference in {unit}") from error
+    if not given.number > 0:
+        raise InputError(file, key, f"{given} is not positive", f"give a positive difference in {unit}")
+    return factor * given.number
+
+
+def daily_priors(own: Sequence[OwnPriors]) -> DailyPriors:
+    """The doubts of all recordings, divided into what the rig shares and what each has: `diagnosis.search.shares`."""
+    if not own:
+        return DailyPriors()
+    ambient = shared_deviation([o.ambient for o in own])
+    start = shared_deviation([min([RIG_START, *o.starts.values()]) for o in own], RIG_START)
+    left = [
+        replace(
+            o,
+            ambient=own_deviation(o.ambient, ambient),
+            starts={i: own_deviation(s, start) for i, s in o.starts.items()},
+        )
+        for o in own
+    ]
+    shared = {"ambient_offset": ambient, "initial_temperature": start}
+    return DailyPriors(shared, left, own_deviation(RIG_START, start))

@@ -49,6 +49,7 @@ class Translation:
         circuit: Name of the circuit, or None where power is given.
         load: Name of the hanging load, or None.
         ambient: `component.output` of the programme of the surroundings.
+        ambient_factor: Kelvin of the surroundings for one unit of that output.
         uncertainty: Parameter of the actuator to the standard deviation of ln(value), where its set states one.
         scatter: The same from coil to coil.
     """
@@ -61,6 +62,7 @@ class Translation:
     circuit: str | None
     load: str | None
     ambient: str = ""
+    ambient_factor: float = 1.0
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     scatter: Mapping[str, float] = field(default_factory=dict)
 
@@ -114,9 +116,10 @@ class _Reader:
             layout = BankLayout(coils, tuple(circuit.strings), circuit.supply)
             drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage"))
         own = self.assembly.parameters[self.actuator]
+        room = self._into(self.actuator, "ambient_temperature")[0]
         return Translation(
             layout, self._parameters(), drive, start, self.actuator, self.circuit, self.load,
-            ".".join(self._into(self.actuator, "ambient_temperature")[0].source), own.uncertainty, own.scatter,
+            ".".join(room.source), room.factor, own.uncertainty, own.scatter,
         )  # fmt: skip
 
     def _into(self, unit: str, variable: str) -> list[Connection]:
@@ -167,6 +170,8 @@ class _Reader:
             "cooling_b", "cooling_c", "cooling_d",
         ):  # fmt: skip
             base[name] = values[name]
+        # an FMU that was built before it had one starts every coil on the heating branch
+        base["initial_loop_position"] = values.get("initial_loop_position", np.zeros(()))
         base["use_regressed_cooling_rate"] = float(values["use_regressed_cooling_rate"])
         if self.circuit is not None:
             circuit = self.scenario.components[self.circuit]
@@ -209,7 +214,18 @@ class _Reader:
                 values[name] = _number(given[name], variable.unit or "1")
             if values[name].size == 1:
                 values[name] = values[name].reshape(())
+        self._put_elements(unit, values)
         return values
+
+    def _put_elements(self, unit: FmuUnit, values: dict[str, Array]) -> None:
+        """Single elements that the scenario gives by the names of FMI 2.0, `initial_temperature[2]`."""
+        units = {v.name.partition("[")[0]: v.unit or "1" for v in unit.archive.description.modelVariables}
+        for name, value in self.assembly.parameters[self.actuator].values.items():
+            field, bracket, element = name.partition("[")
+            if bracket and field in values:
+                coils = unit.variables["temperature"].size
+                values[field] = np.array(np.broadcast_to(values[field], (coils,)))
+                values[field][int(element.rstrip("]")) - 1] = float(_number(value, units[field]))
 
 
 def _number(value: object, unit: str) -> Array:

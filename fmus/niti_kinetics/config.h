@@ -47,8 +47,10 @@
       "Specific heat of NiTi, the same in both phases") \
     V(latent_heat, "latent_heat", PARAMETER, SCALAR, "J/kg", 24000, NON_NEGATIVE, 24000, "", \
       "Heat taken up by the change from martensite to austenite") \
-    V(initial_temperature, "initial_temperature", PARAMETER, SCALAR, "K", 295.15, POSITIVE, 300, "", \
-      "Temperature of every coil at the start; zero of stored_energy") \
+    V(initial_temperature, "initial_temperature", PARAMETER, PER_COIL, "K", 295.15, POSITIVE, 300, "", \
+      "Temperature of each coil at the start; zero of stored_energy") \
+    V(initial_loop_position, "initial_loop_position", PARAMETER, PER_COIL, "1", 0, NON_NEGATIVE, 1, "", \
+      "Place of each coil in its hysteresis loop at the start: 0 heating branch (never heated), 1 cooling branch") \
     V(martensite_finish, "martensite_finish", PARAMETER, SCALAR, "K", 278.34, POSITIVE, 300, "", \
       "Temperature without stress at which cooling coils are all martensite") \
     V(martensite_start, "martensite_start", PARAMETER, SCALAR, "K", 310.37, POSITIVE, 300, "", \

@@ -98,14 +98,14 @@ static double solve_temperature(const Model *model, size_t i, double heat)
 {
     const double capacity = mass(model, i) * NUMBER(specific_heat), latent = mass(model, i) * NUMBER(latent_heat);
     const double shift = stress_shift(model, i), start = ARRAY(initial_fraction)[i];
-    double low = NUMBER(initial_temperature) + (heat - latent * (1.0 - start)) / capacity;
-    double high = NUMBER(initial_temperature) + (heat + latent * start) / capacity;
+    double low = ARRAY(initial_temperature)[i] + (heat - latent * (1.0 - start)) / capacity;
+    double high = ARRAY(initial_temperature)[i] + (heat + latent * start) / capacity;
     double temperature = fmin(fmax(ARRAY(memory_temperature)[i] + shift, low), high), last = high - low;
     for (int k = 0; k < SOLVER_ITERATIONS; k++) {
         double slope;
         const double fraction = austenite(model, i, temperature - shift, &slope);
         const double excess =
-            capacity * (temperature - NUMBER(initial_temperature)) + latent * (fraction - start) - heat;
+            capacity * (temperature - ARRAY(initial_temperature)[i]) + latent * (fraction - start) - heat;
         if (excess > 0.0) {
             high = temperature;
         } else {
@@ -146,12 +146,18 @@ bool model_start(Model *model, char *message, size_t size)
         return false;
     }
     for (size_t i = 0; i < model->coils; i++) {
+        const double position = ARRAY(initial_loop_position)[i];
+        if (position > 1.0) {
+            snprintf(message, size, "initial_loop_position[%zu] = %g: it must lie between 0 (heating branch) and 1 "
+                                    "(cooling branch)", i + 1, position);
+            return false;
+        }
         double unused;
         ARRAY(stored_energy)[i] = ARRAY(convected_energy)[i] = 0.0;
-        /* A coil that was never heated is on the heating branch. */
-        const double reduced = NUMBER(initial_temperature) - stress_shift(model, i);
+        const double reduced = ARRAY(initial_temperature)[i] - stress_shift(model, i);
         ARRAY(memory_temperature)[i] = reduced;
-        ARRAY(memory_fraction)[i] = ARRAY(initial_fraction)[i] = heating_branch(model, reduced, &unused);
+        const double low = heating_branch(model, reduced, &unused), high = cooling_branch(model, reduced, &unused);
+        ARRAY(memory_fraction)[i] = ARRAY(initial_fraction)[i] = low + position * (high - low);
     }
     return true;
 }

@@ -33,7 +33,7 @@
     V(resistance, "resistance", OUTPUT, PER_COIL, "ohm", 0, POSITIVE, 1, "", \
       "Resistance of each actuator with its balancing shunt, as the circuit sees it") \
     V(stored_energy, "stored_energy", OUTPUT, PER_COIL, "J", 0, ANY, 10, \
-      "charge_1 charge_2 charge_3 charge_4 charge_5", "Electrical energy stored in each actuator's films") \
+      "charge_1 charge_2 charge_3 charge_4 charge_5", "Electrical energy stored in each actuator's films since the start") \
     V(film_current, "film_current", OUTPUT, PER_COIL, "A", 0, ANY, 1, "voltage charge_1", \
       "Current into the films of each actuator") \
     CURRENT(V, 1, "voltage charge_1 charge_2") CURRENT(V, 2, "charge_1 charge_2 charge_3") \
@@ -57,6 +57,8 @@
       "Diffusion coefficient of the ions in the film") \
     V(lever_ratio, "lever_ratio", PARAMETER, SCALAR, "1", 16.1, POSITIVE, 10, "", \
       "Stroke of the actuator over that of its films") \
+    V(initial_voltage, "initial_voltage", PARAMETER, PER_COIL, "V", 0, ANY, 1, "", \
+      "Voltage at which the films of each actuator were at rest before the start; 0: without charge") \
     V(coil_rest_length, "coil_rest_length", PARAMETER, SCALAR, "m", 0.0314, POSITIVE, 0.03, "", \
       "Length without load of an actuator without charge")
 

@@ -55,19 +55,21 @@ bool model_start(Model *model, char *message, size_t size)
 {
     (void)message;
     (void)size;
+    const double capacitance = layer_capacitance(model);
     for (size_t i = 0; i < model->coils; i++) {
         for (int j = 0; j < LAYERS; j++) {
-            layers(model, i)[j * model->coils] = 0.0;
+            layers(model, i)[j * model->coils] = capacitance * ARRAY(initial_voltage)[i];
         }
         ARRAY(convected_energy)[i] = 0.0;
     }
     return true;
 }
 
-/* Electrical energy stored by actuator i [J]. */
+/* Electrical energy stored by actuator i [J], beyond that of the start: its layers then had all one charge. */
 static double stored(Model *model, size_t i)
 {
-    double sum = 0.0;
+    const double first = layer_capacitance(model) * ARRAY(initial_voltage)[i];
+    double sum = -LAYERS * first * first;
     for (int j = 0; j < LAYERS; j++) {
         const double charge = layers(model, i)[j * model->coils];
         sum += charge * charge;

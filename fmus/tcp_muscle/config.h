@@ -42,8 +42,8 @@
       "Largest contraction, as a part of the length: neighbouring turns touch") \
     V(reference_temperature, "reference_temperature", PARAMETER, SCALAR, "K", 295.15, POSITIVE, 300, "", \
       "Temperature at which the length without load is coil_rest_length") \
-    V(initial_temperature, "initial_temperature", PARAMETER, SCALAR, "K", 295.15, POSITIVE, 300, "", \
-      "Temperature of every bundle at the start; zero of stored_energy") \
+    V(initial_temperature, "initial_temperature", PARAMETER, PER_COIL, "K", 295.15, POSITIVE, 300, "", \
+      "Temperature of each bundle at the start; zero of stored_energy") \
     V(coil_rest_length, "coil_rest_length", PARAMETER, SCALAR, "m", 0.03137, POSITIVE, 0.03, "", \
       "Length without load at reference_temperature")
 

@@ -20,7 +20,7 @@ bool model_start(Model *model, char *message, size_t size)
     (void)message;
     (void)size;
     for (size_t i = 0; i < model->coils; i++) {
-        ARRAY(temperature)[i] = NUMBER(initial_temperature);
+        ARRAY(temperature)[i] = ARRAY(initial_temperature)[i];
         ARRAY(convected_energy)[i] = 0.0;
     }
     return true;
@@ -35,7 +35,7 @@ void model_outputs(Model *model)
         ARRAY(stiffness)[i] = NUMBER(muscles) * NUMBER(muscle_stiffness);
         ARRAY(rest_length)[i] = NUMBER(coil_rest_length) * (1.0 - fmin(contraction, NUMBER(contraction_limit)));
         ARRAY(resistance)[i] = ARRAY(reference_resistance)[i];
-        ARRAY(stored_energy)[i] = capacity(model) * (temperature - NUMBER(initial_temperature));
+        ARRAY(stored_energy)[i] = capacity(model) * (temperature - ARRAY(initial_temperature)[i]);
     }
 }
 

@@ -40,8 +40,10 @@
     V(area, "area", PARAMETER, SCALAR, "m^2", 97.85e-6, POSITIVE, 1e-4, "", "Surface area of one coil") \
     V(density, "density", PARAMETER, SCALAR, "kg/m^3", 6450, POSITIVE, 6450, "", "Density of NiTi") \
     V(specific_heat, "specific_heat", PARAMETER, SCALAR, "J/(kg*K)", 837, POSITIVE, 837, "", "Specific heat of NiTi") \
-    V(initial_temperature, "initial_temperature", PARAMETER, SCALAR, "K", 295.15, POSITIVE, 300, "", \
-      "Temperature of every coil at the start; zero of stored_energy") \
+    V(initial_temperature, "initial_temperature", PARAMETER, PER_COIL, "K", 295.15, POSITIVE, 300, "", \
+      "Temperature of each coil at the start; zero of stored_energy") \
+    V(initial_loop_position, "initial_loop_position", PARAMETER, PER_COIL, "1", 0, NON_NEGATIVE, 1, "", \
+      "Place of each coil in its hysteresis loop at the start: 0 heating branch (never heated), 1 cooling branch") \
     V(heating_a, "heating_a", PARAMETER, SCALAR, "N/m", 230.5, POSITIVE, 200, "", \
       "Equation (2), temperature rising: rise of the stiffness") \
     V(heating_b, "heating_b", PARAMETER, SCALAR, "1", 17443, POSITIVE, 17443, "", \

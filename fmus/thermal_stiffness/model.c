@@ -89,12 +89,18 @@ bool model_start(Model *model, char *message, size_t size)
                                 "to heating_d) at every temperature: exchange them");
         return false;
     }
-    const double initial = NUMBER(initial_temperature);
     for (size_t i = 0; i < model->coils; i++) {
+        const double initial = ARRAY(initial_temperature)[i], position = ARRAY(initial_loop_position)[i];
+        if (position > 1.0) {
+            snprintf(message, size, "initial_loop_position[%zu] = %g: it must lie between 0 (heating branch) and 1 "
+                                    "(cooling branch)", i + 1, position);
+            return false;
+        }
         ARRAY(temperature)[i] = initial;
         ARRAY(convected_energy)[i] = 0.0;
-        /* A coil that was never heated is on the heating branch. */
-        ARRAY(memory)[i] = gompertz(ARRAY(heating_a), initial - CELSIUS);
+        const double heating = gompertz(ARRAY(heating_a), initial - CELSIUS);
+        const double cooling = gompertz(ARRAY(cooling_a), initial - CELSIUS);
+        ARRAY(memory)[i] = heating + position * (cooling - heating);
     }
     return true;
 }
@@ -108,7 +114,7 @@ void model_outputs(Model *model)
         ARRAY(resistance)[i] =
             ARRAY(reference_resistance)[i] *
             (1.0 + NUMBER(resistance_temperature_coefficient) * (temperature - NUMBER(reference_temperature)));
-        ARRAY(stored_energy)[i] = capacity(model, i) * (temperature - NUMBER(initial_temperature));
+        ARRAY(stored_energy)[i] = capacity(model, i) * (temperature - ARRAY(initial_temperature)[i]);
     }
 }
 

@@ -79,7 +79,7 @@ def rmse(model: CosimModel, point: Point) -> float:
 def simple(scenario: str, training: list[Recording], held_out: list[Recording]) -> tuple[float, float]:
     """Training and held-out RMSE of the simple model, its parameters fitted by plain least squares."""
     base = load_scenario(scenario)
-    free = [f for f in free_parameters(base, training) if f.recording is None]
+    free = [f for f in free_parameters(base, training) if not f.is_own]
     model = CosimModel(base, training, free)
 
     def errors(z: np.ndarray) -> np.ndarray:
@@ -119,7 +119,7 @@ def test_a_frictionless_arm_fails_as_it_did_elsewhere_and_viscous_damping_mends_
     training, held_out = recordings(real / "pendulum", "authors' split")
     base, terms = load_scenario("pendulum"), pendulum_terms("arm")
     damping = next(t.term for t in terms if t.term.identifier == "viscous_damping")
-    length = [f for f in free_parameters(base, training) if f.recording is None]
+    length = [f for f in free_parameters(base, training) if not f.is_own]
     judge = CosimModel(base, held_out, length, terms)
     # z of the best frictionless arm and of the best damped one, found by least squares over all training pieces
     assert rmse(judge, Point(np.array([-1.729]))) == pytest.approx(0.206, rel=0.05)
@@ -149,8 +149,8 @@ def test_a_number_that_one_recording_does_not_know_moves_that_one_alone(real):
     base = load_scenario("pendulum")
     free: list[Free] = free_parameters(base, held_out)
     assert [f.parameter.name for f in free] == [
-        "arm.centre_distance", "arm.initial_angle of vad_1", "arm.initial_angular_velocity of vad_1",
-        "arm.initial_angle of vad_2", "arm.initial_angular_velocity of vad_2",
+        "arm.centre_distance", "arm.initial_angle of recording 1", "arm.initial_angular_velocity of recording 1",
+        "arm.initial_angle of recording 2", "arm.initial_angular_velocity of recording 2",
     ]  # fmt: skip
     model = CosimModel(base, held_out, free)
     jacobian = model.base_jacobian(Point(np.zeros(5)))
