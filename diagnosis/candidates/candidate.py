@@ -121,13 +121,15 @@ class Parameter:
             raise ValueError(f"{self.name}: the bounds {self.lower:g} to {self.upper:g} leave no room")
         if self.of and self.of not in SCALES:
             raise ValueError(f"{self.name}: there is no scale {self.of}")
+        outside = [v for v in self.starts if not self.lower <= v <= self.upper]
+        if outside:
+            raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside}")
         if not (self.is_fixed or self.is_instant) and not (0.0 < self.plausible < math.inf and self.plausible_reason):
             raise ValueError(f"{self.name}: say how large it can be on a real rig, and why")
         if not self.starts:
             object.__setattr__(self, "starts", self.tried())
-        outside = [v for v in self.starts if not self.lower <= v <= self.upper]
-        if not self.starts or outside:
-            raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside or 'none'}")
+        if not self.starts:
+            raise ValueError(f"{self.name}: none of the values that its limit suggests lies within its bounds")
 
 
 @dataclass(frozen=True)
