@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
+from cosim.components import PendulumComponent
+from cosim.errors import InputError
+from cosim.parameters import resolve
+from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, places, signed_sizes, sizes
 from diagnosis.search.cosim_model import ComponentTerm
@@ -46,11 +51,17 @@ class Arm:
 
 
 def arm_of(scenario: Scenario, component: str) -> Arm:
-    """The arm of a scenario; one of 0.1 kg at 0.1 m where its numbers are not in the scenario itself."""
-    given = getattr(scenario.components.get(component), "parameters", {})
-    mass, distance = BENCH
-    if "mass" in given and "centre_distance" in given:
-        mass, distance = given["mass"].to("kg"), given["centre_distance"].to("m")
+    """The arm of a scenario; one of 0.1 kg at 0.1 m where its numbers are not known (whoever assembles it says why)."""
+    found, (mass, distance) = scenario.components.get(component), BENCH
+    if isinstance(found, PendulumComponent):
+        try:
+            given = resolve(found.parameter_set, found.parameters, scenario.path or Path("scenario")).values
+            quantities = [given[name] for name in ("mass", "centre_distance")]
+            own = [q.to(unit) for q, unit in zip(quantities, ("kg", "m")) if isinstance(q, PhysicalValue)]
+        except (InputError, KeyError, ValueError):
+            own = []
+        if len(own) == 2 and min(own) > 0.0:
+            mass, distance = own
     return Arm(mass * _GRAVITY * distance, math.sqrt(_GRAVITY / distance))
 
 
@@ -95,7 +106,7 @@ def _laws(arm: Arm) -> tuple[_Law, ...]:
               "stiction": "slow swings decide: stiction lets go above its Stribeck speed"}),
         _Law("stiction", "stiction of the hinge", "torque = -stiction * exp(-(w / stribeck_speed)**2) * sign(w)",
              (_size("stiction", _TORQUE, 0.5, 0.2 * moment, "at rest it is at most about twice the dry friction"),
-              _size("stribeck_speed", "rad/s", 10.0, 0.3 * rate, "the fall of friction with speed is over at a third of "
+              _size("stribeck_speed", "rad/s", 10.0, 0.3 * rate, "the fall with speed is over at a third of "
                     "the speed of a swing; if not, it is another law", 4, 1e-3)),
              {"coulomb_friction": "fast swings decide: there stiction does nothing"}),
         _Law("quadratic_drag", "drag of the air, with the square of the speed",
