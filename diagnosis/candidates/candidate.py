@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SCALES, places, scale_of, signed_sizes, sizes
+from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SCALES, SMALLEST, places, scale_of, signed_sizes, sizes
 
 Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
 #: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other; `powered`: all
@@ -113,7 +113,7 @@ class Parameter:
         elif self.lower < 0.0 and self.is_amplitude:
             found = signed_sizes(most, self.negligible, self.count or EITHER_SIGN)
         else:
-            found = sizes(most, self.negligible, self.count or ONE_SIGN)
+            found = sizes(most, max(self.negligible or SMALLEST * most, self.lower), self.count or ONE_SIGN)
         return tuple(v for v in found if self.lower <= v <= self.upper)
 
     def __post_init__(self) -> None:

@@ -37,10 +37,11 @@ found there stands in for something else and is not named. Many of these limits 
 (its h A, its load); in parentheses stands the value for the paper's coil under 0.1 kg.
 
 The values that are tried follow from that limit by one rule (`diagnosis/candidates/sizes.py`): the range from the size
-that is no finding, or 1 % of the limit, to the limit is divided into parts that are equal by ratio (three; two for
-each sign where either is possible), and the middle of each is tried. Thresholds and places are spread evenly over
-their range instead. Limits and ceilings are tried at shares of the largest reading (0.99, 0.9, 0.75, 0.6, 0.45), for of
-what is cut off nothing is seen above. Where a file departs from the rule it says why.
+that is no finding, or 1 % of the limit, or the lower bound, to the limit is divided into parts that are equal by ratio
+(three; two for each sign where either is possible), and the middle of each is tried. Thresholds and places are spread
+evenly over their range instead. Limits and ceilings are tried at shares of the largest reading (0.99, 0.9, 0.75, 0.6,
+0.45), for of what is cut off nothing is seen above. Where a file departs from the
+rule it says why.
 """
 _UNNAMED = """## Unnamed terms
 

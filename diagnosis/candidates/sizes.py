@@ -5,8 +5,8 @@ itself has: friction is compared with the load, play with the stretch, a second 
 
 The sizes that are tried follow from that limit alone:
 
-- a ladder: the range from the size that is no finding (or 1 % of the limit) to the limit is divided into equal parts
-  by ratio, and the middle of each is tried, so that no size is farther from a tried one than any other;
+- a ladder: the range from the size that is no finding (or 1 % of the limit, or the lower bound) to the limit is divided
+  into parts that are equal by ratio, and the middle of each is tried: no size is farther from a tried one than another;
 - places and thresholds, for which 0 is no smallest size: the middles of equal parts of the range, and where either
   sign is possible 0 and half the limit to each side.
 """

@@ -12,7 +12,7 @@ from cosim.errors import InputError
 from cosim.parameters import resolve
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
-from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, places, signed_sizes, sizes
+from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SMALLEST, places, signed_sizes, sizes
 from diagnosis.search.cosim_model import ComponentTerm
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.unit_law import UnitLaw
@@ -77,7 +77,11 @@ def _size(
 ) -> TermParameter:  # fmt: skip
     """A number that takes sizes of one sign, tried by the rule of `diagnosis.candidates.sizes`."""
     most = min(most, upper)
-    return TermParameter(name, unit, lower, upper, sizes(most, count=count), plausible=most, plausible_reason=why)
+    return TermParameter(name, unit, lower, upper, _starts(most, lower, count), plausible=most, plausible_reason=why)
+
+
+def _starts(most: float, lower: float, count: int) -> tuple[float, ...]:
+    return sizes(most, max(SMALLEST * most, lower), count)
 
 
 def _signed(name: str, unit: str, upper: float, most: float, why: str, count: int = EITHER_SIGN) -> TermParameter:
@@ -140,7 +144,7 @@ def _unnamed(arm: Arm) -> tuple[_Law, ...]:
         _Law("torque_of_rate_in_a_band", "torque with the rate near the lowest position",
              "torque = -band_damping * exp(-((angle - pi) / band_width)**2) * w",
              (_size("band_damping", _DAMPING, 0.05, moment / rate, "it stops the arm where it hangs", 2),
-              TermParameter("band_width", "rad", 0.05, 1.5, places(1.0)))),
+              _size("band_width", "rad", 1.5, 1.0, "a wider band is the whole swing", lower=0.05))),
         _Law("periodic_torque", "torque that comes and goes",
              "torque = periodic_torque * sin(periodic_rate * t + periodic_phase)",
              (_signed("periodic_torque", "N*m", 0.02, 0.1 * moment, tenth, 1),

@@ -46,7 +46,7 @@ def test_starts_follow_from_the_limit_by_the_rule_alone(term, p):
         wanted = [0.0, 0.5 * reach, -0.5 * reach] if p.lower < 0.0 else middles
         assert p.starts == pytest.approx(wanted, rel=6e-3)
     else:
-        least = p.negligible or 0.01 * most
+        least = max(p.negligible or 0.01 * most, p.lower)
         is_signed = p.lower < 0.0 and p.is_amplitude
         count = p.count or (2 if is_signed else 3)
         steps = [least * (most / least) ** ((n + 0.5) / count) for n in range(count)]
