@@ -32,7 +32,7 @@ def seconds(time: int) -> float:
     return time / NANOSECONDS
 
 
-def are_equal(one: AnyArray, other: AnyArray) -> bool:
+def are_equal(one: AnyArray, other: AnyArray | float) -> bool:
     """Whether two arrays of one shape hold the same values; one element is compared without numpy's overhead."""
     if one.size != 1 or isinstance(other, float):  # a caller of ours may give a plain number
         return bool((one == other).all())

@@ -66,7 +66,7 @@ class PendulumDesign:
     spring_stiffness: float = 0.0
     spring_rest: float = math.pi
     band_damping: float = 0.0
-    band_width: float = 0.25
+    band_width: float = 0.5
     periodic_torque: float = 0.0
     periodic_rate: float = 0.0
     periodic_phase: float = 0.0

@@ -21,6 +21,10 @@ SCALES: Mapping[str, tuple[float, float]] = {
 }  # fmt: skip
 
 
+#: Two coils always lie on a straight line: it says no more than that they differ.
+FEWEST_OF_A_GRADIENT = 3
+
+
 @dataclass(frozen=True)
 class Place:
     """Where a candidate acts.
@@ -59,13 +63,15 @@ def merge(
 
 
 def places(term: CandidateTerm, layout: BankLayout, measured: Sequence[str] = ()) -> list[Place]:
-    """Every place at which `term` can act.
+    """Every place at which `term` can act; none where it takes more elements than there are.
 
     Args:
         term: The candidate.
         layout: Coils and strings.
         measured: Quantities that are measured, for candidates of the measurement.
     """
+    if layout.size(term.axis) < term.fewest:
+        return []
     found: list[Place] = []
     for kind in term.places:
         found += _of_kind(kind, term, layout, measured)
@@ -101,7 +107,7 @@ def _unit(size: int, at: int) -> Array:
 
 def _gradient(kind: PlaceKind, layout: BankLayout) -> Iterator[Place]:
     place = layout.string_of_coil if kind == "row_gradient" else layout.place_in_string
-    if place.max() > 0:
+    if place.max() > 0 and len(place) >= FEWEST_OF_A_GRADIENT:
         mask = 2.0 * place / place.max() - 1.0
         yield Place(kind, f"gradient over {'rows' if kind == 'row_gradient' else 'columns'}", mask - mask.mean())
 

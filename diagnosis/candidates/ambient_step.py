@@ -15,7 +15,11 @@ CANDIDATE = CandidateTerm(
             -30.0,
             30.0,
             "a door, a lamp, an air conditioner",
-            (2.0, -2.0, 8.0),
+            plausible=5.0,
+            plausible_reason=(
+                "a window that is opened mixes a fifth of the room's air with air 25 K colder: 5 K; no room "
+                "jumps by more"
+            ),
             is_amplitude=True,
             negligible=0.1,
         ),

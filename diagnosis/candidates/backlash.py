@@ -13,7 +13,16 @@ CANDIDATE = CandidateTerm(
     ),
     parameters=(
         Parameter(
-            "gap", "m", 0.0, 0.005, "a gap is positive", (5e-05, 0.0002, 0.001), is_amplitude=True, negligible=2e-5
+            "gap",
+            "m",
+            0.0,
+            0.005,
+            "a gap is positive",
+            plausible=0.33,
+            of="stretch",
+            plausible_reason="with play of more than a third of its stretch the coil would hang loose to the eye",
+            is_amplitude=True,
+            negligible=2e-5,
         ),
     ),
     places=("coil", "all", "string"),

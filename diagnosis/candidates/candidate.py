@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
+
+from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SCALES, SMALLEST, places, scale_of, signed_sizes, sizes
 
 Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
 #: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other; `powered`: all
@@ -24,6 +27,16 @@ HOOK_AXES: Mapping[str, Axis] = {
 }  # fmt: skip
 
 
+#: Quantities of which at least one must be measured for a law of a unit to be told from one of another unit.
+NEEDS: Mapping[Unit, tuple[str, ...]] = {
+    "electrical": ("current", "voltage", "power", "resistance"),
+    "thermal": ("temperature",),
+    "stiffness": ("stiffness", "extension", "length"),
+    "mechanical": ("extension", "length"),
+    "measurement": (),
+}
+
+
 @dataclass(frozen=True)
 class Parameter:
     """One number of a candidate; in the bank an array over the axis of the candidate.
@@ -34,11 +47,21 @@ class Parameter:
         lower: Least value.
         upper: Greatest value.
         reason: Why these bounds: sign or passivity.
-        starts: Sensible values to start a fit from, within the bounds, smallest effect first.
+        starts: Values to start a fit from, smallest effect first. Empty: by the rule of `diagnosis.candidates.sizes`,
+            from the limit alone; anything else needs a `starts_reason`.
         is_amplitude: Whether 0 switches the effect off (at that coil, string or channel); the first one, and it alone.
         is_fixed: Given with the place, never fitted (the scale of a channel).
         is_switch: An amplitude that is wholly there (its upper bound) or not at all.
         negligible: Size of an amplitude below which it is no finding: every rig has that much of it.
+        plausible: Largest size that a real rig can have: a search may go beyond it, but what is found there is no name
+            of an effect. In the parameter's unit, or, with `of`, a multiple of that scale.
+        plausible_reason: Why: physics, with source or reckoning.
+        of: Name of a scale of the rig (`diagnosis.candidates.sizes.SCALES`).
+        is_position: A threshold or a place, counted from `origin`: small values are no smaller effect. It may lie on
+            either side where its lower bound is negative.
+        origin: See there.
+        count: How many values are tried; 0: as the rule says.
+        starts_reason: Why the values to start from do not follow the rule.
     """
 
     name: str
@@ -46,23 +69,67 @@ class Parameter:
     lower: float
     upper: float
     reason: str
-    starts: tuple[float, ...]
+    starts: tuple[float, ...] = ()
     is_amplitude: bool = False
     is_fixed: bool = False
     is_switch: bool = False
     negligible: float = 0.0
+    plausible: float = math.inf
+    plausible_reason: str = ""
+    of: str = ""
+    is_position: bool = False
+    origin: float = 0.0
+    count: int = 0
+    starts_reason: str = ""
 
     @property
     def is_instant(self) -> bool:
         """Whether it is an instant, for which start values are to be spread over the recording."""
         return self.name == "instant"
 
+    def limit(self, scales: Mapping[str, float] | None = None) -> float:
+        """Largest size that is believed, within the bounds; infinite where none is stated.
+
+        Args:
+            scales: Of a rig; None: of the paper's coil.
+        """
+        if not math.isfinite(self.plausible):
+            return math.inf
+        return min(abs(self.origin) + self.plausible * scale_of(self.of, scales), max(abs(self.lower), abs(self.upper)))
+
+    def tried(self, scales: Mapping[str, float] | None = None) -> tuple[float, ...]:
+        """Values to start a fit from by the rule, those outside the bounds left out.
+
+        Args:
+            scales: Of a rig; None: of the paper's coil.
+        """
+        if self.starts_reason or self.is_fixed or self.is_instant:
+            return self.starts
+        if self.is_switch:
+            return (self.upper,)
+        most = self.limit(scales) - abs(self.origin)
+        if self.is_position:
+            found = places(most, self.count or ONE_SIGN, self.origin, self.lower < 0.0)
+        elif self.lower < 0.0 and self.is_amplitude:
+            found = signed_sizes(most, self.negligible, self.count or EITHER_SIGN)
+        else:
+            found = sizes(most, max(self.negligible or SMALLEST * most, self.lower), self.count or ONE_SIGN)
+        return tuple(v for v in found if self.lower <= v <= self.upper)
+
     def __post_init__(self) -> None:
         if not self.lower < self.upper:
             raise ValueError(f"{self.name}: the bounds {self.lower:g} to {self.upper:g} leave no room")
+        if self.of and self.of not in SCALES:
+            raise ValueError(f"{self.name}: there is no scale {self.of}")
         outside = [v for v in self.starts if not self.lower <= v <= self.upper]
-        if not self.starts or outside:
-            raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside or 'none'}")
+        if outside:
+            raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside}")
+        if not (self.is_fixed or self.is_instant) and not (0.0 < self.plausible < math.inf and self.plausible_reason):
+            raise ValueError(f"{self.name}: say how large it can be on a real rig, and why")
+        if not self.starts:
+            object.__setattr__(self, "starts", self.tried())
+        if not self.starts:
+            raise ValueError(f"{self.name}: none of the values that its limit suggests lies within its bounds")
 
 
 @dataclass(frozen=True)
@@ -106,6 +173,9 @@ class CandidateTerm:
         keeps_sums: A sensor that is linear in the signal of its own channel: a sum passes it as its parts do.
         same_as: A named candidate with the same law: this one is tried only where that is not in the catalogue.
         rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
+        needs: Quantities of which at least one must be measured (of any element) for the law to be told from one of
+            another unit; None: those of its unit (`NEEDS`).
+        fewest: Least number of elements of its axis (coils or heaters, strings, channels): with fewer it has no place.
     """
 
     identifier: str
@@ -123,8 +193,12 @@ class CandidateTerm:
     keeps_sums: bool = False
     same_as: str = ""
     rank: int = 0
+    needs: tuple[str, ...] | None = None
+    fewest: int = 1
 
     def __post_init__(self) -> None:
+        if self.needs is None:
+            object.__setattr__(self, "needs", NEEDS[self.unit])
         unknown = sorted(set(self.lines) - set(HOOK_AXES))
         if unknown:
             raise ValueError(f"{self.identifier}: there is no hook {unknown[0]}")

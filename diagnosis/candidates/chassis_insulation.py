@@ -17,7 +17,11 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.95,
             "a covered surface loses less heat, and never none",
-            (0.1, 0.3, 0.5),
+            plausible=0.8,
+            plausible_reason=(
+                "10 mm of still air (0.026 W/(m K)) before the surface still pass 2.6 W/(m^2 K), a fifth of the "
+                "10 to 15 of a free surface with radiation"
+            ),
             is_amplitude=True,
             negligible=0.02,
         ),

@@ -12,8 +12,26 @@ CANDIDATE = CandidateTerm(
         "Nonlinear Viscoelastic Materials, North-Holland 1976, chapter 5"
     ),
     parameters=(
-        Parameter("compliance", "m/N", 0.0, 0.005, "a load stretches", (5e-05, 0.0003, 0.001), is_amplitude=True),
-        Parameter("tau", "s", 0.5, 10000.0, "a time constant is positive", (10.0, 60.0, 400.0)),
+        Parameter(
+            "compliance",
+            "m/N",
+            0.0,
+            0.005,
+            "a load stretches",
+            plausible=0.5,
+            of="compliance",
+            plausible_reason="metal below its yield stress creeps by less than half of what it stretches at once",
+            is_amplitude=True,
+        ),
+        Parameter(
+            "tau",
+            "s",
+            0.5,
+            10000.0,
+            "a time constant is positive",
+            plausible=1000.0,
+            plausible_reason="what creeps more slowly is a straight line over most of an hour",
+        ),
     ),
     places=("all", "coil"),
     lines={

@@ -8,6 +8,7 @@ from diagnosis.candidates import unnamed, unnamed_shapes
 from diagnosis.candidates.candidate import CandidateTerm, Parameter
 from diagnosis.candidates.hooks import FUNCTIONS, HOOKS, NAMES
 from diagnosis.candidates.registry import catalogue
+from diagnosis.candidates.sizes import SCALES
 from diagnosis.candidates.unnamed import TARGETS, VARIABLES
 
 _UNITS = {
@@ -30,6 +31,17 @@ of x (or, where the law holds at any rate, its change). A parameter named `insta
 Every rig has a little of everything, and enough readings show it. So a strength may have a size below which it is no
 finding: what coils of one lot differ by (2 K of transformation temperature), what a room does by itself (0.1 K, 2 % of
 the cooling), what is less than a hundredth of a load, of a length or of a resistance.
+
+Every size has a largest one that is believed of a real rig, with the reason. The search may go beyond it, but what is
+found there stands in for something else and is not named. Many of these limits are multiples of what the rig itself has
+(its h A, its load); in parentheses stands the value for the paper's coil under 0.1 kg.
+
+The values that are tried follow from that limit by one rule (`diagnosis/candidates/sizes.py`): the range from the size
+that is no finding, or 1 % of the limit, or the lower bound, to the limit is divided into parts that are equal by ratio
+(three; two for each sign where either is possible), and the middle of each is tried. Thresholds and places are spread
+evenly over their range instead. Limits and ceilings are tried at shares of the largest reading (0.99, 0.9, 0.75, 0.6,
+0.45), for of what is cut off nothing is seen above. Where a file departs from the
+rule it says why.
 """
 _UNNAMED = """## Unnamed terms
 
@@ -44,7 +56,9 @@ C lines act at hooks. A step comes to them in this order; every parameter is a n
 _ADD = """## A candidate of your own
 
 1. Copy the file that is nearest in kind and rename it; `identifier` is the file's name.
-2. Write the law, its source, the parameters with bounds and the reason for them (passivity or sign), and the lines.
+2. Write the law, its source, the parameters with bounds and the reason for them (passivity or sign), the largest size
+   that is believed of a real rig and why (`plausible`), which quantities must be measured to tell the law from heat or
+   from motion (`needs`, by default those of its unit), how many coils it takes (`fewest`), and the lines.
    Write a term so that strength 0 changes no bit: `x += a * ...` or `x *= 1.0 + a * ...`.
 3. A loss of heat belongs into `conductance`, which the step solves exactly, rather than into `heat`.
 4. `python -m pytest tests/diagnosis_bank` tries it: formula, zero, what it moves, passivity. Add a closed form of its
@@ -58,11 +72,21 @@ def _number(value: float) -> str:
 
 def _parameter(p: Parameter) -> str:
     if p.is_fixed:
-        small = f"; below {_number(p.negligible)} it is no finding" if p.negligible else ""
-    return f"`{p.name}` [{p.unit}]: given with the place"
+        return f"`{p.name}` [{p.unit}]: given with the place"
+    if p.is_instant:
+        return f"`{p.name}` [{p.unit}]: {p.reason}; tried from instants spread over it"
     starts = ", ".join(_number(v) for v in p.starts)
+    starts += f" ({p.starts_reason})" if p.starts_reason else ""
     small = f"; below {_number(p.negligible)} it is no finding" if p.negligible else ""
-    return f"`{p.name}` [{p.unit}], {_number(p.lower)} to {_number(p.upper)}: {p.reason}; tried from {starts}{small}"
+    bounds = f"{_number(p.lower)} to {_number(p.upper)}: {p.reason}"
+    return f"`{p.name}` [{p.unit}], {bounds}; {_limit(p)}; tried from {starts}{small}"
+
+
+def _limit(p: Parameter) -> str:
+    most = f"{p.limit():.2g}"
+    if p.of:
+        most = f"{_number(p.plausible)} times {SCALES[p.of][1]} ({most})"
+    return f"believed up to {most}: {p.plausible_reason}"
 
 
 def _named(term: CandidateTerm) -> Iterator[str]:
@@ -71,6 +95,10 @@ def _named(term: CandidateTerm) -> Iterator[str]:
     yield "\n".join(f"    {equation.strip()}" for equation in term.law.split(";")) + "\n"
     for parameter in term.parameters:
         yield f"- {_parameter(parameter)}"
+    if term.needs:
+        yield f"- needs one of: {', '.join(term.needs)}"
+    if term.fewest > 1:
+        yield f"- needs at least {term.fewest} {'coils or heaters' if term.axis == 'coil' else f'{term.axis}s'}"
     if term.states:
         yield "- adds " + ", ".join(f"`{s.name}` [{s.unit}] ({s.kind})" for s in term.states)
     yield f"- leaves: {term.signature}"

@@ -18,7 +18,11 @@ CANDIDATE = CandidateTerm(
             -0.8,
             5.0,
             "heat transfer stays positive",
-            (0.2, -0.2, 0.6, 1.5),
+            plausible=4.0,
+            plausible_reason=(
+                "free air carries 10, a fan in a room 50 W/(m^2 K): fivefold (Incropera et al., table 1.1: 2 to "
+                "25 free, 25 to 250 forced)"
+            ),
             is_amplitude=True,
             negligible=0.02,
         ),

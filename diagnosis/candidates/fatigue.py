@@ -18,7 +18,11 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.3,
             "cycling fades the effect; it never adds to it",
-            (0.01, 0.04, 0.12),
+            plausible=0.2,
+            plausible_reason=(
+                "an overloaded wire loses a tenth or two in its first cycle, a trained one far less (Eggeler et "
+                "al. 2004)"
+            ),
             is_amplitude=True,
             negligible=0.005,
         ),

@@ -18,7 +18,10 @@ CANDIDATE = CandidateTerm(
             -5.0,
             5.0,
             "a few kelvins over the first cycles, either way",
-            (0.5, -0.5, 2.0, -2.0),
+            plausible=4.0,
+            plausible_reason=(
+                "untrained wire moves by some kelvins in a cycle, and by about 20 K in all (Eggeler et al. 2004)"
+            ),
             is_amplitude=True,
         ),
     ),

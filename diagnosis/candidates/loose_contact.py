@@ -10,7 +10,18 @@ CANDIDATE = CandidateTerm(
     source="R. Holm, Electric Contacts, 4th ed., Springer 1967, chapter 1",
     parameters=(
         Parameter(
-            "R_contact", "ohm", 0.0, 10000.0, "passive: a contact gives no energy", (0.3, 1.0, 10.0), is_amplitude=True
+            "R_contact",
+            "ohm",
+            0.0,
+            10000.0,
+            "passive: a contact gives no energy",
+            plausible=10000.0,
+            plausible_reason="an open contact is believed",
+            starts=(0.14, 0.66, 3.06),
+            starts_reason=(
+                "those of a bad contact (contact_resistance): beyond them the current says no more than that it is open"
+            ),
+            is_amplitude=True,
         ),
         Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
     ),

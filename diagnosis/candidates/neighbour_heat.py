@@ -12,9 +12,23 @@ CANDIDATE = CandidateTerm(
         " 3.1 (conductance of a contact)"
     ),
     parameters=(
-        Parameter("g", "W/K", 0.0, 0.1, "heat flows from hot to cold", (0.001, 0.0003, 0.004, 0.02), is_amplitude=True),
+        Parameter(
+            "g",
+            "W/K",
+            0.0,
+            0.1,
+            "heat flows from hot to cold",
+            plausible=3.0,
+            of="conductance",
+            plausible_reason=(
+                "wires that cross touch over a tenth of a millimetre: 2 a k = 2e-4 m * 18 W/(m K) = 4 mW/K, less"
+                " than the surface gives to the air; several contacts are allowed"
+            ),
+            is_amplitude=True,
+        ),
     ),
     places=("all", "string"),
+    fewest=2,
     lines={
         "pairs": "exchange = 0.5 * (g_a + g_b);",
     },

@@ -18,7 +18,12 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.02,
             "emissivity from 0 to 1 times the surface: heat flows from hot to cold",
-            (2e-05, 0.0001, 0.0005, 0.002),
+            plausible=0.5,
+            of="conductance",
+            plausible_reason=(
+                "free air carries at least 2 W/(m^2 K) (Incropera et al., table 1.1): the surface is h A / 2 at "
+                "most, and emissivity 1 at most"
+            ),
             is_amplitude=True,
         ),
     ),

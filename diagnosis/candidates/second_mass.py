@@ -12,8 +12,32 @@ CANDIDATE = CandidateTerm(
         " ed., Wiley 2011, chapter 5"
     ),
     parameters=(
-        Parameter("g", "W/K", 0.0, 0.5, "heat flows from hot to cold", (0.001, 0.004, 0.02), is_amplitude=True),
-        Parameter("C2", "J/K", 0.001, 100.0, "a heat capacity is positive", (0.02, 0.1, 0.5, 3.0)),
+        Parameter(
+            "g",
+            "W/K",
+            0.0,
+            0.5,
+            "heat flows from hot to cold",
+            plausible=10.0,
+            of="conductance",
+            plausible_reason=(
+                "a mass that is joined ten times as well as the air has the coil's temperature within a tenth: "
+                "it is the coil"
+            ),
+            is_amplitude=True,
+        ),
+        Parameter(
+            "C2",
+            "J/K",
+            0.001,
+            100.0,
+            "a heat capacity is positive",
+            plausible=30.0,
+            of="capacity",
+            plausible_reason=(
+                "a mass of more than some tens of coils hardly warms within a recording: it is the surroundings"
+            ),
+        ),
     ),
     places=("all", "coil", "string"),
     lines={

@@ -13,7 +13,16 @@ CANDIDATE = CandidateTerm(
     ),
     parameters=(
         Parameter(
-            "rise", "ohm/A^2", 0.0, 20.0, "metals gain resistance when they warm up", (0.1, 0.5, 2.0), is_amplitude=True
+            "rise",
+            "ohm/A^2",
+            0.0,
+            20.0,
+            "metals gain resistance when they warm up",
+            plausible=18.0,
+            plausible_reason=(
+                "copper doubles over 250 K, where insulation ends: a cold lead of three coils (6.5 ohm) at 0.6 A"
+            ),
+            is_amplitude=True,
         ),
     ),
     places=("string",),

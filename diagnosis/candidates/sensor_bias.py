@@ -9,7 +9,16 @@ CANDIDATE = CandidateTerm(
     law="value = truth + bias * scale",
     source="JCGM 200:2012, International Vocabulary of Metrology, 4.20 (instrument bias)",
     parameters=(
-        Parameter("bias", "1", -5.0, 5.0, "larger ones are seen by eye", (0.1, -0.1, 0.5, -0.5), is_amplitude=True),
+        Parameter(
+            "bias",
+            "1",
+            -5.0,
+            5.0,
+            "larger ones are seen by eye",
+            plausible=1.0,
+            plausible_reason="10 K, 0.1 A or 1 mm are seen before a run begins",
+            is_amplitude=True,
+        ),
         Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),
     ),
     places=("channel", "quantity"),

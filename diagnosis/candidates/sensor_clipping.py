@@ -9,8 +9,29 @@ CANDIDATE = CandidateTerm(
     law="value = truth + clipped * (min(truth + noise, pivot + ceiling * scale) - truth)",
     source="JCGM 200:2012, International Vocabulary of Metrology, 4.7 (measuring interval)",
     parameters=(
-        Parameter("clipped", "1", 0.0, 1.0, "1: clipped", (1.0,), is_amplitude=True, is_switch=True),
-        Parameter("ceiling", "1", -20.0, 50.0, "in scales above the pivot", (5.0, 3.0, 2.0, 1.0)),
+        Parameter(
+            "clipped",
+            "1",
+            0.0,
+            1.0,
+            "1: clipped",
+            plausible=1.0,
+            plausible_reason="clipped or not",
+            is_amplitude=True,
+            is_switch=True,
+        ),
+        Parameter(
+            "ceiling",
+            "1",
+            -20.0,
+            50.0,
+            "in scales above the pivot",
+            plausible=10.0,
+            plausible_reason=(
+                "100 K, 1 A or 10 mm above the pivot: the range of common sensors; where readings are at hand, "
+                "shares of the largest of them are tried"
+            ),
+        ),
         Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),
         Parameter("pivot", "unit of the channel", -1000.0, 1000.0, "given", (0.0, 295.15), is_fixed=True),
         Parameter("noise", "unit of the channel", 0.0, 1000.0, "of the sensor; given", (0.0,), is_fixed=True),

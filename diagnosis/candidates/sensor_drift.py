@@ -10,7 +10,14 @@ CANDIDATE = CandidateTerm(
     source="JCGM 200:2012, International Vocabulary of Metrology, 4.21 (instrumental drift)",
     parameters=(
         Parameter(
-            "drift", "1/min", -5.0, 5.0, "larger ones are seen by eye", (0.05, -0.05, 0.3, -0.3), is_amplitude=True
+            "drift",
+            "1/min",
+            -5.0,
+            5.0,
+            "larger ones are seen by eye",
+            plausible=0.1,
+            plausible_reason="1 K or 0.1 mm in a minute: no sensor in order does more while it is looked at",
+            is_amplitude=True,
         ),
         Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),
     ),

@@ -15,7 +15,11 @@ CANDIDATE = CandidateTerm(
             0.0,
             60.0,
             "a sensor follows, it does not foresee",
-            (0.1, 0.5, 2.0, 8.0),
+            plausible=30.0,
+            plausible_reason=(
+                "a sheathed thermocouple of 3 mm in still air has some tens of seconds (Doebelin, section 3.3); "
+                "a stated bound takes its place"
+            ),
             is_amplitude=True,
             negligible=0.05,
         ),

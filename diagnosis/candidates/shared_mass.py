@@ -12,11 +12,41 @@ CANDIDATE = CandidateTerm(
         "ed., Wiley 2011, chapter 5"
     ),
     parameters=(
-        Parameter("g", "W/K", 0.0, 0.05, "heat flows from hot to cold", (0.0005, 0.002, 0.01), is_amplitude=True),
-        Parameter("C_chassis", "J/K", 0.2, 10000.0, "a heat capacity is positive", (1.0, 5.0, 50.0)),
-        Parameter("loss", "W/K", 0.0, 10.0, "heat flows from hot to cold", (0.01, 0.1)),
+        Parameter(
+            "g",
+            "W/K",
+            0.0,
+            0.05,
+            "heat flows from hot to cold",
+            plausible=3.0,
+            of="conductance",
+            plausible_reason="pins and eyes pass less than a few times what the whole surface gives to the air",
+            is_amplitude=True,
+        ),
+        Parameter(
+            "C_chassis",
+            "J/K",
+            0.2,
+            10000.0,
+            "a heat capacity is positive",
+            plausible=1000.0,
+            of="capacity",
+            plausible_reason="a steel frame of 0.1 kg (46 J/K) for coils of 0.04 J/K; a heavier one hardly warms",
+        ),
+        Parameter(
+            "loss",
+            "W/K",
+            0.0,
+            10.0,
+            "heat flows from hot to cold",
+            plausible=30.0,
+            of="conductance",
+            plausible_reason="a frame has some tens of times the surface of a coil",
+            count=2,
+        ),
     ),
     places=("all", "string"),
+    fewest=2,
     lines={
         "heat": """
             conductance += g;

@@ -14,10 +14,18 @@ CANDIDATE = CandidateTerm(
     ),
     parameters=(
         Parameter(
-            "r", "1/W", 0.0, 0.5, "a passive supply gives way, it does not push", (0.02, 0.1, 0.3), is_amplitude=True
+            "r",
+            "1/W",
+            0.0,
+            0.5,
+            "a passive supply gives way, it does not push",
+            plausible=0.2,
+            plausible_reason="2 R / V0^2 of 5 V behind 2.5 ohm: a USB port at the end of a long cable",
+            is_amplitude=True,
         ),
     ),
     places=("powered",),
+    fewest=2,
     lines={
         "heat": "heat -= P * least(r * drawn, 1.0);",
         "gather": "gathered = 1000.0 * P;",

@@ -17,7 +17,12 @@ CANDIDATE = CandidateTerm(
             0.0,
             40.0,
             "stress favours martensite, so the temperatures rise",
-            (0.5, 2.0, 6.0, 15.0),
+            plausible=30.0,
+            of="per_load",
+            plausible_reason=(
+                "7 MPa/K and 200 MPa, which NiTi bears for many cycles (Otsuka and Wayman, section 1.4): 30 K "
+                "under the load"
+            ),
             is_amplitude=True,
             negligible=0.5,
         ),

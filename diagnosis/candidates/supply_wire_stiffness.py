@@ -15,11 +15,25 @@ CANDIDATE = CandidateTerm(
             0.0,
             300.0,
             "a spring that stores what it takes",
-            (3.0, 15.0, 60.0),
+            plausible=0.5,
+            of="stiffness",
+            plausible_reason=(
+                "wires of half the coil's own stiffness carry a third of its load: nobody calls them wires"
+            ),
             is_amplitude=True,
             negligible=0.5,
         ),
-        Parameter("reach", "m", -0.05, 0.05, "extension at which the wires are slack", (0.0, 0.003, -0.003)),
+        Parameter(
+            "reach",
+            "m",
+            -0.05,
+            0.05,
+            "extension at which the wires are slack",
+            plausible=1.0,
+            of="stretch",
+            plausible_reason="the wires are slack somewhere on the coil's way",
+            is_position=True,
+        ),
     ),
     places=("coil", "all", "string"),
     lines={

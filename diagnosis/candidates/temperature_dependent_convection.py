@@ -18,7 +18,11 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.05,
             "free convection rises with the temperature difference; heat flows from hot to cold",
-            (0.002, 0.006, 0.02),
+            plausible=0.02,
+            plausible_reason=(
+                "h rises at most with dT**n, n = 1/3 (turbulent, Churchill and Chu): at dT = 25 K the straight "
+                "line has n / ((1 - n) dT) = 0.02 / K"
+            ),
             is_amplitude=True,
             negligible=3e-4,
         ),

@@ -18,7 +18,11 @@ CANDIDATE = CandidateTerm(
             -0.0002,
             0.0002,
             "expansion of metals or a two-way effect, either sign",
-            (2e-06, -2e-06, 2e-05, -2e-05),
+            plausible=0.01,
+            of="stretch",
+            plausible_reason=(
+                "a two-way effect moves half of the stretch over 50 K; expansion of steel is a hundredth of that"
+            ),
             is_amplitude=True,
             negligible=1e-6,
         ),

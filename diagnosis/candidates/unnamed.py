@@ -17,6 +17,10 @@ _SOURCE = (
     "library: Brunton, Proctor and Kutz, PNAS 113 (2016) 3932-3937; scales: Buckingham, Phys. Rev. 4 (1914) 345-376"
 )
 _REASON = "size only: nothing is known about the sign of a law without a name"
+_SECOND = "a coil that loses or gains twice what it loses at 30 K is another coil"
+_THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
+#: A delay behind which a generic term acts: what is far slower than the coil itself is a drift.
+DELAY_REASON = "what is thirty times as slow as the coil is a drift over a recording"
 _PLACES: tuple[PlaceKind, ...] = ("all", "string", "coil", "row_gradient", "column_gradient")
 
 #: Variable: formula that makes it dimensionless (in C and in Python alike), and its name in words.
@@ -53,7 +57,9 @@ class Target:
         law: Formula of the same.
         amplitude: Unit of the amplitude.
         bound: Its largest size.
-        starts: Start values.
+        plausible: Its largest size that is believed, as a multiple of `of`.
+        of: Name of a scale of the rig.
+        plausible_reason: Why.
         single: Variable to forms of it. What a base parameter or a named candidate is already is left out: heat linear
             in the excess is h A, resistance linear in it the temperature coefficient.
         products: Pairs of variables.
@@ -66,7 +72,9 @@ class Target:
     law: str
     amplitude: str
     bound: float
-    starts: tuple[float, ...]
+    plausible: float
+    of: str
+    plausible_reason: str
     single: Mapping[str, tuple[str, ...]]
     products: tuple[tuple[str, str], ...]
     delayed: tuple[str, ...]
@@ -74,7 +82,7 @@ class Target:
 
 TARGETS: Mapping[str, Target] = {
     "heat": Target(
-        "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, (0.02, -0.02, 0.1, -0.1),
+        "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, 1.0, "heat", _SECOND,
         {
             "excess": ("square", "cube", "saturating"), "power": ("square", "saturating"),
             "rate": ("linear", "absolute"), "time": ("linear", "square"),
@@ -87,7 +95,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "resistance": Target(
         "electrical", "resistance", "R += a * reference_resistance * ({phi});",
-        "R = R_0 + a * reference_resistance * ({phi})", "1", 0.5, (0.01, -0.01, 0.05, -0.05),
+        "R = R_0 + a * reference_resistance * ({phi})", "1", 0.5, 0.3, "", _THIRD,
         {
             "excess": ("square", "saturating"), "rate": ("linear",), "time": ("linear", "square"),
             "energy": ("linear", "saturating"), "stretch": ("linear", "square"), "power": ("linear",),
@@ -98,7 +106,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "stiffness": Target(
         "stiffness", "stiffness", "added += a * ({phi});", "stiffness = stiffness_0 + a * ({phi})", "N/m", 100.0,
-        (2.0, -2.0, 10.0, -10.0),
+        0.3, "stiffness", _THIRD,
         {
             "excess": ("linear", "square"), "rate": ("linear",), "time": ("linear",), "energy": ("linear",),
             "stretch": ("linear", "square"), "power": ("linear",), "phase": ("linear", "square"), "pull": ("linear",),
@@ -108,7 +116,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "length": Target(
         "mechanical", "length", "extension += a * ({phi});", "extension = extension_0 + a * ({phi})", "m", 0.01,
-        (5e-5, -5e-5, 5e-4, -5e-4),
+        0.3, "stretch", _THIRD,
         {
             "excess": ("square",), "rate": ("linear",), "time": ("linear", "square"), "energy": ("linear",),
             "power": ("linear",), "phase": ("linear", "square"), "stretch": ("square",), "pull": ("square",),
@@ -121,7 +129,10 @@ TARGETS: Mapping[str, Target] = {
 
 def _term(equation: str, name: str, phi: str, words: str, delay: Parameter | None = None) -> CandidateTerm:
     target = TARGETS[equation]
-    amplitude = Parameter("a", target.amplitude, -target.bound, target.bound, _REASON, target.starts, is_amplitude=True)
+    amplitude = Parameter(
+        "a", target.amplitude, -target.bound, target.bound, _REASON, is_amplitude=True,
+        plausible=target.plausible, of=target.of, plausible_reason=target.plausible_reason,
+    )  # fmt: skip
     lines = {target.hook: target.line.format(phi="delayed" if delay else phi)}
     law = target.law.format(phi="delayed" if delay else phi.replace("fabs", "abs"))
     if delay:
@@ -151,7 +162,9 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
     for one, other in target.products:
         phi = f"({VARIABLES[one][0]}) * ({VARIABLES[other][0]})"
         yield _term(equation, f"{one}_times_{other}", phi, f"{VARIABLES[one][1]} times {VARIABLES[other][1]}")
-    tau = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 100.0))
+    tau = Parameter(
+        "tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON
+    )
     for variable in target.delayed:
         formula, words = VARIABLES[variable]
         yield _term(equation, f"delayed_{variable}", formula, f"{words}, delayed", tau)
@@ -159,7 +172,10 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
 
 def _between_neighbours() -> CandidateTerm:
     """Heat that goes from coil to coil: what one loses the other gains."""
-    amplitude = Parameter("a", "W", 0.0, 3.0, "heat flows from hot to cold", (0.01, 0.05, 0.2), is_amplitude=True)
+    amplitude = Parameter(
+        "a", "W", 0.0, 3.0, "heat flows from hot to cold", is_amplitude=True,
+        plausible=3.0, of="heat", plausible_reason="coils that touch pass less than a few times what they lose",
+    )  # fmt: skip
     return CandidateTerm(
         identifier="unnamed_heat_neighbour",
         name="unnamed term in heat: difference of temperature to coils that touch",
@@ -171,6 +187,7 @@ def _between_neighbours() -> CandidateTerm:
         lines={"pairs": "exchange = 0.5 * (a_a + a_b) / 30.0;"},
         signature="What is missing in heat follows the difference of temperature between coils that touch.",
         is_named=False,
+        fewest=2,
     )
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
-from diagnosis.candidates.unnamed import VARIABLES
+from diagnosis.candidates.unnamed import DELAY_REASON, VARIABLES
 
 _SOURCE = "J. H. Friedman, Annals of Statistics 19 (1991) 1-67; M. Brokate and J. Sprekels, Hysteresis and Phase "
 _SOURCE += "Transitions, Springer 1996, chapter 2"
@@ -19,45 +19,82 @@ _REASON = "size only: nothing is known about the sign of a law without a name"
 _PASSIVE = "it only takes energy"
 _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 _EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
-_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 500.0))
-_COOLING = Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
+_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON)
+_HEAT = "a coil that loses or gains twice what it loses at 30 K is another coil"
+_COOLING = Parameter(
+    "a", "W", -0.2, 2.0, "cooling stays cooling", is_amplitude=True, plausible=1.0, of="heat", plausible_reason=_HEAT
+)
+_THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
+_HALF = "what holds more than half of the load lets nothing move"
+_SERIES = "a contact that takes the heat of three coils on its small surface burns or opens"
+_SLOW = "what lags by more than 20 s is seen by eye"
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
 
 
 #: Generic terms whose law is that of a named candidate.
 _SAME = {
-    "series_step": "loose_contact", "series_linear": "contact_resistance", "series_cube": "self_heating_lead",
-    "supply_linear": "supply_source_resistance", "supply_hinge": "supply_current_limit",
+    "series_step": "loose_contact",
+    "series_linear": "contact_resistance",
+    "series_cube": "self_heating_lead",
+    "supply_linear": "supply_source_resistance",
+    "supply_hinge": "supply_current_limit",
     "force_sign_motion": "slide_friction",
-    "length_sign_motion": "backlash", "heat_excess_times_step": "draught",
-    "shift_linear_pull": "stress_dependent_transformation", "shift_constant": "transformation_shift",
-    "force_linear_stretch": "supply_wire_stiffness", "length_linear_excess": "thermal_contraction",
+    "length_sign_motion": "backlash",
+    "heat_excess_times_step": "draught",
+    "shift_linear_pull": "stress_dependent_transformation",
+    "shift_constant": "transformation_shift",
+    "force_linear_stretch": "supply_wire_stiffness",
+    "length_linear_excess": "thermal_contraction",
     "resistance_linear_excess": "temperature_dependent_resistance",
     "resistance_linear_phase": "phase_dependent_resistance",
-}  # fmt: skip
+}
 #: Temperature above that of the data sheet: what laws of a metal are written in.
 _WARMTH = "(T - reference_temperature) / 30.0"
 
 
-def _amplitude(unit: str, bound: float, *sizes: float, is_passive: bool = False, negligible: float = 0.0) -> Parameter:
-    starts = sizes if is_passive else tuple(sign * s for s in sizes for sign in (1.0, -1.0))
-    reason = _PASSIVE if is_passive else _REASON
-    lower = 0.0 if is_passive else -bound
-    return Parameter("a", unit, lower, bound, reason, starts, is_amplitude=True, negligible=negligible)
+def _amplitude(
+    unit: str, bound: float, plausible: tuple[float, str, str], is_passive: bool = False, negligible: float = 0.0
+) -> Parameter:
+    """The strength of a term; `plausible` is the largest size that is believed, the scale it counts in, and why."""
+    most, of, why = plausible
+    return Parameter(
+        "a",
+        unit,
+        0.0 if is_passive else -bound,
+        bound,
+        _PASSIVE if is_passive else _REASON,
+        is_amplitude=True,
+        negligible=negligible,
+        plausible=most,
+        of=of,
+        plausible_reason=why,
+    )
 
 
 def _term(
-    identity: tuple[Unit, str, str], law: str, parameters: tuple[Parameter, ...], lines: dict[str, str],
-    places: tuple[PlaceKind, ...] = _LOCAL, states: tuple[State, ...] = (),
-) -> CandidateTerm:  # fmt: skip
+    identity: tuple[Unit, str, str],
+    law: str,
+    parameters: tuple[Parameter, ...],
+    lines: dict[str, str],
+    places: tuple[PlaceKind, ...] = _LOCAL,
+    states: tuple[State, ...] = (),
+) -> CandidateTerm:
     unit, name, words = identity
     equation = name.split("_", 1)[0]
     return CandidateTerm(
-        identifier=f"unnamed_{name}", name=f"unnamed term in {equation}: {words}", unit=unit, law=law, source=_SOURCE,
-        parameters=parameters, places=places, lines=lines,
-        signature=f"What is missing in {equation} follows {words}.", states=states, is_named=False,
+        identifier=f"unnamed_{name}",
+        name=f"unnamed term in {equation}: {words}",
+        unit=unit,
+        law=law,
+        source=_SOURCE,
+        parameters=parameters,
+        places=places,
+        lines=lines,
+        signature=f"What is missing in {equation} follows {words}.",
+        states=states,
+        is_named=False,
         same_as=_SAME.get(name, ""),
-    )  # fmt: skip
+    )
 
 
 def _delayed(formula: str) -> tuple[dict[str, str], tuple[State, ...]]:
@@ -68,11 +105,18 @@ def _delayed(formula: str) -> tuple[dict[str, str], tuple[State, ...]]:
 
 def _of_shift() -> Iterator[CandidateTerm]:
     """Shift of the transformation temperatures [K]."""
-    size = _amplitude("K", 40.0, 0.5, 4.0, negligible=0.5)  # no rig knows it better
+    size = _amplitude(
+        "K", 40.0, (20.0, "", "neighbouring alloys of one series differ by 20 K"), negligible=0.5
+    )  # no rig knows it better
     for form, variable in (
-        ("linear", "rate"), ("absolute", "rate"), ("linear", "time"), ("linear", "energy"), ("linear", "power"),
-        ("linear", "stretch"), ("linear", "pull"),
-    ):  # fmt: skip
+        ("linear", "rate"),
+        ("absolute", "rate"),
+        ("linear", "time"),
+        ("linear", "energy"),
+        ("linear", "power"),
+        ("linear", "stretch"),
+        ("linear", "pull"),
+    ):
         formula, words = VARIABLES[variable]
         phi = f"fabs({formula})" if form == "absolute" else formula
         identity: tuple[Unit, str, str] = ("stiffness", f"shift_{form}_{variable}", f"{words}, {form}")
@@ -86,13 +130,15 @@ def _of_shift() -> Iterator[CandidateTerm]:
     yield _term(
         ("stiffness", "shift_delayed_excess", f"{words}, delayed"),
         f"shift = a * delayed; tau * d(delayed) = {formula} - delayed",
-        (size, _TAU), {"stiffness": "shift += a * delayed;", **lines}, states=states,
-    )  # fmt: skip
+        (size, _TAU),
+        {"stiffness": "shift += a * delayed;", **lines},
+        states=states,
+    )
 
 
 def _of_force() -> Iterator[CandidateTerm]:
     """Force on a coil [N], and what holds its motion."""
-    size = _amplitude("N", 1.0, 0.02, 0.1)
+    size = _amplitude("N", 1.0, (0.5, "load", _HALF))
     for name, phi, words in (
         ("linear_pull", VARIABLES["pull"][0], "tension (scale 1 N), linear"),
         ("square_amperes", "({v}) * ({v})".format(v=VARIABLES["amperes"][0]), "current, square"),
@@ -104,73 +150,142 @@ def _of_force() -> Iterator[CandidateTerm]:
     yield _term(
         ("mechanical", "force_hinge_stretch", "extension, beyond a threshold"),
         "tension = stiffness * extension + a * max(extension - onset, 0)",
-        (_amplitude("N/m", 5000.0, 20.0, 100.0, 500.0, is_passive=True),
-         Parameter("onset", "m", 0.0, 0.05, "a threshold that is reached", (0.004, 0.002, 0.003, 0.006))),
+        (
+            _amplitude(
+                "N/m", 5000.0, (10.0, "stiffness", "a stop of ten times the coil's stiffness is rigid"), is_passive=True
+            ),
+            Parameter(
+                "onset",
+                "m",
+                0.0,
+                0.05,
+                "a threshold that is reached",
+                plausible=1.0,
+                of="stretch",
+                plausible_reason="a threshold on the coil's way",
+                is_position=True,
+                count=4,
+            ),
+        ),
         {"length": "extension -= a * most(extension - onset, 0.0) / (stiffness + a);"},
-    )  # fmt: skip
+    )
     yield _term(
         ("mechanical", "force_linear_stretch", "extension, linear"),
         "tension = stiffness * extension + a * (extension - reach)",
-        (_amplitude("N/m", 300.0, 3.0, 15.0, 60.0, is_passive=True),
-         Parameter("reach", "m", -0.05, 0.05, "extension at which it is slack", (0.0, 0.003, -0.003))),
+        (
+            _amplitude(
+                "N/m",
+                300.0,
+                (0.5, "stiffness", "half of the coil's own stiffness carries a third of its load"),
+                is_passive=True,
+            ),
+            Parameter(
+                "reach",
+                "m",
+                -0.05,
+                0.05,
+                "extension at which it is slack",
+                plausible=1.0,
+                of="stretch",
+                plausible_reason="it is slack somewhere on the coil's way",
+                is_position=True,
+            ),
+        ),
         {"length": "extension -= a * (extension - reach) / (stiffness + a);"},
-    )  # fmt: skip
+    )
     yield _term(
-        ("mechanical", "length_linear_excess", "temperature, linear"), f"extension = extension_0 + a * {_WARMTH}",
-        (_amplitude("m", 0.006, 6e-5, 6e-4),), {"length": f"extension += a * {_WARMTH};"},
-    )  # fmt: skip
+        ("mechanical", "length_linear_excess", "temperature, linear"),
+        f"extension = extension_0 + a * {_WARMTH}",
+        (_amplitude("m", 0.006, (0.3, "stretch", _THIRD)),),
+        {"length": f"extension += a * {_WARMTH};"},
+    )
     yield _term(
         ("mechanical", "force_sign_motion", "direction of the motion"),
         "abs(tension - stiffness * extension) <= a",
-        (_amplitude("N", 1.0, 0.02, 0.1, is_passive=True),),
+        (_amplitude("N", 1.0, (0.5, "load", _HALF), is_passive=True),),
         {"length": "extension = clip(extension_before, extension - a / stiffness, extension + a / stiffness);"},
     )
     yield _term(
-        ("mechanical", "length_delayed", "itself, delayed"), "a * d(extension_marker) = extension - extension_marker",
-        (_amplitude("s", 100.0, 0.5, 2.0, 10.0, is_passive=True),),
+        ("mechanical", "length_delayed", "itself, delayed"),
+        "a * d(extension_marker) = extension - extension_marker",
+        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True),),
         {"length": "extension += (extension_before - extension) * exp(-dt / most(a, 1e-9));"},
-    )  # fmt: skip
+    )
     yield _term(
         ("mechanical", "length_sign_motion", "direction of the motion"),
         "abs(extension_marker - extension) <= a",
-        (_amplitude("m", 0.005, 5e-5, 5e-4, is_passive=True),),
+        (_amplitude("m", 0.005, (0.165, "stretch", "half of the largest play that is believed"), is_passive=True),),
         {"length": "extension = clip(extension_before, extension - a, extension + a);"},
     )
 
 
 def _of_heat() -> Iterator[CandidateTerm]:
     """Heat [W]: what no smooth function of the coil's own variables is."""
-    watts = _amplitude("W", 2.0, 0.02, 0.1)
+    watts = _amplitude("W", 2.0, (1.0, "heat", _HEAT))
     excess, words = VARIABLES["excess"]
     yield _term(
-        ("thermal", "heat_linear_excess", f"{words}, linear"), f"heat = -a * ({excess})",
+        ("thermal", "heat_linear_excess", f"{words}, linear"),
+        f"heat = -a * ({excess})",
         (_COOLING,),
-        {"heat": "conductance += a / 30.0;"}, _EVERY,
-    )  # fmt: skip
+        {"heat": "conductance += a / 30.0;"},
+        _EVERY,
+    )
     yield _term(
-        ("thermal", "heat_hinge_excess", "temperature beyond a threshold"), "heat = a * max(T - onset, 0) / 30.0",
-        (watts, Parameter("onset", "K", 200.0, 600.0, "a threshold that is reached", (320.0, 305.0, 335.0))),
+        ("thermal", "heat_hinge_excess", "temperature beyond a threshold"),
+        "heat = a * max(T - onset, 0) / 30.0",
+        (
+            watts,
+            Parameter(
+                "onset",
+                "K",
+                200.0,
+                600.0,
+                "a threshold that is reached",
+                plausible=60.0,
+                plausible_reason="a threshold between a room and where the coil has transformed",
+                is_position=True,
+                origin=295.15,
+            ),
+        ),
         {"heat": "heat += a * most(T - onset, 0.0) / 30.0;"},
-    )  # fmt: skip
+    )
     yield _term(
-        ("thermal", "heat_step", "an instant"), "heat = a * step(t - instant)", (watts, _INSTANT),
+        ("thermal", "heat_step", "an instant"),
+        "heat = a * step(t - instant)",
+        (watts, _INSTANT),
         {"heat": "heat += a * share_after(instant, t_begin, t_end);"},
-    )  # fmt: skip
+    )
     yield _term(
         ("thermal", "heat_excess_times_step", f"{words} after an instant"),
         f"heat = -a * ({excess}) * step(t - instant)",
         (_COOLING, _INSTANT),
         {"heat": "conductance += a / 30.0 * share_after(instant, t_begin, t_end);"},
-    )  # fmt: skip
+    )
     stretch, words = VARIABLES["stretch"]
     lines, states = _delayed(stretch)
     yield _term(
-        ("thermal", "heat_excess_times_change_of_stretch", "temperature above the surroundings times change of "
-         "extension"),
+        (
+            "thermal",
+            "heat_excess_times_change_of_stretch",
+            "temperature above the surroundings times change of extension",
+        ),
         f"heat = a * ({excess}) * abs({stretch} - delayed) / tau; tau * d(delayed) = {stretch} - delayed",
-        (_amplitude("W*s", 20.0, 0.02, 0.1), Parameter("tau", "s", 0.05, 1e3, "a delay is positive", (1.0, 5.0, 0.2))),
-        {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed) / tau;", **lines}, states=states,
-    )  # fmt: skip
+        (
+            _amplitude("W*s", 20.0, (30.0, "capacity", "heat that warms the coil by 30 K")),
+            Parameter(
+                "tau",
+                "s",
+                0.05,
+                1e3,
+                "a delay is positive",
+                plausible=3.0,
+                of="time",
+                plausible_reason="a change is over once the coil has followed it",
+            ),
+        ),
+        {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed) / tau;", **lines},
+        states=states,
+    )
 
 
 def _of_resistance() -> Iterator[CandidateTerm]:
@@ -179,7 +294,16 @@ def _of_resistance() -> Iterator[CandidateTerm]:
         ("electrical", "resistance_step", "an instant"),
         "R = max(R_0 + a * reference_resistance * step(t - instant), 1e-3 * reference_resistance)",
         (
-            Parameter("a", "1", -1.0, 50.0, "what is left is positive", (0.02, -0.02, 0.2, -0.5), is_amplitude=True),
+            Parameter(
+                "a",
+                "1",
+                -1.0,
+                50.0,
+                "what is left is positive",
+                is_amplitude=True,
+                plausible=3.0,
+                plausible_reason="three more coils in one place; beyond, it is open",
+            ),
             _INSTANT,
         ),
         {
@@ -190,60 +314,115 @@ def _of_resistance() -> Iterator[CandidateTerm]:
         },
     )
     for name, phi, words in (
-        ("linear_excess", _WARMTH, "temperature, linear"), ("linear_phase", "phase", "share of austenite, linear"),
-    ):  # fmt: skip
+        ("linear_excess", _WARMTH, "temperature, linear"),
+        ("linear_phase", "phase", "share of austenite, linear"),
+    ):
         yield _term(
-            ("electrical", f"resistance_{name}", words), f"R = R_0 + a * reference_resistance * {phi}",
-            (_amplitude("1", 0.5, 0.015, 0.06),),
+            ("electrical", f"resistance_{name}", words),
+            f"R = R_0 + a * reference_resistance * {phi}",
+            (_amplitude("1", 0.5, (0.3, "", _THIRD)),),
             {"resistance": f"R += a * reference_resistance * {phi};"},
-        )  # fmt: skip
+        )
     amperes, words = VARIABLES["amperes"]
     lines, states = _delayed(amperes)
     yield _term(
         ("electrical", "resistance_delayed_amperes", f"{words}, delayed"),
         f"R = R_0 + a * reference_resistance * delayed; tau * d(delayed) = {amperes} - delayed",
-        (_amplitude("1", 20.0, 0.01, 0.05), _TAU),
-        {"resistance": "R += a * reference_resistance * delayed;", **lines}, states=states,
-    )  # fmt: skip
+        (_amplitude("1", 20.0, (0.3, "", _THIRD)), _TAU),
+        {"resistance": "R += a * reference_resistance * delayed;", **lines},
+        states=states,
+    )
     yield _term(
-        ("electrical", "series_constant", "direction of the current"), "R_string = R_string_0 + a / (abs(I) + 0.01)",
-        (_amplitude("V", 5.0, 0.05, 0.15, 0.5, is_passive=True),),
-        {"string": "R_string += a / (fabs(I) + 0.01);"}, ("all", "string"),
-    )  # fmt: skip
+        ("electrical", "series_constant", "direction of the current"),
+        "R_string = R_string_0 + a / (abs(I) + 0.01)",
+        (_amplitude("V", 5.0, (1.5, "", "two diodes in series"), is_passive=True),),
+        {"string": "R_string += a / (fabs(I) + 0.01);"},
+        ("all", "string"),
+    )
     yield _term(
-        ("electrical", "series_linear", "current, linear"), "R_string = R_string_0 + a",
-        (_amplitude("ohm", 20.0, 0.05, 0.5, is_passive=True),), {"string": "R_string += a;"}, ("string",),
-    )  # fmt: skip
+        ("electrical", "series_linear", "current, linear"),
+        "R_string = R_string_0 + a",
+        (_amplitude("ohm", 20.0, (3.0, "resistance", _SERIES), is_passive=True),),
+        {"string": "R_string += a;"},
+        ("string",),
+    )
     yield _term(
         ("electrical", "series_step", "current after an instant"),
         "R_string = R_string_0 + a * step(t - instant)",
-        (_amplitude("ohm", 50.0, 0.05, 0.5, is_passive=True), _INSTANT),
-        {"string": "R_string += a * share_after(instant, t_begin, t_end);"}, ("string",),
-    )  # fmt: skip
+        (_amplitude("ohm", 50.0, (3.0, "resistance", _SERIES), is_passive=True), _INSTANT),
+        {"string": "R_string += a * share_after(instant, t_begin, t_end);"},
+        ("string",),
+    )
     yield _term(
-        ("electrical", "series_cube", "current, cube"), "R_string = R_string_0 + a * I**2",
-        (_amplitude("V/A^3", 20.0, 0.1, 0.5, 2.0, is_passive=True),), {"string": "R_string += a * I * I;"}, ("string",),
-    )  # fmt: skip
+        ("electrical", "series_cube", "current, cube"),
+        "R_string = R_string_0 + a * I**2",
+        (
+            _amplitude(
+                "V/A^3",
+                20.0,
+                (18.0, "", "a cold lead of three coils that doubles over 250 K at 0.6 A"),
+                is_passive=True,
+            ),
+        ),
+        {"string": "R_string += a * I * I;"},
+        ("string",),
+    )
     yield _term(
-        ("electrical", "supply_linear", "current of the supply, linear"), "V_terminal = V - a * I_supply",
-        (_amplitude("ohm", 20.0, 0.05, 0.5, is_passive=True),), {"supply": "R_supply += a;"}, ("supply",),
-    )  # fmt: skip
+        ("electrical", "supply_linear", "current of the supply, linear"),
+        "V_terminal = V - a * I_supply",
+        (
+            _amplitude(
+                "ohm",
+                20.0,
+                (2.0, "resistance", "a supply that loses more than two coils take drives no network"),
+                is_passive=True,
+            ),
+        ),
+        {"supply": "R_supply += a;"},
+        ("supply",),
+    )
     yield _term(
         ("electrical", "supply_hinge", "current of the supply, beyond a threshold"),
         "I_supply = I_free - a * max(I_free - limit, 0)",
-        (Parameter("a", "1", 0.0, 1.0, _PASSIVE, (0.5, 1.0, 0.2), is_amplitude=True),
-         Parameter("limit", "A", 0.01, 1000.0, "a threshold is positive", (2.0, 0.3, 0.7, 1.2, 3.0, 5.0))),
-        {"supply": "I_limit = a > 0.0 ? limit : I_limit;\nlimited = a > 0.0 ? a : limited;"}, ("supply", "all"),
-    )  # fmt: skip
+        (
+            Parameter(
+                "a",
+                "1",
+                0.0,
+                1.0,
+                _PASSIVE,
+                is_amplitude=True,
+                plausible=1.0,
+                plausible_reason="all above the threshold is lost",
+            ),
+            Parameter(
+                "limit",
+                "A",
+                0.01,
+                1000.0,
+                "a threshold is positive",
+                plausible=30.0,
+                plausible_reason="laboratory supplies are made for 0.3 to 30 A",
+                count=6,
+            ),
+        ),
+        {"supply": "I_limit = a > 0.0 ? limit : I_limit;\nlimited = a > 0.0 ? a : limited;"},
+        ("supply", "all"),
+    )
     yield _term(
-        ("electrical", "supply_delayed", "voltage of the supply, delayed"), "a * d(V_terminal) = V - V_terminal",
-        (_amplitude("s", 100.0, 0.1, 0.5, 2.0, 10.0, is_passive=True),),
-        {"source": """
+        ("electrical", "supply_delayed", "voltage of the supply, delayed"),
+        "a * d(V_terminal) = V - V_terminal",
+        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True),),
+        {
+            "source": """
             const double decay = exp(-dt / most(a, 1e-9)), gap = behind_begin - V;
             behind = V + gap * decay;
             V += gap * (1.0 - decay) * a / dt;
-        """}, ("supply", "all"), (State("behind", "V", "0.0", "memory"),),
-    )  # fmt: skip
+        """
+        },
+        ("supply", "all"),
+        (State("behind", "V", "0.0", "memory"),),
+    )
 
 
 def _of_value() -> Iterator[CandidateTerm]:
@@ -253,17 +432,24 @@ def _of_value() -> Iterator[CandidateTerm]:
     yield _term(
         ("measurement", "value_square", "the reading itself, square"),
         "value = truth + a * scale * ((truth - pivot) / scale)**2",
-        (_amplitude("1", 0.3, 0.01, 0.05), scale, pivot),
+        (_amplitude("1", 0.3, (0.3, "", "bent by a third over its range: no sensor")), scale, pivot),
         {"sensor": "value += a * scale * ((value - pivot) / scale) * ((value - pivot) / scale);"},
         ("channel", "quantity"),
-    )  # fmt: skip
+    )
     amperes = VARIABLES["amperes"][0]
     # Up to a whole scale at the typical current: a thermocouple welded to a wire is off by kelvins per ampere.
     yield _term(
         ("measurement", "value_linear_amperes", "current in its coil, linear"),
-        f"value = truth + a * scale * ({amperes})", (_amplitude("1", 1.0, 0.01, 0.05), scale),
-        {"sensor": f"value += a * scale * ({amperes});"}, ("channel", "quantity"),
-    )  # fmt: skip
+        f"value = truth + a * scale * ({amperes})",
+        (
+            _amplitude(
+                "1", 1.0, (1.0, "", "a whole scale at the typical current, as of a thermocouple welded to the wire")
+            ),
+            scale,
+        ),
+        {"sensor": f"value += a * scale * ({amperes});"},
+        ("channel", "quantity"),
+    )
 
 
 CANDIDATES = (*_of_shift(), *_of_force(), *_of_heat(), *_of_resistance(), *_of_value())

@@ -10,7 +10,15 @@ CANDIDATE = CandidateTerm(
     source="L. Meirovitch, Fundamentals of Vibrations, McGraw-Hill 2001, section 1.9",
     parameters=(
         Parameter(
-            "damping", "N*s/m", 0.0, 10000.0, "damping only takes energy", (50.0, 300.0, 1500.0), is_amplitude=True
+            "damping",
+            "N*s/m",
+            0.0,
+            10000.0,
+            "damping only takes energy",
+            plausible=20.0,
+            of="stiffness",
+            plausible_reason="a dashpot that holds a coil for 20 s; what is slower is creep",
+            is_amplitude=True,
         ),
     ),
     places=("coil", "all", "string"),

@@ -9,10 +9,21 @@ CANDIDATE = CandidateTerm(
     law="value = truth + exchange * (truth_of_other - truth)",
     source="Permutation of channels",
     parameters=(
-        Parameter("exchange", "1", 0.0, 1.0, "1: exchanged", (1.0,), is_amplitude=True, is_switch=True),
+        Parameter(
+            "exchange",
+            "1",
+            0.0,
+            1.0,
+            "1: exchanged",
+            plausible=1.0,
+            plausible_reason="exchanged or not",
+            is_amplitude=True,
+            is_switch=True,
+        ),
         Parameter("other", "1", 0.0, 1000000.0, "the other element; given", (0.0,), is_fixed=True),
     ),
     places=("swap",),
+    fewest=2,
     lines={
         "channel": """
             share += exchange;

@@ -23,39 +23,56 @@ class _Law:
 
 _HOT = "a hot and a cold part of the recording decide"
 _LOAD = "a known weight on the last row decides"
-#: Bounds: friction and damping take energy, springs store it; start values: what shows beyond the contacts' scatter.
+#: Share of the largest believable size at which an effect is simulated first: one run each, and it has to show beyond
+#: the scatter of the contacts.
+FIRST = 0.3
+
+
+def _number(name: str, unit: str, lower: float, upper: float, most: float, why: str) -> TermParameter:
+    """The number of an effect, tried at one share of the largest size that is believed, and of either sign."""
+    starts = (FIRST * most, -FIRST * most) if lower < 0.0 else (FIRST * most,)
+    return TermParameter(name, unit, lower, upper, starts, plausible=most, plausible_reason=why)
+
+
+#: Bounds: friction and damping take energy, springs store it.
 _LAWS = (
     _Law("contact_friction", "more friction between links", "friction_of_a_pair = friction + added_friction",
-         TermParameter("added_friction", "1", 0.0, 2.0, (0.4,)),
+         _number("added_friction", "1", 0.0, 2.0, 1.0, "dry metal has a coefficient of 0.5 to 1 in all"),
          {"hinge_friction": "whether links stop sliding or rolling: markers of single links decide",
           "base:friction": "never told apart: the same number, beyond what the scenario allows it"}),
     _Law("slide_friction", "Coulomb friction in the slides of the links", "force = -slide_friction * sign(slide_rate)",
-         TermParameter("slide_friction", "N", 0.0, 5.0, (0.5,)),
+         _number("slide_friction", "N", 0.0, 5.0, 1.5,
+                 "a coil that is stretched by 10 mm pulls with 1.6 N: more would hold it for good"),
          {"backlash": _HOT, "contact_friction": "lengths of single links decide"}),
     _Law("viscous_damping", "viscous damping in the slides of the links", "force = -slide_damping * slide_rate",
-         TermParameter("slide_damping", "N*s/m", 0.0, 100.0, (2.0,)),
+         _number("slide_damping", "N*s/m", 0.0, 100.0, 10.0,
+                 "grease of 10 Pa s between surfaces of 1 cm^2 that are 0.1 mm apart"),
          {"slide_friction": "where links stop decides: damping lets them reach their stops"}),
     _Law("hinge_friction", "stiction of the hinges that hooked links make",
          "torque = -hinge_friction * normal_force * sign(rolling)",
-         TermParameter("hinge_friction", "m", 0.0, 0.02, (3e-3,)),
+         _number("hinge_friction", "m", 0.0, 0.02, 0.01, "the lever of rolling is not longer than the link"),
          {"contact_friction": "markers of single links decide"}),
     _Law("supply_wire_stiffness", "stiffness of the supply wires", "force = -wire_stiffness * (place - woven_place)",
-         TermParameter("wire_stiffness", "N/m", 0.0, 50.0, (0.5,)),
+         _number("wire_stiffness", "N/m", 0.0, 50.0, 2.6,
+                 "two stranded leads of 0.5 mm that bend over 50 mm: 3 E I / L^3 = 1.3 N/m each"),
          {"payload": _HOT, "tilt": "positions along and across decide"}),
     _Law("backlash", "play of the coils in their pins",
          "tension = stiffness * maximum(extension - coil_play, 0)",
-         TermParameter("coil_play", "m", 0.0, 5e-3, (1e-3,)),
+         _number("coil_play", "m", 0.0, 5e-3, 0.003, "a third of a coil of 9.4 mm: it would rattle"),
          {"thermal_contraction": _HOT, "base:steel_stiffness": _HOT}),
     _Law("thermal_contraction", "contraction of the coils with their transformation (two-way effect)",
          "rest_length = cold_rest_length - coil_contraction * (stiffness - cold_stiffness)",
-         TermParameter("coil_contraction", "m^2/N", 0.0, 5e-5, (1e-5,)), {"backlash": _HOT}),
+         _number("coil_contraction", "m^2/N", 0.0, 5e-5, 3e-05,
+                 "230 N/m, the whole transformation, times that are 7 mm: the coil's length"),
+         {"backlash": _HOT}),
     _Law("payload", "a mass on the last row", "force = payload * gravity",
-         TermParameter("payload", "kg", 0.0, 0.2, (5e-3,)),
+         _number("payload", "kg", 0.0, 0.2, 0.02, "20 g on the last row are seen"),
          {"base:link_mass": _LOAD, "supply_wire_stiffness": _HOT}),
     _Law("tilt", "tilt of the stand along the fabric", "gravity_y = -gravity * sin(tilt)",
-         TermParameter("tilt", "rad", -0.5, 0.5, (0.08, -0.08)), {"payload": "lengths along the fabric decide"}),
+         _number("tilt", "rad", -0.5, 0.5, 0.25,
+                 "a stand that leans by 15 degrees is seen"), {"payload": "lengths along the fabric decide"}),
     _Law("roll", "tilt of the stand across the fabric", "gravity_x = -gravity * sin(roll)",
-         TermParameter("roll", "rad", -0.5, 0.5, (0.08, -0.08))),
+         _number("roll", "rad", -0.5, 0.5, 0.25, "a stand that leans by 15 degrees is seen")),
 )  # fmt: skip
 
 

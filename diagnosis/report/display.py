@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.quantity import conversion, parse_unit
 from cosim.unit import Array
 
 #: SI unit to factor and unit for differences (RMSE, residuals): the same for all channels, so that rows compare.
@@ -82,6 +84,144 @@ def interval(value: float, lower: float, upper: float, unit: str) -> str:
         is_plain = 1e-4 <= biggest < 1e6
         texts = [f"{v:.{max(decimals, 0)}f}" if is_plain else f"{v:.{digits - 1}e}" for v in (value, lower, upper)]
     return f"{texts[0]} {symbol(unit)}".strip() + f" ({texts[1]} to {texts[2]})"
+
+
+#: Scales of temperature and the unit in which differences on them are told.
+_TEMPERATURES = {"K": "K", "degC": "K", "celsius": "K", "degree_Celsius": "K", "degF": "°F", "fahrenheit": "°F"}
+_BASE_UNIT = re.compile(r"[^\W\d_]+")
+
+
+def user_unit(unit: str, written: Iterable[str]) -> str:
+    """Unit for a quantity by what the user wrote elsewhere; the SI unit where nothing that was written fits.
+
+    A unit of the same kind is taken as it is, the first one that was written; else the units that a compound consists
+    of are replaced one by one. A temperature within a compound is a difference, so it stays in K.
+
+    Args:
+        unit: SI unit of the quantity.
+        written: Units of channels and of parameters of the scenario, as written.
+
+    >>> user_unit("m", ["degC", "mm"]), user_unit("m/N", ["mm"]), user_unit("W/K", ["mA"])
+    ('mm', 'mm/N', 'W/K')
+    """
+    known: dict[str, str] = {}
+    for text in written:
+        kind = _kind(text)
+        if kind:
+            known.setdefault(kind, text)
+    if _kind(unit) in known:
+        return known[_kind(unit)]
+    parts = {"m", "s", "A", "V", "W", "N", "kg", "J", "ohm", "rad"}
+    return _BASE_UNIT.sub(lambda m: known.get(_kind(m[0]), m[0]) if m[0] in parts else m[0], unit)
+
+
+def _kind(unit: str) -> str:
+    """Dimension of a unit; empty for pure numbers and for what is no unit."""
+    try:
+        found = parse_unit(unit)
+    except ValueError:
+        return ""
+    # An angle has no dimension, but it is no pure number either.
+    return "angle" if str(found) in ("radian", "degree") else "" if found.dimensionless else str(found.dimensionality)
+
+
+def user_scale(unit: str, preferred: str, is_difference: bool = False) -> tuple[float, float, str]:
+    """Factor and offset from SI, and the unit as printed; SI where the preferred unit does not fit.
+
+    Args:
+        unit: SI unit.
+        preferred: Unit as the user wrote it; may be empty.
+        is_difference: Whether values are differences (a bias, a step): differences of degC are K.
+    """
+    if not preferred or preferred == unit:
+        return 1.0, 0.0, symbol(unit)
+    try:
+        factor, offset = conversion(unit, preferred)
+    except ValueError:
+        return 1.0, 0.0, symbol(unit)
+    if preferred not in _TEMPERATURES:
+        return factor, offset, symbol(preferred)
+    printed = (
+        _TEMPERATURES[preferred] if is_difference else {"degF": "°F", "fahrenheit": "°F", "K": "K"}.get(preferred, "°C")
+    )
+    return factor, 0.0 if is_difference else offset, printed
+
+
+def user_value(value: float, unit: str, preferred: str, is_difference: bool = False) -> str:
+    """A quantity in the unit that the user wrote.
+
+    >>> user_value(0.0015, "m", "mm"), user_value(295.15, "K", "degC"), user_value(1.6, "K", "degC", True)
+    ('1.50 mm', '22.0 °C', '1.60 K')
+    """
+    factor, offset, printed = user_scale(unit, preferred, is_difference)
+    return f"{number(factor * value + offset)} {printed}".strip()
+
+
+def user_interval(
+    value: float, lower: float, upper: float, unit: str, preferred: str, is_difference: bool = False
+) -> str:  # fmt: skip
+    """An estimate with its interval in the unit that the user wrote; see `interval`.
+
+    >>> user_interval(3.1e-4, 2.8e-4, 3.4e-4, "m", "mm")
+    '0.310 mm (0.280 to 0.340)'
+    """
+    factor, offset, printed = user_scale(unit, preferred, is_difference)
+    return interval(factor * value + offset, factor * lower + offset, factor * upper + offset, printed)
+
+
+#: Parameters of a model in words.
+_PARAMETERS: Mapping[str, str] = {
+    "capacity": "heat capacity",
+    "specific_heat": "specific heat",
+    "conductance": "heat transfer (h A)",
+    "cooling_rate": "cooling rate while the power is off",
+    "reference_resistance": "resistance at the reference temperature",
+    "heating_a": "rise of the stiffness on the heating branch",
+    "heating_d": "stiffness when cold",
+    "cooling_a": "rise of the stiffness on the cooling branch",
+    "heating_shift": "temperature of the heating branch",
+    "cooling_shift": "temperature of the cooling branch",
+    "transformation_shift": "transformation temperature",
+    "load": "load",
+    "power_gain": "heating power",
+    "ambient_offset": "room temperature",
+    "initial_temperature": "initial temperature",
+}
+
+
+def moved(name: str, value: float, is_relative: bool, unit: str, preferred: str = "") -> str:
+    """By how much a parameter of the model was moved by its recalibration.
+
+    Args:
+        name: Of the parameter: `capacity`, `coil[2,1].load`, `ambient_offset of recording 2`.
+        value: Factor where it is relative, else the change, SI.
+        is_relative: See there.
+        unit: SI unit of the parameter.
+        preferred: Unit as the user wrote it.
+
+    >>> moved("capacity", 3.82, True, "J/K"), moved("coil[2,1].transformation_shift", 1.6, False, "K")
+    ("heat capacity: 3.82 times the scenario's value", 'transformation temperature of coil[2,1]: +1.60 K')
+    """
+    told = parameter_words(name)
+    if is_relative:
+        # No scenario states the lag of a sensor: the factor counts from the typical lag below the stated bound.
+        base = "what was assumed" if name.startswith("lag of ") else "the scenario's value"
+        return f"{told}: {number(value)} times {base}"
+    sign = "+" if value > 0 else ""
+    return f"{told}: {sign}{user_value(value, unit, preferred, is_difference=True)}"
+
+
+def parameter_words(name: str) -> str:
+    """A parameter of the model in words, with the place at its end.
+
+    >>> parameter_words("coil[2,1].capacity"), parameter_words("ambient_offset of recording 2")
+    ('heat capacity of coil[2,1]', 'room temperature of recording 2')
+    """
+    text = clean(name)
+    place, _, field = text.rpartition(".") if re.fullmatch(r"[^\s.]+\.\w+", text) else ("", "", text)
+    own, of, rest = field.partition(" of ")
+    told = _PARAMETERS.get(own, own.replace("_", " "))
+    return f"{told} of {place}" if place else f"{told}{of}{rest}"
 
 
 def percent(probability: float) -> str:

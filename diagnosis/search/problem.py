@@ -59,6 +59,8 @@ class TermParameter:
             along it.
         is_instant: An instant of the recording.
         negligible: Size of a strength below which it is no finding.
+        plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
+        plausible_reason: Why.
     """
 
     name: str
@@ -69,6 +71,8 @@ class TermParameter:
     is_switch: bool = False
     is_instant: bool = False
     negligible: float = 0.0
+    plausible: float = math.inf
+    plausible_reason: str = ""
 
 
 @dataclass(frozen=True)

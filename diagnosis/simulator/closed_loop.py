@@ -13,7 +13,7 @@ from diagnosis.compute.batch import Batches
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters
-from diagnosis.search.pendulum_terms import pendulum_laws, sensor_laws
+from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
 from diagnosis.simulator.pendulum_model import TORQUE, PendulumModel, is_single_pendulum, without_scale
@@ -66,7 +66,7 @@ class ClosedLoopModel:
         if is_single_pendulum(scenario, recordings):
             (component,) = scenario.components
             channels = dict.fromkeys(name for r in recordings for name in r.channels)
-            laws = [*pendulum_laws(component, without), *sensor_laws(component, channels)]
+            laws = [*pendulum_laws(component, without, arm_of(scenario, component)), *sensor_laws(component, channels)]
             kind = PendulumModel
         self._laws = {law.place.term: law for law in laws if law.place.term.identifier not in without}
         free, self._torque_scale = free_parameters(scenario, recordings), 0.0

@@ -10,6 +10,7 @@ from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.places import SCALES, Place
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.search.problem import Term, TermParameter
+from diagnosis.simulator.rig_scales import believed, rig_scales
 from diagnosis.simulator.runs import LONGEST_LAG, Run, Series
 
 #: Instants at which an effect that begins some time is tried first.
@@ -33,11 +34,12 @@ def term_at(candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Se
     if candidate.axis == "channel":
         elements = set(np.flatnonzero(place.mask).tolist())
         own = [s for run in runs for s in run.series if layout.channel(s.quantity) + s.element in elements]
+    scales = rig_scales(runs[0].translation.parameters.base)
     free = []
     for p in candidate.parameters:
         if p.is_fixed:
             continue
-        lower, upper, starts = p.lower, p.upper, p.starts
+        lower, upper, starts = p.lower, p.upper, p.tried(scales) or p.starts
         if p.is_instant:
             lower = begin = min(run.translation.start for run in runs)
             upper = end = max(float(t[-1]) for run in runs for t in run.times.values())
@@ -47,7 +49,10 @@ def term_at(candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Se
         elif p.name == "ceiling":
             starts = _ceilings(own) or starts
         negligible = max(p.negligible, _stated(candidate, own))
-        free.append(TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible))
+        plausible = believed(candidate, p, own, scales)
+        free.append(
+            TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible, *plausible)
+        )
     return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
 
 

@@ -127,7 +127,13 @@ def longer(tmp_path_factory) -> Recording:
 
 @pytest.fixture(scope="module")
 def braked(tmp_path_factory) -> Recording:
-    return made(tmp_path_factory.mktemp("r") / "r", 2, band_damping="6e-4 N*m*s", centre_distance="114 mm")
+    return made(
+        tmp_path_factory.mktemp("r") / "r",
+        2,
+        band_damping="6e-4 N*m*s",
+        band_width="0.25 rad",
+        centre_distance="114 mm",
+    )
 
 
 def test_residuals_are_those_of_the_co_simulation(longer):

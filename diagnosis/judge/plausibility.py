@@ -1,0 +1,68 @@
+"""Whether a finding can be what its name says: sizes that a real rig can have, and quantities that tell its law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+
+from diagnosis.candidates.candidate import NEEDS, CandidateTerm
+from diagnosis.search.problem import Term
+
+#: Unit of a law to what was not recorded, and what it cannot be told from.
+_ELSEWHERE = {
+    "electrical": ("no electrical channel was recorded", "an electrical law cannot be told from heat"),
+    "thermal": (
+        "no temperature was recorded",
+        "a thermal law cannot be told from one of the current or of the stiffness",
+    ),
+    "stiffness": (
+        "neither stiffness nor extension was recorded",
+        "a law of the stiffness cannot be told from any other",
+    ),
+    "mechanical": ("no extension or length was recorded", "a mechanical law cannot be told from one of the stiffness"),
+}
+
+
+def implausible(term: Term, values: Sequence[float]) -> list[str]:
+    """Sentences on sizes that no real rig is believed to have; empty where all are believed.
+
+    A finding with such a size stands in for something else: it is not to be called by its name.
+
+    Args:
+        term: The law at its place.
+        values: Values of its parameters.
+
+    Raises:
+        ValueError: The number of values is not that of the parameters.
+    """
+    found = []
+    for parameter, value in zip(term.parameters, values, strict=True):
+        most = parameter.plausible
+        if math.isfinite(most) and not abs(value) <= most:
+            unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+            reason = f" ({parameter.plausible_reason})" if parameter.plausible_reason else ""
+            # Three digits, or as many as it takes to see that one is more than the other.
+            digits = next((d for d in range(3, 10) if f"{abs(value):.{d}g}" != f"{most:.{d}g}"), 17)
+            found.append(
+                f"{parameter.name} would have to be {value:.{digits}g}{unit}; "
+                f"{most:.{digits}g}{unit} is the most that is believed{reason}"
+            )
+    return found
+
+
+def unidentified(candidate: CandidateTerm, measured: Collection[str]) -> str:
+    """Why a law cannot be told from one of another unit by what was measured; empty where it can.
+
+    Such a law may be a member of a class, but is not to be called by its name.
+
+    Args:
+        candidate: The law.
+        measured: Quantities that were recorded, as `BankModel.measured`; `supply_current` is a current.
+    """
+    needs = candidate.needs or ()
+    if not needs or any(q == need or q.endswith(f"_{need}") for q in measured for need in needs):
+        return ""
+    if needs == NEEDS[candidate.unit]:
+        missing, so = _ELSEWHERE[candidate.unit]
+        return f"{missing}, so {so}"
+    return f"none of {', '.join(needs)} was recorded, so {candidate.name} cannot be told from other laws"
