@@ -12,12 +12,14 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.inputs import BankInputs, grid
 from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.sensitivities import sharing_plan
 from diagnosis.bank.steps import choose_step
 from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.simulator.free import Clocks
+from diagnosis.simulator.priors import stated_priors
 from diagnosis.simulator.translate import Translation
 
 #: Standard deviation of a channel's zero, as a share of its noise: nothing is set better than its readings scatter.
@@ -101,7 +103,7 @@ class Run:
     def _inputs(self, bank: Bank, channels: list[tuple[Channel, str]]) -> BankInputs:
         deviations = {q: min(c.deviation for c, quantity in channels if quantity == q) for q in self.times}
         t = self.translation
-        return choose_step(bank, t.parameters, t.drive, t.start, self.times, deviations).inputs
+        return choose_step(bank, t.parameters, t.drive, t.start, self.times, deviations, _fastest(t)).inputs
 
     def _series(self, entry: tuple[Channel, str, int], switches: Array, margin: float) -> Series:
         channel, quantity, element = entry
@@ -134,6 +136,17 @@ class Run:
     ) -> AnyArray:  # fmt: skip
         """Derivatives of outputs, shape (directions, out_size), to those of residuals; see `Whitening.slopes`."""
         return self._whitening.slopes(slopes, len(slopes) if rows is None else rows, into, factors)
+
+
+def _fastest(translation: Translation) -> BankParameters:
+    """The rig with the shortest time constants that its priors hold probable: two deviations from what is stated."""
+    base = translation.parameters.base
+    priors = stated_priors(translation.uncertainty, translation.scatter)
+    away = {n: 2.0 * float(np.hypot(priors[n].shared, priors[n].scatter)) for n in ("capacity", "conductance")}
+    return translation.parameters.with_base(
+        capacity=np.asarray(base["capacity"]) * np.exp(-away["capacity"]),
+        conductance=np.asarray(base["conductance"]) * np.exp(away["conductance"]),
+    )
 
 
 def clocks(runs: Sequence[Run]) -> Clocks:
