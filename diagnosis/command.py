@@ -49,6 +49,7 @@ def diagnose(
     from diagnosis.compute.cache import Cache
     from diagnosis.compute.cluster import choose_place
     from diagnosis.compute.display import Display
+    from diagnosis.compute.steps import Steps, watched
     from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits
@@ -69,7 +70,8 @@ def diagnose(
             base = load_scenario(scenario)
             means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief)
             training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
-            found = find(base, training, judges, Settings(level=level, seed=seed), display.stage, means)
+            with watched(Steps(display.stage)) as steps:
+                found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
             display.stage("writing")
             if brief:
                 out.mkdir(parents=True, exist_ok=True)

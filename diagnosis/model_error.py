@@ -10,6 +10,7 @@ from functools import partial, reduce
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.problem import Layout, Point, Term
@@ -116,11 +117,12 @@ def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], 
     ]
     points += [e.fit.point for e in first.rivals if set(e.terms) != set(terms)][:WEIGHED]
     base = recalibrate(model)
-    fitted = [Explanation(base), *(Explanation(fit(model, p, widths=base.widths)) for p in points)]
+    again = counted(points, "explanations fitted again")
+    fitted = [Explanation(base), *(Explanation(fit(model, p, widths=base.widths)) for p in again)]
     validation = Validation(model, partial(MaskedModel, model))
     known = []
-    for number, explanation in enumerate(fitted):
-        on_progress(f"validating explanation {number + 1} of {len(fitted)}")
+    on_progress("validating explanations by stretches of time that they were not fitted to")
+    for explanation in counted(fitted, "explanations validated"):
         known.append(validation.foretold(explanation))
     plain = plain_terms(model, [t for e in fitted for t in e.terms])
     best = shrink(model, chosen(known, set(plain), margin).explanation, margin)
@@ -146,7 +148,7 @@ def _exchanged(
 ) -> list[Explanation]:
     """Explanations with another term in the place of one of several; the search did not meet them all on its way."""
     others: list[Explanation] = []
-    for term in found.terms if len(found.terms) > 1 else ():
+    for term in counted(found.terms if len(found.terms) > 1 else (), "effects exchanged"):
         without = Explanation(fit(model, found.fit.point.without(term), near=found.fit))
         grown, _ = grow(model, [t for t in terms if t != term], [without], settings, margin)
         others += polished(model, grown, without.demerit, margin)[:EXCHANGED]

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.unit import AnyArray, Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
@@ -218,7 +219,10 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed:
     chance, tried = np.zeros(draws), 0
     leads: list[tuple[Term, tuple[float, ...]] | None] = [None] * draws
     best: dict[Term, list[Score]] = {}
-    for begin in range(0, len(tasks), BATCH):
+    begins = range(0, len(tasks), BATCH)
+    is_first = np.array([i == 0 or tasks[i - 1][0] is not term for i, (term, _) in enumerate(tasks)], dtype=int)
+    sizes = [int(is_first[begin : begin + BATCH].sum()) for begin in begins]
+    for begin in counted(begins, "laws at places scored", sizes):
         scores, largest, leading = _batch(model, base, tasks[begin : begin + BATCH], projection)
         tried += len(scores)
         leads = [new if b > a else old for a, b, old, new in zip(chance, largest, leads, leading)]
