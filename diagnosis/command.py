@@ -72,13 +72,14 @@ def diagnose(
             training, judges = [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             with watched(Steps(display.stage)) as steps:
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
-            display.stage("writing")
-            if brief:
-                out.mkdir(parents=True, exist_ok=True)
-                write_json(found.diagnosis, out / "diagnosis.json")
-                print_summary(found.diagnosis, Console())
-                return
-            diagnosis = hand_over(found, base, judges, out)
+                if brief:
+                    diagnosis = found.diagnosis
+                    with writing(out):
+                        out.mkdir(parents=True, exist_ok=True)
+                        write_json(diagnosis, out / "diagnosis.json")
+                else:
+                    steps("writing the amended model and the report")
+                    diagnosis = hand_over(found, base, judges, out)
     except KeyboardInterrupt:
         rest = (
             f"`--resume` goes on from its {kept.count()} simulations"
@@ -88,7 +89,8 @@ def diagnose(
         print(f"interrupted: there is no diagnosis in {out}; {rest}", file=sys.stderr)
         raise typer.Exit(130) from None
     print_summary(diagnosis, Console())
-    print(out / "report.html")
+    if not brief:
+        print(out / "report.html")
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
