@@ -13,6 +13,7 @@ from cosim.unit import Array
 from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
+from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
@@ -62,7 +63,7 @@ def search_with_model_error(
         outcome = _validated(found, settings, on_progress)
     else:
         outcome = _weighed(found, outcome, on_progress)
-    raw = model.residuals([outcome.best.fit.point])[0]
+    raw = bounded(model.residuals([outcome.best.fit.point])[0])
     larger = _pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
         found = TemperedModel(model, np.maximum(factor, larger))

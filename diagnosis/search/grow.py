@@ -139,7 +139,10 @@ def polished(model: Model, grown: Sequence[Explanation], before: float, margin: 
     gained = before - ranked[0].demerit if ranked else 0.0
     most = MOST_POLISHED if gained > margin else 1
     near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
-    done = [Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths))) for e in counted(near, "best fits finished")]
+    done = [
+        Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths)))
+        for e in counted(near, "best fits finished")
+    ]
     return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 

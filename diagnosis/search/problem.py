@@ -38,7 +38,8 @@ class Parameter:
     def value(self, z: float) -> float:
         """Value at a distance of z deviations."""
         if self.is_relative:
-            return self.nominal * math.exp(self.deviation * z)
+            exponent = self.deviation * z
+            return self.nominal * (math.exp(exponent) if exponent < 709.0 else math.inf)  # math.exp raises beyond
         return self.nominal + self.deviation * z
 
 
@@ -173,4 +174,5 @@ def strength_slopes(
     start = model.residuals([point])[0] if here is None else here
     points = [point.plus(term, values) for term, values in tasks]
     strengths = np.array([values[0] for _, values in tasks])
-    return np.asarray((model.residuals(points) - start) / strengths[:, None])
+    with np.errstate(over="ignore", invalid="ignore"):  # what runs away is not finite, as the result may be
+        return np.asarray((model.residuals(points) - start) / strengths[:, None])

@@ -18,6 +18,7 @@ import numpy as np
 from cosim.unit import AnyArray, Array
 from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Columns, Fit, fit
+from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.search import Explanation
 
@@ -97,7 +98,7 @@ class Validation:
         for part, stretch in counted(list(zip(self._parts, self._stretches)), "stretches left out in turn"):
             near = _seen(explanation.fit, ~stretch)
             point = fit(part, explanation.fit.point, ITERATIONS, near, refreshes=REFRESHES).point
-            own = self._model.residuals([point])[0][stretch]
+            own = bounded(self._model.residuals([point])[0][stretch])
             residuals[stretch] = own
             losses.append(float(np.mean(own**2)))
         return Foretold(explanation, residuals, np.array(losses))

@@ -172,7 +172,8 @@ class FreeSet:
             else:
                 base[field] = np.asarray(base.get(field, 0.0)) + amount
         for name, exponent in exponents.items():
-            base[name] = np.asarray(base[name]) * np.exp(exponent)
+            with np.errstate(over="ignore"):  # the bank says that it cannot simulate what is infinite
+                base[name] = np.asarray(base[name]) * np.exp(exponent)
 
 
 def directions(free: Free, parameters: BankParameters) -> list[tuple[Direction, float]]:

@@ -127,9 +127,11 @@ class Run:
     def residuals(self, outputs: Array) -> Array:
         """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size).
 
-        They are whitened for a zero of each channel that is off by an unknown `ZERO`.
+        They are whitened for a zero of each channel that is off by an unknown `ZERO`, and not finite where an output is
+        not.
         """
-        return self._whitening.values((self.measured - outputs[:, self.pick]) * self.weight)
+        with np.errstate(over="ignore", invalid="ignore"):  # a quantity that the bank does not watch may run away
+            return self._whitening.values((self.measured - outputs[:, self.pick]) * self.weight)
 
     def slopes(
         self, slopes: Array, rows: int | None = None, into: AnyArray | None = None, factors: Array | None = None

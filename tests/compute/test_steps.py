@@ -79,9 +79,8 @@ def test_a_loop_that_is_left_early_is_over(steps, told):
     steps("looking")
     for _ in counted(range(10), "pairs"):
         break
-    with pytest.raises(RuntimeError):
-        for _ in counted(range(10), "laws"):
-            raise RuntimeError
+    with pytest.raises(ZeroDivisionError):
+        [1 // n for n in counted(range(10), "laws")]
     share(0.5)
     assert told[-1].startswith("looking: 50 %")
 

@@ -6,8 +6,8 @@ import pytest
 from diagnosis.bank.inputs import Drive, Programme, grid
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.parameters import BankParameters
-from diagnosis.bank.probes import Probe, probe_sensitivities
 from diagnosis.bank.places import places
+from diagnosis.bank.probes import Probe, probe_sensitivities
 from diagnosis.bank.steps import SHARE, USUAL, choose_step, longest
 from tests.diagnosis_bank.rigs import ROOM, full_bank
 
