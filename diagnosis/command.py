@@ -54,6 +54,7 @@ def diagnose(
     from diagnosis.compute.cache import Cache
     from diagnosis.compute.cluster import choose_place
     from diagnosis.compute.display import Display
+    from diagnosis.compute.steps import Steps, watched
     from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits
@@ -78,14 +79,16 @@ def diagnose(
             training, judges = prepared(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )
-            found = find(base, training, judges, Settings(level=level, seed=seed), display.stage, means)
-            display.stage("writing")
-            if brief:
-                out.mkdir(parents=True, exist_ok=True)
-                write_json(found.diagnosis, out / "diagnosis.json")
-                print_summary(found.diagnosis, Console())
-                return
-            diagnosis = hand_over(found, base, judges, out)
+            with watched(Steps(display.stage)) as steps:
+                found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
+                if brief:
+                    diagnosis = found.diagnosis
+                    with writing(out):
+                        out.mkdir(parents=True, exist_ok=True)
+                        write_json(diagnosis, out / "diagnosis.json")
+                else:
+                    steps("writing the amended model and the report")
+                    diagnosis = hand_over(found, base, judges, out)
     except KeyboardInterrupt:
         rest = (
             f"`--resume` goes on from its {kept.count()} simulations"
@@ -95,7 +98,8 @@ def diagnose(
         print(f"interrupted: there is no diagnosis in {out}; {rest}", file=sys.stderr)
         raise typer.Exit(130) from None
     print_summary(diagnosis, Console())
-    print(out / "report.html")
+    if not brief:
+        print(out / "report.html")
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:

@@ -135,6 +135,7 @@ def diagnose(
     word = verdict(outcome, found, right, tried, nominal_cost(model))
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
+        on_progress("finding out what these channels can tell apart")
         told_apart = isolability(model, outcome.base, model.terms())
         on_progress("driving each unit alone")
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)

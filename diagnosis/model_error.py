@@ -10,8 +10,10 @@ from functools import partial, reduce
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
+from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
@@ -61,7 +63,7 @@ def search_with_model_error(
         outcome = _validated(found, settings, on_progress)
     else:
         outcome = _weighed(found, outcome, on_progress)
-    raw = model.residuals([outcome.best.fit.point])[0]
+    raw = bounded(model.residuals([outcome.best.fit.point])[0])
     larger = _pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
         found = TemperedModel(model, np.maximum(factor, larger))
@@ -116,11 +118,12 @@ def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], 
     ]
     points += [e.fit.point for e in first.rivals if set(e.terms) != set(terms)][:WEIGHED]
     base = recalibrate(model)
-    fitted = [Explanation(base), *(Explanation(fit(model, p, widths=base.widths)) for p in points)]
+    again = counted(points, "explanations fitted again")
+    fitted = [Explanation(base), *(Explanation(fit(model, p, widths=base.widths)) for p in again)]
     validation = Validation(model, partial(MaskedModel, model))
     known = []
-    for number, explanation in enumerate(fitted):
-        on_progress(f"validating explanation {number + 1} of {len(fitted)}")
+    on_progress("validating explanations by stretches of time that they were not fitted to")
+    for explanation in counted(fitted, "explanations validated"):
         known.append(validation.foretold(explanation))
     plain = plain_terms(model, [t for e in fitted for t in e.terms])
     best = shrink(model, chosen(known, set(plain), margin).explanation, margin)
@@ -146,7 +149,7 @@ def _exchanged(
 ) -> list[Explanation]:
     """Explanations with another term in the place of one of several; the search did not meet them all on its way."""
     others: list[Explanation] = []
-    for term in found.terms if len(found.terms) > 1 else ():
+    for term in counted(found.terms if len(found.terms) > 1 else (), "effects exchanged"):
         without = Explanation(fit(model, found.fit.point.without(term), near=found.fit))
         grown, _ = grow(model, [t for t in terms if t != term], [without], settings, margin)
         others += polished(model, grown, without.demerit, margin)[:EXCHANGED]

@@ -16,6 +16,7 @@ from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.amend.free_run import free_run, free_run_of, start_of
+from diagnosis.compute.steps import counted
 from diagnosis.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.diagnosis import Diagnosis
@@ -126,16 +127,15 @@ def _free(
     inner, own = unwrapped(judge, points)
     assert isinstance(inner, BankModel)
     simulated = predictions(inner, own)
-    found: dict[str, list[list[Array]]] = {}
-    for stage in points:
-        found[stage] = []
-        for n, recording in enumerate(held_out):
-            run, start = inner.runs[n], start_of(inner.bank_parameters(own[stage], n))
-            if stage in amended:
-                values = free_run(amended[stage], recording, run.times, start)
-            else:
-                values = free_run_of(scenario, recording, run.times, start)
-            channels = [values[s.quantity][s.samples, s.element] for s in run.series]
-            added = [np.asarray(f - s) for f, s in zip(fast[stage][n], simulated[stage][n])]
-            found[stage].append([c + a for c, a in zip(channels, added)])
+    found: dict[str, list[list[Array]]] = {stage: [] for stage in points}
+    order = [(stage, n, recording) for stage in points for n, recording in enumerate(held_out)]
+    for stage, n, recording in counted(order, "recordings that judge simulated freely"):
+        run, start = inner.runs[n], start_of(inner.bank_parameters(own[stage], n))
+        if stage in amended:
+            values = free_run(amended[stage], recording, run.times, start)
+        else:
+            values = free_run_of(scenario, recording, run.times, start)
+        channels = [values[s.quantity][s.samples, s.element] for s in run.series]
+        added = [np.asarray(f - s) for f, s in zip(fast[stage][n], simulated[stage][n])]
+        found[stage].append([c + a for c, a in zip(channels, added)])
     return found

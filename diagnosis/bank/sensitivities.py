@@ -201,7 +201,8 @@ def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Seq
     for group in groups:
         first = directions[next(iter(group.members.values()))]
         other = out[row + 1] if first.is_central else out[0]
-        slope = (out[row] - other) / (first.step * (2.0 if first.is_central else 1.0))
+        with np.errstate(over="ignore", invalid="ignore"):  # outputs may be anything; so may derivatives
+            slope = (out[row] - other) / (first.step * (2.0 if first.is_central else 1.0))
         row += 2 if first.is_central else 1
         for part, number in group.members.items():
             if part < 0:

@@ -12,8 +12,8 @@ from diagnosis.bank.inputs import BankInputs, Drive, grid
 from diagnosis.bank.layout import Array
 from diagnosis.bank.parameters import BankParameters
 
-#: Steps to try [s].
-STEPS = (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125)
+#: Longest step where the readings lie close together, and the shortest of all [s]; each is half of the one before.
+USUAL, SHORTEST = 0.4, 0.0125
 #: Largest error that is accepted, in deviations: it adds 0.0025 to the mean square of a residual.
 SHARE = 0.05
 
@@ -40,8 +40,15 @@ def choose_step(
     start: float,
     times: Mapping[str, Array],
     deviations: Mapping[str, float],
+    fastest: BankParameters | None = None,
 ) -> StepChoice:  # fmt: skip
-    """The longest of `STEPS` with an error below `SHARE` of the noise.
+    """The longest step with an error below `SHARE` of the noise.
+
+    Inputs are constant within a step and each state has its exact exponential there, so that a step may be longer than
+    a time constant. What limits it is the temperature's curvature in what depends on it (resistance, convection,
+    stiffness), and the straight line between ends of steps on which readings lie. Steps up to `USUAL` are always tried;
+    longer ones, up to the interval between readings, where the readings are farther apart: a reading that a law bends
+    within one step (an instant, a lag) is then next to an end of it.
 
     Args:
         bank: The bank.
@@ -50,22 +57,37 @@ def choose_step(
         start: First instant of the simulation [s].
         times: Sample times of each quantity that is measured [s].
         deviations: Standard deviation of the noise of each of them, SI.
+        fastest: Where steps beyond `USUAL` are judged too: the fastest rig that the fit may come to; None: nowhere.
 
     Returns:
-        The choice; the last of `STEPS` with its error if none is good enough.
+        The choice; the shortest step with its error if none is good enough.
     """
     stop = max(float(t[-1]) for t in times.values())
     switches = drive.switches()
-    choice = None
-    last = None
-    for step in [*STEPS, 0.5 * STEPS[-1]]:
+
+    def simulated(step: float, at: BankParameters) -> tuple[BankInputs, dict[str, Array]]:
         inputs = drive.on_grid(grid(start, stop, step, switches))
-        now = bank.simulate(parameters, inputs, times)
-        if last is not None and choice is not None:
-            error = max(float(np.abs(now[q] - last[q]).max()) / deviations[q] for q in times)
-            choice = StepChoice(choice.step, choice.inputs, error)
-            if error < SHARE or step < STEPS[-1]:
-                return choice
-        choice, last = StepChoice(step, inputs, np.inf), now
-    assert choice is not None
-    return choice
+        return inputs, bank.simulate(at, inputs, times)
+
+    def change(now: Mapping[str, Array], then: Mapping[str, Array]) -> float:
+        return max(float(np.abs(now[q] - then[q]).max(initial=0.0)) / deviations[q] for q in times)
+
+    step = longest(times)
+    inputs, now = simulated(step, parameters)
+    while True:
+        finer, then = simulated(0.5 * step, parameters)
+        error = change(now, then)
+        if step > USUAL and fastest is not None and error < SHARE:
+            error = max(error, change(simulated(step, fastest)[1], simulated(0.5 * step, fastest)[1]))
+        if error < SHARE or step <= SHORTEST:
+            return StepChoice(step, inputs, error)
+        step, inputs, now = 0.5 * step, finer, then
+
+
+def longest(times: Mapping[str, Array]) -> float:
+    """Longest step to try [s]: `USUAL` times a power of 2, at most the usual interval of the densest readings."""
+    intervals = [float(np.median(np.diff(t))) for t in times.values() if t.size > 1]
+    step = USUAL
+    while intervals and 2.0 * step <= min(intervals) * (1.0 + 1e-9):
+        step *= 2.0
+    return step

@@ -10,6 +10,7 @@ from diagnosis.compute.cache import Cache
 from diagnosis.compute.cluster import Here, Place
 from diagnosis.compute.progress import Progress
 from diagnosis.compute.result import Result, Task, Work
+from diagnosis.compute.steps import share
 
 
 class Batches:
@@ -64,8 +65,10 @@ class Batches:
         chosen = list(missing.values())
         # One alone is made here: a process would only add its way there and back.
         place = Here() if len(chosen) == 1 and self.place.is_local else self.place
-        for number, result in place.make(work, shared, chosen):
+        for made, (number, result) in enumerate(place.make(work, shared, chosen)):
             self.made += 1
+            if len(chosen) > 1:
+                share((made + 1) / len(chosen))
             if self.cache is not None:
                 self.cache.put(chosen[number].key, result)
             found[chosen[number].key] = result

@@ -30,7 +30,7 @@ class Display:
     def stage(self, text: str) -> None:
         """The diagnosis does something else."""
         self.progress.stage = text
-        self.show(self.progress.text() if self.progress.expected > self.progress.done else text)
+        self.show(self.progress.text() if self.progress.done else text)
 
     def show(self, text: str) -> None:
         """Draw a line."""

@@ -11,6 +11,7 @@ import numpy as np
 from cosim.unit import Array
 from diagnosis.bank.inputs import Drive
 from diagnosis.bank.parameters import BankParameters
+from diagnosis.bank.steps import USUAL
 from diagnosis.experiment.separation import Bordered, Separation, distance, root, separation
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit
@@ -107,7 +108,8 @@ class Bench:
         self._points = [self._restarted(b.point) for b in beliefs]
         has_sensor = any(t.unit == "measurement" for b in beliefs for t in b.point.terms)
         finest = float(min(np.max(np.diff(run.inputs.time)) for run in model.runs))
-        self._step = min(COARSE, finest) if has_sensor else COARSE
+        coarse = finest if finest > USUAL else COARSE  # a slow rig, for which the recordings have longer steps
+        self._step = min(coarse, finest) if has_sensor else coarse
         self._roots = [root(self._spread(b)) for b in beliefs]
 
     def repeat(self) -> BankModel:

@@ -10,6 +10,7 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.experiment.bench import Belief, Bench, Conditions, Contrast
 from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
@@ -211,7 +212,8 @@ def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:
     """One programme of each family; of the best, as long as none decides, with half the load, longer, and repeated."""
     planner = Planner(driven, bench)
     found: list[_Tried] = []
-    for shape in shapes(driven.duration, driven.columns, planner.levels()):
+    every = list(shapes(driven.duration, driven.columns, planner.levels()))
+    for shape in counted(every, "programmes simulated"):
         found += _one(planner, shape, None, question)
     if not found or max(t.decides for t in found) >= ENOUGH:
         return found
@@ -220,11 +222,11 @@ def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:
         weight = float(np.max(np.asarray(bench.model.runs[0].translation.parameters.base["load"])))
         # A programme that shows nothing with the old load may show all with another: two that visit every level too.
         chosen = [*(t.shape for t in first[:_LOADED]), *(t.shape for t in found if t.shape.kind in _BROAD)]
-        for shape in {id(s): s for s in chosen}.values():
+        for shape in counted(list({id(s): s for s in chosen}.values()), "programmes simulated with half the load"):
             found += _one(planner, shape, 0.5 * weight, question)
         if max(t.decides for t in found) >= ENOUGH:
             return found
-    for one in sorted(found, key=lambda t: -t.gain)[:_LONGER]:
+    for one in counted(sorted(found, key=lambda t: -t.gain)[:_LONGER], "longer programmes simulated"):
         found += _one(planner, stretched(one.shape, 3.0 * driven.duration), one.conditions.load, question)
     shortest = next(t.shape for t in first if t.shape.duration <= driven.duration)
     return found + _one(planner, again(shortest, 3), None, question)

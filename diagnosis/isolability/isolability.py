@@ -9,6 +9,7 @@ import numpy as np
 
 from diagnosis.bank.layout import QUANTITIES
 from diagnosis.bank.places import coil_label
+from diagnosis.compute.steps import counted
 from diagnosis.isolability.alike import SHOWS, Alike, Effect, effects, widest
 from diagnosis.isolability.structure import VARIABLES, Analysis, Rig, analyse
 from diagnosis.judge.isolability import ExtraChannel, FaultClass, Isolability
@@ -134,7 +135,7 @@ def extra_channels(rig: Rig, now: Analysis) -> list[ExtraChannel]:
     """
     own = set(now.faults)
     found = []
-    for quantity in VARIABLES:
+    for quantity in counted(list(VARIABLES), "further channels tried"):
         channels = set(rig.channels) | {(quantity, e) for e in _elements(rig, quantity)}
         is_second = quantity.startswith("second_")
         if channels == set(rig.channels) or is_second != _has(rig, quantity.removeprefix("second_")):

@@ -69,8 +69,8 @@ def channel_fits(
             for stage in points:
                 difference = (measured - given[stage][number][i])[series.used]
                 scaled = difference / series.channel.deviation
-                rmse[stage] = _root_mean_square(difference)
-                chi_square[stage] = _root_mean_square(scaled) ** 2
+                rmse[stage] = root_mean_square(difference)
+                chi_square[stage] = _square(root_mean_square(scaled))
                 whiteness[stage] = _largest(scaled)
             found.append(
                 ChannelFit(recording.title, is_held_out, series.channel.name, series.channel.unit, rmse, chi_square,
@@ -95,17 +95,25 @@ def differences(
         for number, recording in enumerate(recordings):
             for i, series in enumerate(model.runs[number].series):
                 own, other, used = by_recording[number][i], fast[stage][number][i], series.used
-                size = _root_mean_square((own - other)[used] / series.channel.deviation)
+                size = root_mean_square((own - other)[used] / series.channel.deviation)
                 if not size <= TOLERANCE:
                     measured = series.channel.values[-len(series.samples) :]
                     scaled = ((measured - other) / series.channel.deviation)[used]
-                    chi_square = _root_mean_square(scaled) ** 2
+                    chi_square = _square(root_mean_square(scaled))
                     found.append(Difference(recording.title, series.channel.name, stage, size, chi_square))
     return tuple(sorted(found, key=lambda d: -d.size))
 
 
-def _root_mean_square(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
+def root_mean_square(values: Array) -> float:
+    """Square root of the mean square, infinite where a value is; scaled, so that large values have a square too."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if largest == 0.0 or not np.isfinite(largest):
+        return largest
+    return largest * float(np.sqrt(np.mean((values / largest) ** 2)))
+
+
+def _square(value: float) -> float:
+    return value * value  # ** raises where the square is too large
 
 
 def _largest(scaled: Array) -> float:

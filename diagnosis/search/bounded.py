@@ -29,6 +29,8 @@ def bounded_step(normal: Array, slope: Array, lower: Array, upper: Array) -> Arr
         LinAlgError: The normal matrix is not positive definite.
     """
     step = np.zeros_like(slope)
+    if not step.size:  # a model without anything that may be off
+        return step
     is_held = ((lower >= 0.0) & (slope > 0)) | ((upper <= 0.0) & (slope < 0))
     for _ in range(TURNS):
         free = np.flatnonzero(~is_held)

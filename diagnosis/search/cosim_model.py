@@ -136,9 +136,10 @@ class CosimModel:
         if values is None:
             return np.full(self._sizes[number], np.inf)
         channels = self.recordings[number].channels.values()
-        return np.concatenate(
-            [np.where(c.is_clipped, 0.0, (c.values - v) / c.deviation) for c, v in zip(channels, values)]
-        )
+        with np.errstate(over="ignore"):  # a run may end far away
+            return np.concatenate(
+                [np.where(c.is_clipped, 0.0, (c.values - v) / c.deviation) for c, v in zip(channels, values)]
+            )
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`; central differences, a number of one recording runs that one alone.
@@ -161,7 +162,7 @@ class CosimModel:
         begin = np.concatenate([[0], np.cumsum(self._sizes)])
         jacobian = np.zeros((begin[-1], len(self.free)))
         for (column, number), high, low in zip(places, rows[0::2], rows[1::2]):
-            with np.errstate(invalid="ignore"):
+            with np.errstate(over="ignore", invalid="ignore"):
                 slope = (high - low) / (2 * STEP)
             jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         for column, free in enumerate(self.free):

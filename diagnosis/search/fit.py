@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import LinAlgError
 
 from cosim.unit import AnyArray, Array
+from diagnosis.compute.steps import share
 from diagnosis.search.bounded import bounded_step
 from diagnosis.search.objective import Objective
 from diagnosis.search.posterior import huber_weights
@@ -141,9 +142,13 @@ def fit(
     most = iterations if near is None else refreshes
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
     terms = objective.term_columns(x, here)
+    farthest = 0.0
     for _ in range(iterations):
         other, there, gained, promised, damping = _descend(objective, (x, here, value), (columns, terms), damping)
         x, here, value = other, there, value - gained
+        farness = max(float(np.log(max(promised, 1e-300) / (TOLERANCE * (1.0 + value)))), 0.0)  # 0: converged
+        farthest = max(farthest, farness)
+        share(1.0 - farness / farthest if farthest else 1.0)
         moved = float(np.max(np.abs(x[:count] - columns.at), initial=0.0))
         if promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or taken >= most):
             is_converged = True

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
@@ -59,7 +60,7 @@ def grow(
         tried: dict[frozenset[Term], Fit] = {}
         laws, most, kept = set[frozenset[Term]](), 0.0, 1.0
         left_out: list[Score] = []
-        for candidate in _choice(hopeful, settings.refits):
+        for candidate in counted(_choice(hopeful, settings.refits), "laws fitted"):
             key = frozenset((*explanation.terms, candidate.term))
             is_law = _is_law_at(candidate, hopeful[0])
             if key not in grown and (is_law or candidate.gain * kept * OUTDONE > most):
@@ -100,7 +101,7 @@ def _continued(
 ) -> dict[frozenset[Term], Explanation]:  # fmt: skip
     """Trials with the derivatives taken anew where they may still become the best, and the others as they are."""
     grown, best = {}, min((f.cost for f in tried.values()), default=before)
-    for key, trial in sorted(tried.items(), key=lambda t: t[1].cost):
+    for key, trial in counted(sorted(tried.items(), key=lambda t: t[1].cost), "fits gone on with"):
         share = FARTHEST if key in laws else FAR
         may_win = before - trial.cost + CLOSE > (1.0 - share) * (before - best)
         grown[key] = Explanation(_settled(model, fit(model, trial.point, STEPS, trial)) if may_win else trial)
@@ -138,7 +139,10 @@ def polished(model: Model, grown: Sequence[Explanation], before: float, margin: 
     gained = before - ranked[0].demerit if ranked else 0.0
     most = MOST_POLISHED if gained > margin else 1
     near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
-    done = [Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths))) for e in near]
+    done = [
+        Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths)))
+        for e in counted(near, "best fits finished")
+    ]
     return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 
@@ -280,7 +284,7 @@ def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, 
             found.append((float(amounts @ own @ amounts), i, j, np.asarray(amounts, dtype=np.float64)))
     found.sort(key=lambda pair: -pair[0])
     fits = []
-    for gain, i, j, amounts in found[:PAIRS]:
+    for gain, i, j, amounts in counted(found[:PAIRS], "pairs of laws fitted"):
         if gain < top[0].gain + HOPEFUL * margin:
             break
         point = base.point

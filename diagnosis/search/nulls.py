@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.explanation import Settings
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Model, Parameter, Point, Term, strength_slopes
@@ -60,7 +61,7 @@ def refitted(model: Model, base: Fit, scoring: Scoring, settings: Settings) -> A
     """
     noise, _ = null_noise(len(base.residuals), len(scoring.chance), settings.seed)
     gains = []
-    for draw, lead in list(enumerate(scoring.leads))[: settings.nulls]:
+    for draw, lead in counted(list(enumerate(scoring.leads))[: settings.nulls], "recordings without effects searched"):
         if lead is None:
             continue
         null = NullModel(model, base, noise[:, draw].astype(np.float64))

@@ -57,9 +57,7 @@ class Objective:
 
     def residuals(self, x: Array) -> Array:
         """Residuals, shape (residuals,), always finite."""
-        found = self.model.residuals([self.point(x)])[0]
-        # A model that cannot be simulated, or runs away, is a bad one; its square must still be a number.
-        return np.clip(np.where(np.isfinite(found), found, RUNAWAY), -RUNAWAY, RUNAWAY)
+        return bounded(self.model.residuals([self.point(x)])[0])
 
     def held(self, x: Array) -> AnyArray:
         """Which parameters of the model lie at a bound: bounded steps end there, but for rounding."""
@@ -88,8 +86,14 @@ class Objective:
             steps.append(step)
         if not moved:
             return np.zeros((len(here), 0))
-        found = ((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T
+        with np.errstate(over="ignore", invalid="ignore"):  # what runs away is left out below
+            found = ((self.model.residuals(moved) - here) / np.array(steps)[:, None]).T
         return np.where(np.abs(found) < RUNAWAY * RUNAWAY, found, 0.0)
+
+
+def bounded(residuals: Array) -> Array:
+    """Residuals of at most `RUNAWAY`: a model that cannot be simulated, or runs away, is a bad one, and has a cost."""
+    return np.clip(np.where(np.isfinite(residuals), residuals, RUNAWAY), -RUNAWAY, RUNAWAY)
 
 
 def _scale(starts: Sequence[float], width: float) -> float:

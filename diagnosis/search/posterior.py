@@ -19,5 +19,6 @@ def huber_weights(residuals: Array) -> Array:
 def cost(residuals: Array, base: Array, widths: Array | float = 1.0) -> float:
     """-2 log posterior: Huber's function of the residuals and the squares of the prior's z, up to a constant."""
     size = np.abs(residuals)
+    near = np.minimum(size, HUBER)  # the square of what lies farther is not needed, and may be too large
     prior = float(np.sum((base / widths) ** 2))
-    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, size**2)) + prior)
+    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, near**2)) + prior)

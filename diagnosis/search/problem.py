@@ -180,4 +180,5 @@ def strength_slopes(
     start = model.residuals([point])[0] if here is None else here
     points = [point.plus(term, values) for term, values in tasks]
     strengths = np.array([values[0] for _, values in tasks])
-    return np.asarray((model.residuals(points) - start) / strengths[:, None])
+    with np.errstate(over="ignore", invalid="ignore"):  # what runs away is not finite, as the result may be
+        return np.asarray((model.residuals(points) - start) / strengths[:, None])

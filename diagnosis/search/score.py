@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.unit import AnyArray, Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
@@ -18,6 +19,10 @@ from diagnosis.search.problem import Model, Term, strength_slopes
 SHARE = 0.02
 #: Simulations per call, so that memory stays small.
 BATCH = 128
+#: Slope beyond which a law runs away: a million squares of it still have a sum in single precision (3e38).
+STEEPEST = 1e16
+#: Exponent beyond which exp(-exp(x)) is 0 for long.
+MOST_EXPONENT = 700.0
 #: A direction of which the recalibration absorbs all but this share of the length cannot be seen.
 LEAST_VISIBLE = 5e-3  # below it single precision would see its own rounding
 
@@ -198,7 +203,7 @@ class Scoring:
         if not self.tried or scale == 0.0:
             return 1.0
         place = float(np.mean(self.chance)) - 0.5772156649015329 * scale
-        return float(-np.expm1(-np.exp(-(gain - place) / scale)))
+        return float(-np.expm1(-np.exp(min(-(gain - place) / scale, MOST_EXPONENT))))
 
 
 def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed: int = 0) -> Scoring:
@@ -218,7 +223,10 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed:
     chance, tried = np.zeros(draws), 0
     leads: list[tuple[Term, tuple[float, ...]] | None] = [None] * draws
     best: dict[Term, list[Score]] = {}
-    for begin in range(0, len(tasks), BATCH):
+    begins = range(0, len(tasks), BATCH)
+    is_first = np.array([i == 0 or tasks[i - 1][0] is not term for i, (term, _) in enumerate(tasks)], dtype=int)
+    sizes = [int(is_first[begin : begin + BATCH].sum()) for begin in begins]
+    for begin in counted(begins, "laws at places scored", sizes):
         scores, largest, leading = _batch(model, base, tasks[begin : begin + BATCH], projection)
         tried += len(scores)
         leads = [new if b > a else old for a, b, old, new in zip(chance, largest, leads, leading)]
@@ -235,7 +243,7 @@ def _batch(
 ) -> tuple[list[Score], Array, list[tuple[Term, tuple[float, ...]] | None]]:
     """Scores of what can be seen; the largest gain of any in each null, and what has it."""
     slopes = strength_slopes(model, base.point, base.residuals, tasks)
-    usable = np.asarray(np.isfinite(slopes).all(axis=1))
+    usable = np.asarray((np.abs(slopes) < STEEPEST).all(axis=1))  # not a number is not below it either
     slopes[~usable] = 0.0
     seen = projection.look(slopes)
     is_visible = usable & (seen.left > LEAST_VISIBLE**2 * seen.whole) & (seen.left > 0.0)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit
@@ -66,9 +67,15 @@ def best_fits(before: Explanation, grown: Sequence[Explanation]) -> Sequence[Exp
 
 def recalibrate(model: Model) -> Fit:
     """Fit what the model already has, within its priors, to the end: an unconverged base makes false gains."""
-    found = with_clocks_set(model, fit(model, Point(np.zeros(len(model.parameters))), iterations=200))
-    widths = spread(model.parameters, found.point.base)
-    return fit(model, found.point, iterations=200, widths=widths)
+    found: Fit | None = None
+    for _ in counted(("with stated widths", "with the widths that were found"), "rounds of the fit"):
+        if found is None:
+            found = with_clocks_set(model, fit(model, Point(np.zeros(len(model.parameters))), iterations=200))
+        else:
+            widths = spread(model.parameters, found.point.base)
+            found = fit(model, found.point, iterations=200, widths=widths)
+    assert found is not None
+    return found
 
 
 def with_clocks_set(model: Model, found: Fit) -> Fit:
@@ -133,7 +140,7 @@ def search(
     margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
     for level in range(settings.most_terms):
-        on_progress(f"looking for effect {level + 1}")
+        on_progress(f"looking for {_nth(level)} effect")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
         grown, scoring = grow(model, terms, ahead, settings, margin)
@@ -143,7 +150,7 @@ def search(
         first = scoring if level == 0 else first
         tried += scoring.tried
         if level == 0 and grown and current[0].cost - grown[0].cost > margin:
-            on_progress("the same search on nulls")
+            on_progress("searching recordings without effects, for what chance alone gives")
             scoring, nulls = calibrated(model, base, scoring, settings)
         if level == 0:
             margin = max(settings.floor, scoring.margin(settings.level))
@@ -165,6 +172,12 @@ def search(
     best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
+
+
+def _nth(level: int) -> str:
+    """An effect by its number, from 0, in words."""
+    words = ("a first", "a second", "a third", "a fourth", "a fifth", "a sixth")
+    return words[level] if level < len(words) else f"effect {level + 1}, one more"
 
 
 def _gone_on_from(
@@ -192,7 +205,10 @@ def _gone_on_from(
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
     """Take away terms whose absence costs less than the margin, the least needed first."""
     while True:
-        without = {t: fit(model, explanation.fit.point.without(t), near=explanation.fit) for t in explanation.terms}
+        without = {
+            t: fit(model, explanation.fit.point.without(t), near=explanation.fit)
+            for t in counted(explanation.terms, "effects left out in turn")
+        }
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
         if not gains or min(gains.values()) > margin:
             return replace(explanation, gains=gains)

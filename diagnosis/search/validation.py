@@ -16,7 +16,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit import AnyArray, Array
+from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Columns, Fit, fit
+from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.search import Explanation
 
@@ -93,10 +95,10 @@ class Validation:
         """How well an explanation foretells each stretch from the others."""
         residuals = np.zeros(len(self._model.layout.time))
         losses = []
-        for part, stretch in zip(self._parts, self._stretches):
+        for part, stretch in counted(list(zip(self._parts, self._stretches)), "stretches left out in turn"):
             near = _seen(explanation.fit, ~stretch)
             point = fit(part, explanation.fit.point, ITERATIONS, near, refreshes=REFRESHES).point
-            own = self._model.residuals([point])[0][stretch]
+            own = bounded(self._model.residuals([point])[0][stretch])
             residuals[stretch] = own
             losses.append(float(np.mean(own**2)))
         return Foretold(explanation, residuals, np.array(losses))
@@ -112,8 +114,9 @@ class Validation:
         found = []
         most = before.fit.cost - grown[0].fit.cost if grown else 0.0
         hopeful = [e for e in grown[:VALIDATED] if before.fit.cost - e.fit.cost >= WORTH * most]
-        for number, explanation in enumerate(hopeful):
-            self._on_progress(f"validating explanation {number + 1} of {len(hopeful)}")
+        if hopeful:
+            self._on_progress("validating explanations by stretches of time that they were not fitted to")
+        for explanation in counted(hopeful, "explanations validated"):
             found.append(self.foretold(explanation))
         self.all += found
         self._losses.append(min((f.loss for f in found), default=np.inf))

@@ -172,8 +172,9 @@ class BankModel:
             for group in _by_terms(points):
                 parameters = [self.bank_parameters(points[i], number) for i in group]
                 for i, row in zip(group, self._simulate(run, parameters)):
-                    if row is not None:
-                        found[i, begin : begin + run.count] = run.residuals(row[None])[0]
+                    own = None if row is None else run.residuals(row[None])[0]
+                    if own is not None and np.isfinite(own).all():
+                        found[i, begin : begin + run.count] = own
             begin += run.count
         return found
 

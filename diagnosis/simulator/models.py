@@ -17,7 +17,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.translate import NoBank, translate
+from diagnosis.simulator.translate import NoBank
 
 
 class Effect(Protocol):
@@ -147,10 +147,9 @@ def model_of(
     if fabric_of(scenario) is not None:
         return FabricModel(scenario, recordings, catalogue, batches, without)
     try:
-        translate(scenario)
-    except NoBank:
+        return BankModel(scenario, recordings, catalogue, threads)
+    except NoBank:  # also by what one of the recordings overrides
         return ClosedLoopModel(scenario, recordings, without, batches)
-    return BankModel(scenario, recordings, catalogue, threads)
 
 
 def strings_of(scenario: Scenario) -> tuple[int, ...]:

@@ -125,7 +125,7 @@ class PendulumModel(CosimModel):
         moved = {i: replace(point, base=point.base + steps[i] * (np.arange(len(self.free)) == i)) for i in wanted}
         rows = self._rows([*((point, n) for n in numbers), *((moved[i], n) for i, n in places)])
         for (column, number), row in zip(places, rows[len(numbers) :]):
-            with np.errstate(invalid="ignore"):
+            with np.errstate(over="ignore", invalid="ignore"):
                 slope = (row - rows[number]) / steps[column]
             found[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         return found

@@ -12,6 +12,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.inputs import BankInputs, grid
 from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.sensitivities import sharing_plan
 from diagnosis.bank.steps import choose_step
 from diagnosis.bank.whiten import Whitening
@@ -19,6 +20,7 @@ from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.usage import near_switch
 from diagnosis.simulator.free import Clocks
+from diagnosis.simulator.priors import stated_priors
 from diagnosis.simulator.translate import Translation
 
 #: Standard deviation of a channel's zero, as a share of its noise: nothing is set better than its readings scatter.
@@ -103,7 +105,7 @@ class Run:
     def _inputs(self, bank: Bank, channels: list[tuple[Channel, str]]) -> BankInputs:
         deviations = {q: min(c.deviation for c, quantity in channels if quantity == q) for q in self.times}
         t = self.translation
-        return choose_step(bank, t.parameters, t.drive, t.start, self.times, deviations).inputs
+        return choose_step(bank, t.parameters, t.drive, t.start, self.times, deviations, _fastest(t)).inputs
 
     def _series(self, entry: tuple[Channel, str, int], switches: Array, margin: float) -> Series:
         channel, quantity, element = entry
@@ -124,9 +126,11 @@ class Run:
     def residuals(self, outputs: Array) -> Array:
         """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size).
 
-        They are whitened for a zero of each channel that is off by an unknown `ZERO`.
+        They are whitened for a zero of each channel that is off by an unknown `ZERO`, and not finite where an output is
+        not.
         """
-        return self._whitening.values((self.measured - outputs[:, self.pick]) * self.weight)
+        with np.errstate(over="ignore", invalid="ignore"):  # a quantity that the bank does not watch may run away
+            return self._whitening.values((self.measured - outputs[:, self.pick]) * self.weight)
 
     def slopes(
         self, slopes: Array, rows: int | None = None, into: AnyArray | None = None, factors: Array | None = None
@@ -143,6 +147,17 @@ def _refuse_doubles(entries: Sequence[tuple[Channel, str, int]], recording: Reco
         if other is not channel:
             key, problem = f"channels.{channel.name}", f"it measures the same as {other.name}"
             raise InputError(recording.path / "recording.yaml", key, problem, "leave one of the two out")
+
+
+def _fastest(translation: Translation) -> BankParameters:
+    """The rig with the shortest time constants that its priors hold probable: two deviations from what is stated."""
+    base = translation.parameters.base
+    priors = stated_priors(translation.uncertainty, translation.scatter)
+    away = {n: 2.0 * float(np.hypot(priors[n].shared, priors[n].scatter)) for n in ("capacity", "conductance")}
+    return translation.parameters.with_base(
+        capacity=np.asarray(base["capacity"]) * np.exp(-away["capacity"]),
+        conductance=np.asarray(base["conductance"]) * np.exp(away["conductance"]),
+    )
 
 
 def clocks(runs: Sequence[Run]) -> Clocks:

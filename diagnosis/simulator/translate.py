@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from cosim.unit import Array
 from diagnosis.bank.inputs import Drive, Programme
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.parameters import BankParameters
+from diagnosis.simulator.wiring import fault, reached, series_resistances
 
 #: Standard gravity as mechanics.hanging_mass takes it [m/s^2].
 GRAVITY = 9.81
@@ -85,11 +87,39 @@ def translate(scenario: Scenario) -> Translation:
     assert isinstance(actuator, FmuComponent)
     if actuator.fmu != "thermal_stiffness":
         raise NoBank(f"a bank simulates thermal_stiffness, not {actuator.fmu}")
+    if actuator.added_terms:
+        raise NoBank(f"a bank has no terms that are added to an FMU ({actuators[0]}.added_terms)")
+    for kind in (CircuitComponent, HangingMassComponent):
+        several = [n for n, c in scenario.components.items() if isinstance(c, kind)]
+        if len(several) > 1:
+            raise NoBank(f"a bank has one component of kind {kind.model_fields['kind'].annotation}, not several")
     assembly = assemble(scenario)
     try:
         return _Reader(scenario, assembly, actuators[0]).translation()
     finally:
         assembly.system.terminate()
+
+
+class _Values(dict[str, Array]):
+    """Parameters by name, which knows those that nobody has asked for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._read: set[str] = set()
+
+    def __getitem__(self, name: str) -> Array:
+        self._read.add(name)
+        return super().__getitem__(name)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """As of a dictionary."""
+        self._read.add(name)
+        return super().get(name, default)
+
+    @property
+    def unread(self) -> set[str]:
+        """Names that were not read."""
+        return set(self) - self._read
 
 
 class _Reader:
@@ -103,18 +133,24 @@ class _Reader:
         self.load = next((n for n, c in components.items() if isinstance(c, HangingMassComponent)), None)
 
     def translation(self) -> Translation:
+        fabrics = [n for n, c in self.scenario.components.items() if isinstance(c, FabricComponent)]
+        reason = fault(self.assembly.system, self.actuator, self.circuit, self.load, fabrics)
+        if reason:
+            raise NoBank(reason)
         coils = int(self.assembly.system.units[self.actuator].variables["temperature"].size)
         ambient = self._programme(self.actuator, "ambient_temperature")
         start = nanoseconds(self.scenario.time.start) * 1e-9
         if self.circuit is None:
             layout = BankLayout(coils)
             power = self._programme(self.actuator, "power", coils)
+            self._check_power(coils)
             drive = Drive(ambient, power=power)
         else:
             circuit = self.scenario.components[self.circuit]
             assert isinstance(circuit, CircuitComponent)
             layout = BankLayout(coils, tuple(circuit.strings), circuit.supply)
-            drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage"))
+            sources = layout.sources if circuit.supply == "per_string" else None
+            drive = Drive(ambient, voltage=self._programme(self.circuit, "supply_voltage", sources))
         own = self.assembly.parameters[self.actuator]
         room = self._into(self.actuator, "ambient_temperature")[0]
         return Translation(
@@ -124,6 +160,12 @@ class _Reader:
 
     def _into(self, unit: str, variable: str) -> list[Connection]:
         return [c for c in self.connections if c.target == (unit, variable)]
+
+    def _check_power(self, coils: int) -> None:
+        """Coils without a connection have the FMU's start value in the co-simulation, and 0 W in a bank."""
+        is_given = "power" in getattr(self.scenario.components[self.actuator], "start", {})
+        if is_given and not reached(self._into(self.actuator, "power"), coils):
+            raise NoBank(f"{self.actuator}.start.power heats coils that have no connection")
 
     def _programme(self, unit: str, variable: str, elements: int | None = None) -> Programme:
         """The course of an input that programmes drive, in SI."""
@@ -137,7 +179,7 @@ class _Reader:
                 values = np.repeat(values[:, None], elements, axis=1)
             return Programme(times, values, is_linear)
         if elements is None or any(is_linear for _, _, is_linear in found):
-            raise NoBank(f"{unit}.{variable} is put together from several linear programmes")
+            raise NoBank(f"{unit}.{variable} is put together from several programmes, not all of them held")
         times = np.unique(np.concatenate([t for t, _, _ in found]))
         values = np.zeros((len(times), elements))
         for connection, (own, course, _) in zip(parts, found):
@@ -176,13 +218,19 @@ class _Reader:
         if self.circuit is not None:
             circuit = self.scenario.components[self.circuit]
             assert isinstance(circuit, CircuitComponent)
-            base["string_resistance"] = circuit.string_resistance.to("ohm")
-            base["supply_resistance"] = circuit.supply_resistance.to("ohm")
+            start = nanoseconds(self.scenario.time.start) * 1e-9
+            try:
+                base["string_resistance"], base["supply_resistance"] = series_resistances(circuit, start)
+            except ValueError as error:
+                raise NoBank(str(error)) from error
             self._break_coils(base, circuit)
         if self.load is not None:
             load = self.scenario.components[self.load]
             assert isinstance(load, HangingMassComponent)
             base["load"] = load.mass.to("kg") * GRAVITY
+        unread = sorted(n for n in self.assembly.parameters[self.actuator].values if n in values.unread)
+        if unread:
+            raise NoBank(f"a bank has no parameter {unread[0]} of {self.actuator}")
         return BankParameters(base)
 
     def _break_coils(self, base: dict[str, float | Array], circuit: CircuitComponent) -> None:
@@ -197,13 +245,13 @@ class _Reader:
                 values[coil - 1] = resistance if name == "reference_resistance" else 0.0
             base[name] = values
 
-    def _fmu_values(self) -> dict[str, Array]:
+    def _fmu_values(self) -> _Values:
         """Values of the FMU's parameters: its own start values, replaced by those of the scenario."""
         unit = self.assembly.system.units[self.actuator]
         if not isinstance(unit, FmuUnit):
             raise NoBank("the actuator runs in a process of its own")
         given = self.assembly.parameters[self.actuator].values
-        values: dict[str, Array] = {}
+        values = _Values()
         for variable in unit.archive.description.modelVariables:
             name = variable.name.removesuffix("[1]")
             if variable.causality != "parameter" or "[" in name:
@@ -212,8 +260,7 @@ class _Reader:
             values[name] = np.array([float(part) for part in text.split()])
             if name in given:
                 values[name] = _number(given[name], variable.unit or "1")
-            if values[name].size == 1:
-                values[name] = values[name].reshape(())
+            values.update({n: v.reshape(()) for n, v in values.items() if v.size == 1})
         self._put_elements(unit, values)
         return values
 

@@ -156,4 +156,4 @@ def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_agai
     assert WAVE not in outcome.best.terms
     # The same term against errors as large as they are: worth a tenth of what noise alone would make of it.
     assert outcome.margin < outcome.best.gains[BEND] < 0.1 * first.best.gains[BEND]
-    assert sum(text.startswith("looking for effect 1") for text in said) == 1
+    assert sum(text.startswith("looking for a first effect") for text in said) == 1

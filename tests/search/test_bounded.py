@@ -36,3 +36,9 @@ def test_without_bounds_it_is_newtons_step():
 def test_what_stands_at_its_bound_and_wants_to_pass_stays():
     step = bounded_step(np.eye(2), np.array([1.0, 1.0]), np.array([0.0, -5.0]), np.array([1.0, 5.0]))
     np.testing.assert_allclose(step, [0.0, -1.0])
+
+
+def test_a_model_without_anything_that_may_be_off_makes_an_empty_step():
+    """As an amended scenario whose FMU states no uncertainty."""
+    nothing = np.zeros(0)
+    assert bounded_step(np.zeros((0, 0)), nothing, nothing, nothing).shape == (0,)

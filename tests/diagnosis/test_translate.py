@@ -1,0 +1,179 @@
+"""Every key of a scenario is either honoured by the coil bank, or the bank says that it cannot stand for it."""
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from cosim.run import run
+from cosim.scenario import parse_scenario
+from diagnosis.bank.bank import Bank
+from diagnosis.simulator.translate import NoBank, translate
+from tests.amend.bench import VARIABLES
+
+TWO_BY_TWO = yaml.safe_load((Path(__file__).parent.parent / "amend" / "two_by_two.yaml").read_text())
+#: Both make the same steps; rounding adds up over some hundred of them.
+SAME = 1e-9
+PER_STRING = {"unit": "V", "dim": "string", "points": [["0 s", ["2 V", "1 V"]], ["8 s", ["0 V", "2 V"]]]}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _fmus(shipped_fmus):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
+        yield
+
+
+def changed(changes: dict[str, Any]) -> dict[str, Any]:
+    """The scenario of two strings of two coils with other values; `a.b.c` names a key, None takes it away."""
+    data = copy.deepcopy(TWO_BY_TWO)
+    for path, value in changes.items():
+        *folders, last = path.split(".")
+        place = data
+        for folder in folders:
+            place = place.setdefault(folder, {})
+        if value is None:
+            del place[last]
+        else:
+            place[last] = value
+    return data
+
+
+def scenario(data, tmp_path):
+    return parse_scenario(yaml.safe_dump(data, sort_keys=False), tmp_path / "scenario.yaml")
+
+
+def by_both(data, tmp_path):
+    """Quantity to what the bank and the co-simulation give, in steps of one macro-step."""
+    given = scenario(data, tmp_path)
+    translation = translate(given)
+    results = run(given)
+    ends = results["time"].values
+    inputs = translation.drive.on_grid(ends)
+    found = Bank(translation.layout, is_midpoint=False).simulate(translation.parameters, inputs, ends)
+    names = {q: v for q, v in VARIABLES.items() if v in results and q in found}
+    return {q: (found[q][1:], results[v].values.reshape(len(ends), -1)[1:]) for q, v in names.items()}
+
+
+@pytest.fixture(scope="module")
+def unchanged(_fmus, tmp_path_factory):
+    """Quantity to what the bank gives of the scenario as it is."""
+    return {q: own for q, (own, _) in by_both(TWO_BY_TWO, tmp_path_factory.mktemp("unchanged")).items()}
+
+
+def largest_difference(pairs):
+    return max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs.values())
+
+
+HONOURED = {
+    "contact": {"components.circuit.elements": [{"kind": "contact", "string": 1, "resistance": "1 kohm"}]},
+    "contacts and a source": {
+        "components.circuit.elements": [
+            {"kind": "contact", "string": 2, "resistance": "1 ohm"},
+            {"kind": "contact", "string": 2, "resistance": "2 ohm", "instant": "-1 s"},
+            {"kind": "source_resistance", "resistance": "0.7 ohm"},
+        ],
+        "components.circuit.supply_resistance": "0.2 ohm",
+        "components.circuit.string_resistance": "0.3 ohm",
+    },
+    "supply_resistance": {"components.circuit.supply_resistance": "3 ohm"},
+    "string_resistance": {"components.circuit.string_resistance": "3 ohm"},
+    "strings": {"components.circuit.strings": [1, 3]},
+    "per_string": {"components.circuit.supply": "per_string", "components.supply.outputs.voltage": PER_STRING},
+    "voltage by element": {
+        "components.circuit.supply": "per_string",
+        "components.supply.outputs.other": {"unit": "V", "points": [["0 s", "1 V"], ["4 s", "2.5 V"]]},
+        "connections": ["supply.voltage -> circuit.supply_voltage[2]", "supply.other -> circuit.supply_voltage[1]"],
+    },
+    "scaled voltage": {
+        "connections": [{"connect": "supply.voltage -> circuit.supply_voltage", "factor": 0.5, "offset": 1.0}]
+    },
+    "power by element": {
+        "components.actuator.electrical": "circuit",
+        "connections": [
+            "supply.voltage -> circuit.supply_voltage",
+            *(f"circuit.power[{n}] -> actuator.power[{n}]" for n in (1, 2, 3, 4)),
+        ],
+    },
+    "mass": {"components.load.mass": "300 g"},
+    "room": {"components.room.outputs.temperature.constant": "40 degC"},
+    "start of the run": {"time.start": "-2 s"},
+    "linear voltage": {"components.supply.outputs.voltage.interpolation": "linear"},
+    "initial_temperature": {"components.actuator.parameters.initial_temperature": "60 degC"},
+    "R(T)": {"components.actuator.parameters.resistance_temperature_coefficient": "0.01 1/K",
+             "components.actuator.parameters.reference_temperature": "330 K"},
+    "cooling": {"components.actuator.parameters.use_regressed_cooling_rate": True,
+                "components.actuator.parameters.cooling_rate": "0.5 1/s",
+                "components.actuator.parameters.off_power": "0.5 W"},
+    "body": {"components.actuator.parameters.volume": "20 mm^3", "components.actuator.parameters.area": "300 mm^2",
+             "components.actuator.parameters.density": "3000 kg/m^3",
+             "components.actuator.parameters.specific_heat": "1500 J/(kg*K)",
+             "components.actuator.parameters.heat_transfer_coefficient": "30 W/(m^2*K)"},
+    "branches": {"components.actuator.parameters.heating_a": "190 N/m",
+                 "components.actuator.parameters.heating_b": "30000",
+                 "components.actuator.parameters.cooling_b": "300",
+                 "components.actuator.parameters.cooling_d": "170 N/m"},
+    "rest length": {"components.actuator.parameters.coil_rest_length": "30 mm"},
+}  # fmt: skip
+
+#: Change to a part of the reason.
+REFUSED = {
+    "late contact": ({"components.circuit.elements": [
+        {"kind": "contact", "string": 1, "resistance": "1 ohm", "instant": "5 s"}]}, "contact from an instant on"),
+    "lead": ({"components.circuit.elements": [{"kind": "lead", "string": 1, "rise": "5 ohm/A^2"}]}, "kind lead"),
+    "drop": ({"components.circuit.elements": [{"kind": "drop", "string": 1, "voltage": "0.5 V"}]}, "kind drop"),
+    "limit": ({"components.circuit.elements": [{"kind": "current_limit", "limit": "0.1 A"}]}, "kind current_limit"),
+    "slow": ({"components.circuit.elements": [{"kind": "slow_source", "delay": "2 s"}]}, "kind slow_source"),
+    "open": ({"components.circuit.open_coils": [2]}, "whole coils"),
+    "shorted": ({"components.circuit.shorted_coils": [2]}, "whole coils"),
+    "added terms": ({"components.actuator.added_terms": [{"to": "power", "formula": "0.1 * power"}]}, "added_terms"),
+    "other FMU": ({"components.actuator.fmu": "instant_stiffness",
+                   "components.actuator.parameters": {}}, "thermal_stiffness"),
+    "scaled power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
+                                      {"connect": "circuit.power -> actuator.power", "factor": 0.5}]}, "is scaled"),
+    "moved power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
+                                     *(f"circuit.power[{5 - n}] -> actuator.power[{n}]" for n in (1, 2, 3, 4))]},
+                    "in their order"),
+    "part of the power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
+                                           *(f"circuit.power[{n}] -> actuator.power[{n}]" for n in (1, 2, 3))]},
+                          "of some coils"),
+    "other power": ({"components.supply.outputs.power": {"unit": "W", "dim": "coil", "constant": ["0.2 W"] * 4},
+                     "connections": ["supply.voltage -> circuit.supply_voltage",
+                                     "supply.power -> actuator.power"]}, "circuit.power"),
+    "scaled stiffness": ({"connections": ["supply.voltage -> circuit.supply_voltage",
+                                          {"connect": "actuator.stiffness -> load.stiffness", "factor": 2}]},
+                         "is scaled"),
+    "other resistance": ({"components.supply.outputs.ohm": {"unit": "ohm", "dim": "coil", "constant": ["3 ohm"] * 4},
+                          "connections": ["supply.voltage -> circuit.supply_voltage",
+                                          "supply.ohm -> circuit.resistance"]}, "circuit.resistance from actuator"),
+    "driven by a start value": ({"components.circuit": None, "components.actuator.electrical": None,
+                                 "components.actuator.structure": {"coils": 4},
+                                 "components.actuator.start": {"power": "0.2 W"}, "algorithm": None,
+                                 "components.supply.outputs.power": {"unit": "W", "constant": "0.1 W"},
+                                 "connections": ["supply.power -> actuator.power[1]"]}, "start.power"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HONOURED)
+def test_a_key_of_the_scenario_changes_the_bank_as_it_changes_the_co_simulation(name, unchanged, tmp_path):
+    data = changed(HONOURED[name])
+    if name == "start of the run":
+        data["components"]["supply"]["outputs"]["voltage"]["points"][0][0] = "-2 s"
+    pairs = by_both(data, tmp_path)
+    assert set(pairs) >= {"temperature", "extension", "current"}
+    assert largest_difference(pairs) < SAME
+    moved = [
+        own.shape != unchanged[q].shape or np.abs(own - unchanged[q]).max() > 0.01 * np.abs(own).max()
+        for q, (own, _) in pairs.items()
+    ]
+    assert any(moved) or name == "power by element"  # which says the same in other words
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_a_bank_cannot_stand_for_it_refuses_and_says_why(name, tmp_path):
+    changes, reason = REFUSED[name]
+    with pytest.raises(NoBank, match=reason):
+        translate(scenario(changed(changes), tmp_path))

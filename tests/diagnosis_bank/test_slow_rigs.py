@@ -1,0 +1,84 @@
+"""Rigs with time constants of many minutes: steps as long as the readings are apart, with the answers of short ones."""
+
+import numpy as np
+import pytest
+
+from diagnosis.bank.inputs import Drive, Programme, grid
+from diagnosis.bank.layout import BankLayout
+from diagnosis.bank.parameters import BankParameters
+from diagnosis.bank.places import places
+from diagnosis.bank.probes import Probe, probe_sensitivities
+from diagnosis.bank.steps import SHARE, USUAL, choose_step, longest
+from tests.diagnosis_bank.rigs import ROOM, full_bank
+
+STOP = 5100.0  # s, 85 minutes
+TIMES = {"temperature": np.arange(0.0, STOP + 1.0, 10.0)}
+NOISE = {"temperature": 0.1}
+POWER = Programme(
+    np.array([0.0, 60.0, 600.0, 2400.0, 3000.0, 4000.0]),
+    np.array([[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.1, 0.3], [0.1, 0.05], [0.3, 0.05]]),
+)
+DRIVE = Drive(Programme.constant(ROOM), power=POWER)
+#: 1333 s, as a heater on a finned sink.
+SLOW = BankParameters({"conductance": 0.012, "capacity": 16.0, "use_regressed_cooling_rate": 0.0})
+HEATERS = BankLayout(2)
+
+
+def test_a_slow_rig_that_is_read_every_ten_seconds_needs_no_more_than_two_steps_for_a_reading():
+    bank = full_bank(HEATERS)
+    choice = choose_step(bank, SLOW, DRIVE, 0.0, TIMES, NOISE)
+    assert len(choice.inputs.time) < 2 * len(TIMES["temperature"])
+    fine = DRIVE.on_grid(grid(0.0, STOP, 0.1, DRIVE.switches()))
+    away = bank.simulate(SLOW, choice.inputs, TIMES)["temperature"] - bank.simulate(SLOW, fine, TIMES)["temperature"]
+    assert np.abs(away).max() < 2.0 * SHARE * NOISE["temperature"]  # K
+
+
+def test_a_fast_rig_that_is_read_as_seldom_keeps_short_steps():
+    fast = SLOW.with_base(capacity=0.06, resistance_temperature_coefficient=0.0)  # 5 s
+    choice = choose_step(full_bank(HEATERS), fast, DRIVE, 0.0, TIMES, NOISE)
+    assert choice.step <= USUAL
+    assert choice.error < SHARE
+
+
+def test_long_steps_hold_for_the_fastest_rig_that_the_fit_may_come_to():
+    fastest = SLOW.with_base(capacity=1.0)  # 83 s
+    alone = choose_step(full_bank(HEATERS), SLOW, DRIVE, 0.0, TIMES, NOISE)
+    safe = choose_step(full_bank(HEATERS), SLOW, DRIVE, 0.0, TIMES, NOISE, fastest)
+    assert safe.step < alone.step
+    assert safe.error < SHARE
+
+
+@pytest.mark.parametrize(
+    ("interval", "expected"), [(0.1, 0.4), (0.5, 0.4), (0.79, 0.4), (0.8, 0.8), (1.0, 0.8), (10.0, 6.4)]
+)
+def test_the_longest_step_is_within_the_interval_of_the_densest_readings(interval, expected):
+    times = {"temperature": np.arange(0.0, 500.0, 60.0), "current": np.arange(0.0, 500.0, interval)}
+    assert longest(times) == pytest.approx(expected)
+
+
+def test_a_noisy_course_at_one_hertz_costs_a_step_for_each_of_its_points_and_no_more():
+    points = np.arange(0.0, STOP, 1.0)
+    noise = 1.0 + 0.02 * np.random.default_rng(1).standard_normal((len(points), 2))
+    drive = Drive(Programme.constant(ROOM), power=Programme(points, np.array([0.3, 0.2]) * noise))
+    choice = choose_step(full_bank(HEATERS), SLOW, drive, 0.0, TIMES, NOISE)
+    assert len(choice.inputs.time) <= len(points) + 1
+
+
+def test_what_every_law_would_change_is_the_same_with_long_steps():
+    bank = full_bank(HEATERS)
+    choice = choose_step(bank, SLOW, DRIVE, 0.0, TIMES, NOISE)
+    fine = DRIVE.on_grid(grid(0.0, STOP, USUAL, DRIVE.switches()))
+    away = {}
+    for term in bank.terms:
+        found = [p for p in places(term, HEATERS, ["temperature"]) if p.kind != "swap"][:1]
+        if not found or any(p.is_fixed for p in term.parameters):
+            continue
+        probe = Probe(term, {}, found, 0.02 * term.amplitude.starts[0])
+        coarse, exact = (
+            probe_sensitivities(bank, SLOW, i, TIMES, probe)[1]["temperature"][0] for i in (choice.inputs, fine)
+        )
+        size = float(np.linalg.norm(exact))
+        if size * abs(probe.step) > 1e-6:  # K; below lies rounding
+            away[term.identifier] = float(np.linalg.norm(coarse - exact)) / size
+    assert len(away) > 40
+    assert max(away.values()) < 0.02, max(away, key=lambda k: away[k])
