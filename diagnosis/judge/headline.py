@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.report.display import clean, difference, number, symbol
+from diagnosis.report.display import clean, difference, moved, number
 
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
@@ -93,5 +93,4 @@ def what_stays(adequacy: Adequacy) -> str:
 
 def day_of(adequacy: Adequacy) -> str:
     """What was taken for granted of the day: how far its own numbers were moved."""
-    told = [f"{clean(m.name).replace('_', ' ')} {m.amount:+.2g} {symbol(m.unit)}" for m in adequacy.day]
-    return "; ".join(text.strip() for text in told)
+    return "; ".join(moved(m.name, m.amount, m.is_factor, m.unit) for m in adequacy.day)

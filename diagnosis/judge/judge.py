@@ -7,8 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit import Array
+from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import Adequacy, Alternative, Estimate, Finding, Moved, Searched, Standing, Verdict
+from diagnosis.judge.plausibility import implausible
+from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.report.display import words
 from diagnosis.search.fit import Fit
@@ -160,7 +163,10 @@ def _finding(
     likely = _open_rivals(alternatives, term, accepted)
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
     told = estimates(fit, term, _doubt(outcome), model.unseen(term))
-    doubts = unidentified(term, fit, told)
+    doubts = (*unidentified(term, fit, told), *implausible(term, fit.point.terms[term]))
+    if isinstance(candidate, CandidateTerm):
+        unknown = unmeasured(candidate, _measured(model))
+        doubts = (*doubts, unknown) if unknown else doubts
     if not is_small(accepted):
         doubts = (*doubts, _much_left(accepted))
     standing = standing_of(term, doubts, likely, is_trusted(outcome))
@@ -187,6 +193,11 @@ def _finding(
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
     )
+
+
+def _measured(model: DiagnosisModel) -> set[str]:
+    """Quantities that were recorded."""
+    return {s.channel.target.quantity for run in model.runs for s in run.series}
 
 
 def _much_left(accepted: Accepted) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from diagnosis.judge.diagnosis import Estimate, Standing
 from diagnosis.report.display import interval
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Term
+from diagnosis.search.problem import Term, TermParameter
 
 #: Share of its range within which a parameter lies at its bound (bounds hold exactly; this is rounding).
 AT_BOUND = 1e-9
@@ -49,7 +49,7 @@ def unidentified(term: Term, fit: Fit, estimates: Sequence[Estimate]) -> tuple[s
             continue
         width = p.upper - p.lower
         told = f"{p.name} = {interval(value, estimate.lower, estimate.upper, p.unit)}"
-        at = [b for b in (p.lower, p.upper) if abs(value - b) <= AT_BOUND * width and (b != 0.0 or number == 0)]
+        at = [b for b in (p.lower, p.upper) if abs(value - b) <= AT_BOUND * width and _is_doubtful(p, b, number == 0)]
         if at:
             found.append(f"{told} lies at its bound, {at[0]:g} {p.unit}".rstrip())
         elif number == 0 and estimate.lower <= 0.0 <= estimate.upper:
@@ -57,3 +57,10 @@ def unidentified(term: Term, fit: Fit, estimates: Sequence[Estimate]) -> tuple[s
         elif estimate.upper - estimate.lower >= UNKNOWN_SHARE * width:
             found.append(f"{told}: the interval is as wide as the bounds")
     return tuple(found)
+
+
+def _is_doubtful(parameter: TermParameter, bound: float, is_strength: bool) -> bool:
+    """Whether a value at a bound is no value: of a share, 1 is all of it (a clean break), and a rig can have that."""
+    if bound == 0.0:
+        return is_strength
+    return not (is_strength and parameter.unit == "1" and bound == 1.0 and parameter.plausible >= 1.0)

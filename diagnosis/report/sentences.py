@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Moved, Standing, Verdict
-from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, symbol, words
+from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
+from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
 
 #: What follows from a verdict.
@@ -115,8 +116,5 @@ def effort(diagnosis: Diagnosis) -> str:
 
 def moved_text(moved: Moved) -> str:
     """How far a number was moved: by which factor, or what was added."""
-    name = clean(moved.name).replace("_", " ")
     far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
-    if moved.is_factor:
-        return f"{name}: {number(moved.amount)} times the scenario's value ({far})"
-    return f"{name}: {moved.amount:+.3g} {symbol(moved.unit)} ({far})"
+    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit)} ({far})"

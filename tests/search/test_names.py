@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.judge.judge import is_limiting_case
+from diagnosis.judge.diagnosis import Estimate
+from diagnosis.judge.standing import unidentified
 from diagnosis.search.fit import fit
 from diagnosis.search.grow import EQUATIONS, _unnamed_equations
 from diagnosis.search.problem import Point, Term, TermParameter
@@ -18,19 +19,37 @@ REACH = TermParameter("reach", "m", 0.0, 0.05, (0.003,))
 WIRE = Term("wire", "all", "mechanical", (TermParameter("a", "N/m", 0.0, 10.0, (1.0,)), REACH))
 
 
+BREAK = replace(STEP, parameters=(replace(STEP.parameters[0], upper=1.0, plausible=1.0), STEP.parameters[1]))
+
+
 @pytest.mark.parametrize(
-    ("term", "values", "is_limiting"),
+    ("term", "values", "is_doubtful"),
     [
         (LID, (1.0, 0.7), False), (LID, (1.0, 50.0), True), (LID, (1.0, -50.0), True),
         (STEP, (0.4, 1.0), False),  # an instant may lie anywhere
-        (STEP, (10.0, 0.5), False),  # a strength at its bound is only strong
+        (STEP, (10.0, 0.5), True),  # a strength at its bound is not identified
+        (BREAK, (1.0, 0.5), False),  # a clean break is all there is
+        (STEP, (0.0, 0.5), True),  # there it vanishes
         (WIRE, (1.0, 0.0), False),  # nothing of a part of the law
         (WIRE, (1.0, 0.05), True),
     ],
 )  # fmt: skip
-def test_a_law_at_a_bound_of_its_shape_is_another_law(term, values, is_limiting):
+def test_a_law_at_a_bound_is_not_identified_unless_a_rig_can_have_that(term, values, is_doubtful):
     base = recalibrate(LineModel(LINE))
-    assert is_limiting_case(replace(base, point=base.point.plus(term, values)), term) is is_limiting
+    found = replace(base, point=base.point.plus(term, values))
+    estimates = [Estimate(p.name, p.unit, v, v - 1e-3, v + 1e-3) for p, v in zip(term.parameters, values)]
+    assert bool(unidentified(term, found, estimates)) is is_doubtful
+
+
+def test_an_interval_that_holds_zero_or_all_that_the_bounds_allow_identifies_nothing():
+    base = recalibrate(LineModel(LINE))
+    found = replace(base, point=base.point.plus(WIRE, (1.0, 0.01)))
+    reach = Estimate("reach", "m", 0.01, 0.008, 0.012)
+    (told,) = unidentified(WIRE, found, (Estimate("a", "N/m", 1.0, -0.5, 2.5), reach))
+    assert told.startswith("a = 1.00 N/m (-0.50 to 2.50): the interval holds 0")
+    (told,) = unidentified(WIRE, found, (Estimate("a", "N/m", 5.0, 0.5, 9.9), reach))
+    assert told.endswith("the interval is as wide as the bounds")
+    assert unidentified(WIRE, found, (Estimate("a", "N/m", 1.0, 0.8, 1.2), reach)) == ()
 
 
 def _generic(name: str, gain: float) -> Score:
