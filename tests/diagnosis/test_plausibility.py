@@ -1,5 +1,8 @@
 """Findings with a size that no real rig has, and laws that the channels cannot tell: of every kind of model."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from cosim.scenario import load_scenario
@@ -41,6 +44,24 @@ def test_a_strength_at_its_bound_is_not_believed(bank_terms, name, at_bound, bel
 def test_a_lag_beyond_what_sensors_have_is_not_believed(bank_terms):
     (sentence,) = implausible(bank_terms["sensor_lag"], (970.0,))
     assert sentence.startswith("lag_time would have to be 970 s; 30 s is the most that is believed (a sheathed")
+
+
+def test_what_the_recording_states_of_a_lag_stands_above_what_is_believed_of_sensors():
+    recording = rig.blank(0)
+    slow = {name: replace(channel, lag_bound=60.0) for name, channel in recording.channels.items()}
+    model = BankModel(load_scenario(rig.SCENARIO), [replace(recording, channels=slow)], [candidate("sensor_lag")])
+    for term in model.terms():
+        assert implausible(term, (59.0,)) == []
+        (sentence,) = implausible(term, (970.0,))
+        assert sentence.startswith("lag_time would have to be 970 s; 60 s is the most that is believed (the recording")
+
+
+def test_limits_of_a_bank_are_those_of_its_own_coils():
+    model = BankModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("slide_friction")])
+    term = next(t for t in model.terms() if t.place == "all coils")
+    load = float(np.median(model.runs[0].translation.parameters.base["load"]))
+    assert term.parameters[0].plausible == pytest.approx(0.5 * load)
+    assert term.parameters[0].starts[-1] < 0.5 * load
 
 
 def test_a_value_just_beyond_its_limit_is_told_with_the_digits_that_show_it():
