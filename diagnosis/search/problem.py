@@ -11,7 +11,6 @@ import numpy as np
 
 from cosim.unit import Array
 
-
 #: Logarithm of the largest factor that a value is changed by: 1e43 is beyond any rig, and far from the largest number.
 MOST_FOLD = 100.0
 
