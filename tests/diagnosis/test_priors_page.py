@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from cosim.parameters import find_parameter_set
-from cosim.scenario import find_scenario, load_scenario, parse_scenario
+from cosim.scenario import find_scenario, load_scenario
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.cosim_model import free_parameters
 from diagnosis.search.problem import Point
@@ -97,7 +97,8 @@ def test_a_prior_as_wide_as_can_be_stated_gives_numbers_at_its_bounds(tmp_path):
     shipped = find_parameter_set("tclab_heater", tmp_path / "own.yaml").read_text()
     (tmp_path / "wide.yaml").write_text(shipped.replace("uncertainty: 0.5", "uncertainty: 1000"))
     text = find_scenario("tclab").read_text().replace("parameter_set: tclab_heater", "parameter_set: wide.yaml")
-    model = model_of(parse_scenario(text, tmp_path / "own.yaml"), [load_recording(folder(tmp_path))], [])
+    (tmp_path / "own.yaml").write_text(text)
+    model = model_of(load_scenario(tmp_path / "own.yaml"), [load_recording(folder(tmp_path))], [])
     wide = [p for p in model.parameters if p.deviation == 1000.0]
     assert {p.name for p in wide} == {"conductance", "capacity"}
     for z in (-6.0, 6.0):

@@ -10,7 +10,9 @@ import pytest
 from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
-from diagnosis.bank.layout import BankLayout
+from diagnosis.amend.free_run import read_run
+from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.recording.fits import no_results
 from diagnosis.recording.quantity import _KINDS, parse_quantity
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
@@ -20,6 +22,7 @@ from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.problem import Point
 from diagnosis.simulator.models import model_of
 from diagnosis.simulator.runs import bank_quantity
+from diagnosis.simulator.translate import translate
 from tests.diagnosis.test_recording import folder
 
 TWO_STRINGS = """
@@ -148,3 +151,27 @@ def test_a_coil_may_be_open_in_one_recording_alone(tmp_path):
     assert second < 1e-9
     resistances = [p for p in model.parameters if p.name == "reference_resistance"]
     assert resistances[0].nominal == pytest.approx(2.2)  # of the coils that are whole
+
+
+def test_places_of_a_fabric_are_as_documented():
+    """String s is row s from the tether; along it two coils to a link, the arm at -x first, from the supply on."""
+    there = no_results(load_scenario("spatial_control"))
+    link = there["coil_link"].values - 1
+    np.testing.assert_array_equal(there["string_of_coil"], there["link_row"].values[link])
+    expected = 2 * (there["link_place"].values[link] - 1) + there["coil_arm"].values
+    np.testing.assert_array_equal(there["position_in_string"], expected)
+    assert "at the supply" in there["position_in_string"].attrs["long_name"]
+    assert "counted from the tether" in there["row"].attrs["long_name"]
+    assert there["coil_arm"].attrs["long_name"].startswith("1: arm at -x")
+
+
+def test_a_free_run_is_read_on_every_derived_quantity(tmp_path):
+    scenario, results, recording = recorded(tmp_path)
+    derived = [n for n, q in QUANTITIES.items() if q.is_derived]
+    times = dict.fromkeys(derived, np.arange(0.5, 11.9, 0.5))
+    found = read_run(results, translate(scenario), times)
+    for name in ("supply.power", "supply.voltage", "string[2].voltage", "coil[1,2].voltage", "coil[1].tension"):
+        quantity, element = bank_quantity(parse_quantity(name), translate(scenario).layout, recording)
+        own = series_of(results, parse_quantity(name), tmp_path)
+        steps = np.searchsorted(own.times, times[quantity] - 1e-9)  # a flow stands at the end of its step
+        np.testing.assert_allclose(found[quantity][:, element], own.values[steps], rtol=1e-3, err_msg=name)
