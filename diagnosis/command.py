@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -12,6 +12,10 @@ from rich.console import Console
 from cosim.errors import InputError
 from cosim.run_folder import writing
 from cosim.scenario import load_scenario
+
+if TYPE_CHECKING:
+    from diagnosis.diagnose import Found
+    from diagnosis.judge.diagnosis import Diagnosis
 
 
 def diagnose(
@@ -50,7 +54,8 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.compute.batch import Batches  # late: `--help` must not load Bullet
+    from diagnosis.compute.alone import alone  # late: `--help` must not load Bullet
+    from diagnosis.compute.batch import Batches
     from diagnosis.compute.cache import Cache
     from diagnosis.compute.cluster import choose_place
     from diagnosis.compute.display import Display
@@ -61,19 +66,18 @@ def diagnose(
     from diagnosis.hand_over import hand_over
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import prepared
-    from diagnosis.report.json_file import write_json
     from diagnosis.report.summary import print_summary
     from diagnosis.search.search import Settings
 
     held_out = held_out or []
     _check(recording, held_out, out)
     kept = Cache(out / "simulations")
-    if kept.count() and not resume:
-        raise InputError(out, "", "an interrupted diagnosis left its simulations here",
-                         "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip
     display = Display(Console(stderr=True))
     try:
-        with display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
+        with alone(out), display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
+            if kept.count() and not resume:
+                raise InputError(out, "", "an interrupted diagnosis left its simulations here",
+                                 "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip
             base = load_scenario(scenario)
             means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief)
             training, judges = prepared(
@@ -81,14 +85,12 @@ def diagnose(
             )
             with watched(Steps(display.stage)) as steps:
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
-                if brief:
-                    diagnosis = found.diagnosis
-                    with writing(out):
-                        out.mkdir(parents=True, exist_ok=True)
-                        write_json(diagnosis, out / "diagnosis.json")
-                else:
-                    steps("writing the amended model and the report")
-                    diagnosis = hand_over(found, base, judges, out)
+                steps("writing" if brief else "writing the amended model and the report")
+                try:
+                    diagnosis = _brief(found, out) if brief else hand_over(found, base, judges, out)
+                except InputError:  # a full disk must not cost the answer
+                    print_summary(found.diagnosis, Console())
+                    raise
     except KeyboardInterrupt:
         rest = (
             f"`--resume` goes on from its {kept.count()} simulations"
@@ -100,6 +102,15 @@ def diagnose(
     print_summary(diagnosis, Console())
     if not brief:
         print(out / "report.html")
+
+
+def _brief(found: Found, out: Path) -> Diagnosis:
+    """Write diagnosis.json alone."""
+    from diagnosis.report.json_file import write_json
+
+    with writing(out):
+        write_json(found.diagnosis, out / "diagnosis.json")
+    return found.diagnosis
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:

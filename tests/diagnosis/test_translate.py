@@ -5,12 +5,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
 from cosim.run import run
-from cosim.scenario import parse_scenario
+from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.bank.bank import Bank
+from diagnosis.candidates.registry import catalogue
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.search import recalibrate
+from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.models import model_of
 from diagnosis.simulator.translate import NoBank, translate
 from tests.amend.bench import VARIABLES
 
@@ -177,3 +183,24 @@ def test_what_a_bank_cannot_stand_for_it_refuses_and_says_why(name, tmp_path):
     changes, reason = REFUSED[name]
     with pytest.raises(NoBank, match=reason):
         translate(scenario(changed(changes), tmp_path))
+
+
+@pytest.mark.parametrize("where", ["scenario", "recording"])
+def test_what_a_bank_refuses_the_co_simulation_diagnoses_though_nothing_of_it_may_be_off(where, tmp_path):
+    """A lead that warms up, in the scenario or in what a recording overrides; no parameter states an uncertainty."""
+    elements = [{"kind": "lead", "string": 1, "rise": "5 ohm/A^2"}]
+    whole = changed({"components.circuit.elements": elements})
+    results = run(scenario(whole, tmp_path))
+    table = pd.DataFrame({"t": results["time"].values, "T": results["actuator.temperature"].values[:, 0] - 273.15})
+    folder = tmp_path / "day"
+    folder.mkdir()
+    table[::10].to_csv(folder / "data.csv", index=False)
+    own = {"components": {"circuit": {"elements": elements}}} if where == "recording" else {}
+    sidecar = {"title": "day", "table": "data.csv", "time": {"column": "t", "unit": "s", "zero": 0}, "overrides": own,
+               "channels": {"coil[1].temperature": {"column": "T", "unit": "degC", "noise": "0.1 degC"}}}  # fmt: skip
+    (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar))
+    (tmp_path / "scenario.yaml").write_text(yaml.safe_dump(whole if where == "scenario" else TWO_BY_TWO))
+    model = model_of(load_scenario(tmp_path / "scenario.yaml"), [load_recording(folder)], catalogue(), 1)
+    assert isinstance(model, ClosedLoopModel)
+    assert list(model.parameters) == []
+    assert np.abs(recalibrate(model).residuals).max() < 1e-6
