@@ -117,7 +117,7 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
     chosen = np.ones(len(beside.pick), dtype=bool) if inside is None else np.asarray(inside, dtype=bool)
     times = beside.times[chosen]
     instants = times if at is None else at[chosen]
-    return fit(beside.measured[chosen], design(beside, course, times, instants), beside.floor)
+    return fit(beside.measured[chosen], design(beside, course, times, instants), beside.tolerance)
 
 
 def lagged_series(beside: Beside, number: int) -> Series:

@@ -117,11 +117,22 @@ def resolution(compared: Compared, channel: Channel) -> float:
     return channel.offset_bound + float(np.median(np.diff(channel.times))) + steps
 
 
-def _own(compared: Compared, beside: Beside) -> Fit:
-    """The best fit with a clock within its bound."""
-    bound = resolution(compared, beside.channel)
-    fits = [explained(beside, beside, beside.times - d) for d in np.linspace(-bound, bound, 5)]
+def allowed(compared: Compared, channel: Channel) -> Array:
+    """Shifts that are no doubt [s]; later also by the lag stated for the sensor, since several lags look like a delay."""
+    bound = resolution(compared, channel)
+    late = np.linspace(0.0, channel.lag_bound, 9)[1:] if channel.lag_bound else np.zeros(0)
+    return np.concatenate([np.linspace(-bound, bound, 5), bound + late])
+
+
+def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
+    """The best fit with clock and sensor within their bounds."""
+    shifts = allowed(compared, beside.channel)
+    fits = [explained(beside, course, beside.times - d, inside) for d in shifts]
     return min(fits, key=lambda f: f.squares)
+
+
+def _own(compared: Compared, beside: Beside) -> Fit:
+    return _within(compared, beside, beside)
 
 
 def _shares(fits: Sequence[Fit]) -> float:
@@ -141,7 +152,7 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
             inside = b.times <= o.simulated.times[-1]
             if np.count_nonzero(inside) < max(24, 0.5 * len(inside)):
                 continue
-            own, another = explained(b, b, inside=inside), explained(b, o, inside=inside)
+            own, another = _within(compared, b, b, inside), _within(compared, b, o, inside)
             gains.append(gain(own, another))
             mine.append(own)
             theirs.append(another)
@@ -163,9 +174,10 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     if not 2.0 * bound < 0.5 * span:
         return []
     sizes = np.geomspace(1.5 * bound, 0.5 * span, SHIFTS)
+    slowest = max(b.channel.lag_bound for b in leads)
     price = 2.0 * np.log(2.0 * SHIFTS)
     best: tuple[float, Array, float, list[Fit]] | None = None
-    for shift in (*-sizes[::-1], *sizes):
+    for shift in (*-sizes[::-1], *sizes[sizes > slowest + bound]):
         fits = [explained(b, b, b.times - shift) for b in leads]
         gains = np.array([gain(a, f) for a, f in zip(own, fits)]) - price
         if best is None or np.median(gains) > best[0]:
@@ -259,7 +271,7 @@ def _responses(times: Array, instants: Array, lag: float) -> Array:
 def _with_steps(beside: Beside, switches: Array) -> Fit:
     base = design(beside, beside, beside.times, beside.times)
     fits = [
-        fit(beside.measured, np.hstack([base, _responses(beside.times, switches, lag)]), beside.floor)
+        fit(beside.measured, np.hstack([base, _responses(beside.times, switches, lag)]), beside.tolerance)
         for lag in _step_lags(beside)
     ]
     return min(fits, key=lambda f: f.squares)
@@ -287,7 +299,7 @@ def _greedy(beside: Beside, grid: Array, count: int) -> tuple[list[float], Fit]:
             basis = np.hstack([basis, free[:, index : index + 1] / sizes[index]])
             left = measured - basis @ (basis.T @ measured)
             chosen.append(float(grid[index]))
-        found = Fit(left, beside.floor**2, float(measured @ measured))
+        found = Fit(left, beside.tolerance**2, float(measured @ measured))
         if best is None or found.squares < best[1].squares:
             best = chosen, found
     assert best is not None
