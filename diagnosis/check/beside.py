@@ -22,9 +22,9 @@ from diagnosis.recording.series import Series, sample, series_of
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
 MOST_STEPS = 400_000
 #: Samples of a channel that a regression looks at; more are thinned, which costs resolution in time and no truth.
-MOST_SAMPLES = 1500
+MOST_SAMPLES = 500
 #: Time constants of the lags that recalibrate a simulated channel.
-LAGS = 4
+LAGS = 5
 #: Discrepancy of a model that has been recalibrated and lacks some physics, as a share of a channel's own deviation: what
 #: explains less than its square of the variance is no evidence against it. On 96 recordings with concealed effects and 12 of
 #: other laboratories the largest was 0.06. Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464.

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import nnls
 
 from cosim.unit import Array
 from diagnosis.check.beside import Beside
-from diagnosis.recording.series import Series, sample
+from diagnosis.recording.series import sample
 
 #: Probability that a recording that fits its scenario raises one false serious doubt.
 LEVEL = 1e-3
@@ -69,40 +70,47 @@ def gain(own: Fit, other: Fit) -> float:
     return float(count * np.log(max(own.squares, floor) / max(other.squares, floor)))
 
 
-def fit(measured: Array, columns: Array, floor: float) -> Fit:
-    """Least squares of readings on columns, shape (samples, columns)."""
-    scale = np.linalg.norm(columns, axis=0)
-    scaled = columns / np.where(scale > 0.0, scale, 1.0)
-    # orthogonal columns; directions that rounding alone makes are left out
-    left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
-    basis = left[:, sizes > 1e-7 * sizes[0]]
-    centred = measured - measured.mean()
-    shifted = centred - basis @ (basis.T @ centred)
-    return Fit(shifted, floor**2, float(centred @ centred))
-
-
-def design(
-    beside: Beside, course: Beside, times: Array, at: Array, is_free: bool = True
-) -> Array:  # fmt: skip
-    """Columns that explain a channel by a simulated course.
-
-    Offset, gain, first-order lags (whose weights may be negative: any change of a time constant is such a sum), and what
-    remains of another initial state. So neither a parameter that is off nor a lag of the sensor is a misfit.
+def fit(measured: Array, columns: Array, tolerance: float, free: Array | None = None) -> Fit:
+    """Least squares of readings on an offset and columns with weights that are not negative.
 
     Args:
-        beside: The channel that is explained; its lags are used.
-        course: The channel whose simulation explains.
-        times: Of the readings [s].
-        at: Where on the simulation's clock they are taken [s].
-        is_free: Whether lags and decays may be weighted freely; else offset and gain alone.
+        measured: Shape (samples,).
+        columns: Shape (samples, columns).
+        tolerance: Standard deviation that any fit leaves.
+        free: Columns whose weights may have any sign, shape (samples, any).
+    """
+    centred = measured - measured.mean()
+    rest, target = columns - columns.mean(axis=0), centred
+    if free is not None and free.shape[1]:
+        basis, sizes, _ = np.linalg.svd(free - free.mean(axis=0), full_matrices=False)
+        basis = basis[:, sizes > 1e-9 * max(float(sizes[0]), 1e-300)]
+        rest, target = rest - basis @ (basis.T @ rest), centred - basis @ (basis.T @ centred)
+    scale = np.linalg.norm(rest, axis=0)
+    rest = rest[:, scale > 1e-9 * max(float(scale.max(initial=0.0)), 1e-300)]
+    if not rest.shape[1]:
+        return Fit(target, tolerance**2, float(centred @ centred))
+    scale = np.linalg.norm(rest, axis=0)
+    # of a tall problem only its triangle matters
+    left, triangle = np.linalg.qr(rest / scale)
+    weights, _ = nnls(triangle, left.T @ target)
+    return Fit(target - rest @ (weights / scale), tolerance**2, float(centred @ centred))
+
+
+def design(course: Beside, at: Array) -> Array:
+    """Columns by which a simulated course may explain a channel, with weights that are not negative.
+
+    The course itself; the course behind one lag, or two of them: a sensor, a mass, a parameter that makes it slower; and
+    twice the course less the course behind a lag: time constants shorter by a factor of up to 2. So a parameter that is off or a
+    lag is no misfit; a response to something else is.
+
+    Args:
+        course: Channel whose simulation explains.
+        at: Where on the simulation's clock [s], shape (samples,).
     """
     assert course.simulated is not None
-    own = course.simulated
-    columns = [np.ones(len(times)), sample(own, at)]
-    if is_free:
-        columns += [np.interp(at, own.times, row) for row in course.lagged]
-        columns += [np.exp(-(times - times[0]) / lag) for lag in beside.lags]
-    return np.stack(columns, axis=1)
+    own = sample(course.simulated, at)
+    behind = np.stack([np.interp(at, course.simulated.times, row) for row in course.lagged], axis=1)
+    return np.hstack([own[:, None], behind, 2.0 * own[:, None] - behind[:, : len(course.lags)]])
 
 
 def explained(beside: Beside, course: Beside, at: Array | None = None, inside: Array | None = None) -> Fit:
@@ -117,11 +125,5 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
     chosen = np.ones(len(beside.pick), dtype=bool) if inside is None else np.asarray(inside, dtype=bool)
     times = beside.times[chosen]
     instants = times if at is None else at[chosen]
-    return fit(beside.measured[chosen], design(beside, course, times, instants), beside.tolerance)
+    return fit(beside.measured[chosen], design(course, instants), beside.tolerance)
 
-
-def lagged_series(beside: Beside, number: int) -> Series:
-    """The simulated course behind the lag of a number."""
-    assert beside.simulated is not None
-    own = beside.simulated
-    return Series(own.times, beside.lagged[number], own.is_flow, own.unit)

@@ -157,11 +157,6 @@ def _signed(compared: Compared, beside: Beside) -> tuple[Fit, Fit]:
     courses = [beside.at(times), *(np.interp(times, beside.simulated.times, row) for row in beside.lagged)]
     if not len(compared.switches()):
         courses += [beside.at(pace * times) for pace in PACES]
-    flat = fit(measured, np.ones((len(times), 1)), beside.tolerance)
-    best = {1: flat, -1: flat}
-    for course in courses:
-        one = fit(measured, np.stack([np.ones(len(times)), course], axis=1), beside.tolerance)
-        sign = 1 if float((course - course.mean()) @ measured) >= 0.0 else -1
-        if one.squares < best[sign].squares:
-            best[sign] = one
-    return best[1], best[-1]
+    fits = [[fit(measured, sign * c[:, None], beside.tolerance) for c in courses] for sign in (1.0, -1.0)]
+    same, other = (min(found, key=lambda f: f.squares) for found in fits)
+    return same, other

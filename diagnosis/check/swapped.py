@@ -55,7 +55,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
 
 
 def _one(beside: Beside, course: Beside) -> Fit:
-    return fit(beside.measured, design(beside, course, beside.times, beside.times), beside.tolerance)
+    return fit(beside.measured, design(course, beside.times), beside.tolerance)
 
 
 def _cycles(rows: np.ndarray, columns: np.ndarray) -> list[list[int]]:  # type: ignore[type-arg]
