@@ -120,8 +120,9 @@ class Compared:
         scenario: The scenario under the conditions of the recording.
         channels: By name.
         courses: What drives it.
-        note: Why nothing was simulated, or only a part; else empty.
+        note: Why nothing was simulated; else empty.
         results: Of the run.
+        base: The scenario without these conditions.
     """
 
     recording: Recording
@@ -130,6 +131,7 @@ class Compared:
     courses: tuple[Course, ...]
     note: str = ""
     results: xr.Dataset | None = field(default=None, repr=False)
+    base: Scenario | None = None
 
     @property
     def begin(self) -> float:
@@ -170,7 +172,7 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
                 note = f"the simulation stopped: {stopped.reason}"
     courses = tuple(_courses(own, recording))
     channels = {n: _beside(c, results, recording.path / "recording.yaml") for n, c in recording.channels.items()}
-    return Compared(recording, own, channels, courses, note, results)
+    return Compared(recording, own, channels, courses, note, results, scenario)
 
 
 def _hindrance(scenario: Scenario) -> str:

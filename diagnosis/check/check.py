@@ -13,6 +13,7 @@ from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import scale_doubts
 from diagnosis.check.start import start_doubts
 from diagnosis.check.swapped import swap_doubts
+from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import timing_doubts
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Recording
@@ -46,9 +47,9 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = []
     for one in every:
-        timing = timing_doubts(one, [o for o in every if o is not one])
+        timing = time_unit_doubts(one) or timing_doubts(one, [o for o in every if o is not one])
         swaps = swap_doubts(one)
         found += timing or swaps
         found += scale_doubts(one, not timing and not swaps)
-        found += [*reading_doubts(one), *start_doubts(one), *input_doubts(one)]
+        found += [*reading_doubts(one, not timing), *start_doubts(one), *input_doubts(one)]
     return tuple(sorted(found, key=lambda d: (not d.is_serious, -d.z)))

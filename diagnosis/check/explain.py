@@ -80,6 +80,8 @@ def fit(measured: Array, columns: Array, tolerance: float, free: Array | None = 
         free: Columns whose weights may have any sign, shape (samples, any).
     """
     centred = measured - measured.mean()
+    if not columns.shape[1]:
+        return Fit(centred, tolerance**2, float(centred @ centred))
     rest, target = columns - columns.mean(axis=0), centred
     if free is not None and free.shape[1]:
         basis, sizes, _ = np.linalg.svd(free - free.mean(axis=0), full_matrices=False)
@@ -126,4 +128,3 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
     times = beside.times[chosen]
     instants = times if at is None else at[chosen]
     return fit(beside.measured[chosen], design(course, instants), beside.tolerance)
-

@@ -97,7 +97,9 @@ def _paint(
         for doubt in doubts:
             is_part = doubt.end - doubt.begin < 0.999 * (one.end - one.begin)
             if channel.name in doubt.subject.split(", ") and is_part:
-                axes.axvspan(doubt.begin, doubt.end, color="#c53030" if doubt.is_serious else "#b7791f", alpha=0.18, lw=0)
+                axes.axvspan(
+                    doubt.begin, doubt.end, color="#c53030" if doubt.is_serious else "#b7791f", alpha=0.18, lw=0
+                )
         axes.set_ylabel(f"{channel.target.quantity} [{scaled.unit}]" if scaled.unit else channel.target.quantity)
         axes.set_title(channel.name, loc="left", fontsize=8)
         axes.legend(loc="upper right", frameon=False, fontsize=7)

@@ -221,7 +221,13 @@ def _numbered(names: Sequence[str], head: Heading) -> list[str]:
     if not head.numbers:
         is_whole = any(w in head.word for w in ("supply", "total", "sum"))
         others = [n for n in names if n not in whole]
-        return whole if is_whole or not others else (others if not whole else list(names)) if len(names) > 1 else list(names)
+        return (
+            whole
+            if is_whole or not others
+            else (others if not whole else list(names))
+            if len(names) > 1
+            else list(names)
+        )
     if any(w in head.word for w in ("supply", "total", "sum")):
         return whole
     exact = [n for n in names if parse_quantity(n).element == head.numbers]
@@ -272,10 +278,14 @@ def _sidecar(
               "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
               *_conditions(scenario)]  # fmt: skip
     if channels:
-        lines.append("# Noise is the scatter of neighbouring readings; state the data sheet's where you know it better.")
+        lines.append(
+            "# Noise is the scatter of neighbouring readings; state the data sheet's where you know it better."
+        )
         lines.append(yaml.safe_dump({"channels": channels}, sort_keys=False, allow_unicode=True, width=110).rstrip())
     else:
-        lines.append("channels: {}  # none could be matched: write them, as in `coil[1].temperature: {column: T1, unit: degC}`")
+        lines.append(
+            "channels: {}  # none could be matched: write them, as in `coil[1].temperature: {column: T1, unit: degC}`"
+        )
     lines += [f"# unclear column {text}" for text in unclear]
     return "\n".join(line.replace("\r", " ") for line in lines) + "\n"
 

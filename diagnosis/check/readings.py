@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2, norm, t
@@ -18,6 +18,8 @@ from diagnosis.recording.noise import estimate_noise
 HONEST = 2.0
 #: Neighbouring increments on each side whose mean an increment is compared with, and whose scatter.
 SIDE, WIDE = 4, 12
+#: Largest steps that are left out where the tail of the noise is told: two stretches with two ends.
+SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
 TAILS = (2.5, 3.0, 4.0, 6.0, 10.0, 30.0, 1000.0)
 
@@ -37,14 +39,20 @@ class Jump:
     z: float
 
 
-def reading_doubts(compared: Compared) -> list[Doubt]:
-    """Doubts about the readings of every channel."""
+def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
+    """Doubts about the readings of every channel.
+
+    Args:
+        compared: A recording beside its simulation.
+        is_timed: Whether the response follows the programme; else steps are not asked for: they may be the programme's.
+    """
     found = []
     for beside in compared.channels.values():
         found += [*_noise(compared, beside), *_gaps(compared, beside)]
         stuck = stuck_stretches(compared, beside)
         found += [_stuck(compared, beside, a, b) for a, b in stuck]
-        found += [d for d in _steps(compared, beside) if not any(_near(beside, d, s) for s in stuck)]
+        steps = _steps(compared, beside) if is_timed else []
+        found += [d for d in steps if not any(_near(beside, d, s) for s in stuck)]
     return found
 
 
@@ -112,7 +120,9 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
     if len(values) < 16:
         return []
     edges = np.concatenate([[0], np.flatnonzero(np.diff(values) != 0.0) + 1, [len(values)]])
-    noise = max(channel.deviation if channel.is_deviation_given else measured_noise(beside), channel.quantum / np.sqrt(12.0))
+    noise = max(
+        channel.deviation if channel.is_deviation_given else measured_noise(beside), channel.quantum / np.sqrt(12.0)
+    )
     limit = float(norm.isf(LEVEL / (2.0 * len(values) * len(compared.channels)))) * np.sqrt(2.0)
     low, high = float(np.min(values)), float(np.max(values))
     found = []
@@ -177,7 +187,7 @@ def _size(value: float, unit: str) -> str:
     return f"{factor * value:.3g} {name}"
 
 
-def far(values: Array, noise: float, tests: float) -> float:
+def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
     """Size that noise alone reaches with the probability `LEVEL` among so many tests.
 
     Real sensors have wilder readings than a normal distribution: Student's t by maximum likelihood (Lange, Little, Taylor,
@@ -187,7 +197,13 @@ def far(values: Array, noise: float, tests: float) -> float:
         values: Draws of it, a few of which may be none; shape (draws,).
         noise: Standard deviation of a draw by the channel's noise.
         tests: Number of tests.
+        width: Draws on each side that one step moves as well; the `SPARED` largest steps do not tell the tail.
     """
+    kept = np.ones(len(values), dtype=bool)
+    for _ in range(SPARED if len(values) > 8 * SPARED * (width + 1) else 0):
+        peak = int(np.argmax(np.where(kept, np.abs(values), -1.0)))
+        kept[max(peak - width, 0) : peak + width + 1] = False
+    values = values[kept]
     size: Array = np.abs(values)
     best: tuple[float, float] | None = None
     for tail in TAILS:
@@ -218,7 +234,7 @@ def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
     means = np.convolve(steps, weights, "same") / np.convolve(np.ones(len(steps)), weights, "same")
     sizes = steps - means
     scatter = noise * np.sqrt(2.0 * (1.0 + 1.0 / (2 * SIDE)))
-    limit = far(sizes, scatter, tests)
+    limit = far(sizes, scatter, tests, SIDE)
     found = []
     for i in np.flatnonzero(np.abs(sizes) > limit):
         around = np.concatenate([steps[max(i - WIDE, 0) : i], steps[i + 1 : i + 1 + WIDE]])
@@ -235,6 +251,50 @@ def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
     return found
 
 
+def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
+    """Steps of the mean: lines through `WIDE` readings before and after, where both fit and do not meet.
+
+    The generalised likelihood ratio of a step at a known instant between two lines, over all instants (Basseville,
+    Nikiforov, Detection of Abrupt Changes, 1993, ch. 2). Where a line does not fit within the noise (chi-square), the signal bends and
+    nothing is said; the step itself must happen from one reading to the next.
+
+    Args:
+        values: Shape (samples,).
+        noise: Standard deviation of a reading.
+        tests: Among so many instants one false step has the probability `LEVEL`.
+    """
+    width, count = WIDE, len(values)
+    if count < 4 * width:
+        return []
+    index = np.arange(width) - 0.5 * (width - 1)
+    windows = np.lib.stride_tricks.sliding_window_view(values, width)
+    means, slopes = windows.mean(axis=1), windows @ index / float(index @ index)
+    left = np.sum((windows - means[:, None] - slopes[:, None] * index) ** 2, axis=1) / noise**2
+    # window k ends before reading k + width, where window k + width begins
+    before, after = slice(0, count - 2 * width + 1), slice(width, count - width + 1)
+    sizes = (means - 0.5 * width * slopes)[after] - (means + 0.5 * width * slopes)[before]
+    deviation = noise * np.sqrt(2.0 * (1.0 / width + 0.25 * width**2 / float(index @ index)))
+    limit = far(sizes, deviation, tests, width)
+    most = float(chi2.isf(LEVEL, width - 2))
+    sharp = np.abs(np.diff(values)[width - 1 : count - width] - sizes) < 0.5 * np.abs(sizes) + 3.0 * noise
+    good = (np.abs(sizes) > limit) & (left[before] < most) & (left[after] < most) & sharp
+    found: list[Jump] = []
+    for k in np.flatnonzero(good):
+        one = Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation))
+        if found and one.index - found[-1].index <= width // 2:
+            if one.z > found[-1].z:
+                found[-1] = one
+        else:
+            found.append(one)
+    return found
+
+
+def _merged(sudden: Sequence[Jump], shifts: Sequence[Jump]) -> list[Jump]:
+    """Both kinds, each step once."""
+    others = [s for s in shifts if all(abs(s.index - j.index) > WIDE // 2 for j in sudden)]
+    return sorted([*sudden, *others], key=lambda j: j.index)
+
+
 def _steps(compared: Compared, beside: Beside) -> list[Doubt]:
     """Single wild readings, and steps up and down again."""
     channel = beside.channel
@@ -249,16 +309,17 @@ def _steps(compared: Compared, beside: Beside) -> list[Doubt]:
     clean = residual.copy()
     clean[wild] = np.interp(channel.times[wild], channel.times[~wild], residual[~wild])
     found = [_wild_doubt(compared, beside, residual - clean, wild, noise)] if wild.any() else []
-    every = [j for j in jumps(clean, noise, tests) if not _at_switch(compared, channel.times, j.index)]
+    both = _merged(jumps(clean, noise, 2.0 * tests), level_shifts(clean, noise, 2.0 * tests))
+    every = [j for j in both if not _at_switch(compared, channel.times, j.index)]
     return found + _stretches(compared, beside, every, noise)
 
 
 def _residual(beside: Beside) -> Array:
     """Readings less what a recalibrated simulation explains, at every sample: steps at switches are gone."""
     channel = beside.channel
-    if not beside.moves or len(channel.values) != len(beside.pick):
+    if not beside.moves:
         return channel.values
-    return explained(beside, beside).residual
+    return explained(replace(beside, pick=np.arange(len(channel.values))), beside).residual
 
 
 def _wild(residual: Array, noise: float, tests: float) -> AnyArray:
@@ -268,7 +329,7 @@ def _wild(residual: Array, noise: float, tests: float) -> AnyArray:
     cubic = (-residual[:-4] + 8.0 * line - residual[4:]) / 6.0
     off = residual[2:-2] - cubic
     curved = np.maximum(np.abs(cubic - line), np.abs(residual[3:-1] - residual[1:-3]))
-    limit = far(off, noise * np.sqrt(1.0 + 34.0 / 36.0), tests)
+    limit = far(off, noise * np.sqrt(1.0 + 34.0 / 36.0), tests, 2)
     found[2:-2] = (np.abs(off) > limit) & (np.abs(off) > 4.0 * curved)
     return found
 
@@ -307,6 +368,8 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
         back = next((j for j in left if abs(j.size + first.size) < slack), None)
         if back is not None:
             left.remove(back)
+            if back.index - first.index < SIDE:  # too short for a fault with begin and end: wild readings
+                continue
             begin, end = float(channel.times[first.index]), float(channel.times[back.index - 1])
             text = (f"from {begin:.4g} to {end:.4g} s the readings stand {_size(first.size, channel.unit)} "
                     f"{'higher' if first.size > 0 else 'lower'}, with a step at both ends within one reading")  # fmt: skip

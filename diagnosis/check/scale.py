@@ -19,8 +19,8 @@ from diagnosis.recording.sidecar import load_sidecar
 #: Deviation of ln(measured range / simulated range) before anything is known: parameters of a class-room rig are off by a
 #: factor of 1.6 (docs/real-recordings.md), and missing physics takes as much; a factor of 2 is one deviation.
 SPREAD = float(np.log(2.0))
-#: Deviation of a rig's temperature before it is heated from what the scenario says [K]: laboratories have 0 to 40 degC.
-ROOM = 10.0
+#: Deviation of a rig's temperature before it is heated from what the scenario says [K]: what a laboratory's varies over a year.
+ROOM = 5.0
 #: Units in which a table may be written, by the SI unit of its quantity.
 UNITS = {
     "K": ("K", "degC", "degF"), "A": ("A", "mA", "uA"), "V": ("V", "mV"), "W": ("W", "mW", "kW"),
@@ -54,11 +54,11 @@ def scale_doubts(compared: Compared, is_timed: bool) -> list[Doubt]:
     units = _units(compared)
     found = []
     for name, beside in compared.channels.items():
-        if not beside.moves or len(beside.pick) < FEWEST_VALUES:
+        if beside.simulated is None or len(beside.pick) < FEWEST_VALUES or not np.ptp(beside.at(beside.times)) > 0.0:
             continue
         unit = units.get(name, beside.channel.unit)
         found += _unit_doubts(compared, beside, unit)
-        if is_timed:
+        if is_timed and beside.moves:
             found += _sign_doubts(compared, beside)
     return found
 
@@ -89,7 +89,9 @@ def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
     low, high = np.quantile(measured, (0.01, 0.99))
     own = np.quantile(simulated, (0.01, 0.99))
     values, _ = first(beside)
-    return _Size(float(high - low) / float(own[1] - own[0]), (factor * float(np.median(values)) + offset, float(simulated[0])))
+    return _Size(
+        float(high - low) / float(own[1] - own[0]), (factor * float(np.median(values)) + offset, float(simulated[0]))
+    )
 
 
 def _score(size: _Size, unit: str) -> float:
@@ -120,6 +122,8 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
         own, other = conversion(stated, channel.unit), conversion(unit, channel.unit)
         factor = other[0] / own[0]
         offset = other[1] - factor * own[1]
+        if np.std(beside.at(beside.times)) <= 3.0 * factor * channel.deviation:
+            continue  # in that unit the noise would hide all that is simulated
         score = _score(_size(beside, factor, offset), channel.unit)
         if best is None or score < best[0]:
             best = score, unit
@@ -139,7 +143,9 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
     if len(beside.pick) < 24:
         return []
     same, other = _signed(compared, beside)
-    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 1)) + 2.0 * np.log(len(PACES))
+    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 1)) + (
+        0.0 if len(compared.switches()) else 2.0 * np.log(len(PACES))
+    )
     found = gain(same, other)
     if found <= limit:
         return []

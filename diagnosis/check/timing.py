@@ -79,13 +79,10 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
     if not leads or not len(compared.switches()):
         return []
     own = [_own(compared, b) for b in leads]
-    rivals = [
-        *_other_runs(compared, others, leads),
-        *_shifts(compared, leads, own),
-        *_factors(compared, leads, own),
-        *_switches(compared, leads, own),
-    ]
+    rivals = [*_other_runs(compared, others, leads), *_shifts(compared, leads, own), *_factors(compared, leads, own)]
     rivals = [r for r in rivals if r.gain > critical(4.0)]
+    # an explanation that something is known of comes before switches at free instants
+    rivals = rivals or [r for r in _switches(compared, leads, own) if r.gain > critical(4.0)]
     if not rivals:
         return []
     best = max(rivals, key=lambda r: r.gain)
@@ -251,7 +248,7 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
     pairs = []
     for b, plain in zip(leads, own):
         chosen, free = _greedy(b, grid, len(switches) + 1)
-        near = resolution(compared, b.channel) + b.channel.lag_bound + 1.5 * span / INSTANTS
+        near = resolution(compared, b.channel) + 1.5 * span / INSTANTS
         met = [t for t in switches if min(abs(t - c) for c in chosen) < near]
         is_other = len(met) <= 0.5 * len(switches)
         excess, left = discrepant(plain), discrepant(free)
@@ -306,7 +303,9 @@ def _greedy(beside: Beside, grid: Array, count: int) -> tuple[list[float], Fit]:
         for _ in range(count):
             free = atoms - basis @ (basis.T @ atoms)
             sizes = np.linalg.norm(free, axis=0)
-            scores = np.where(sizes > 1e-6 * np.sqrt(len(measured)), np.abs(free.T @ left) / np.maximum(sizes, 1e-12), 0.0)
+            scores = np.where(
+                sizes > 1e-6 * np.sqrt(len(measured)), np.abs(free.T @ left) / np.maximum(sizes, 1e-12), 0.0
+            )
             index = int(np.argmax(scores))
             if not scores[index] > 0.0:
                 break
