@@ -25,8 +25,10 @@ MOST_STEPS = 400_000
 MOST_SAMPLES = 500
 #: Time constants of the lags that recalibrate a simulated channel.
 LAGS = 5
-#: Discrepancy of a model that has been recalibrated and lacks some physics, as a share of a channel's own deviation: what
-#: explains less than its square of the variance is no evidence against it. On 96 recordings with concealed effects and 12 of
+#: Discrepancy of a model that has been recalibrated and lacks some physics, as a share of a channel's own deviation:
+#: what
+#: explains less than its square of the variance is no evidence against it. On 96 recordings with concealed effects
+#: and 12 of
 #: other laboratories the largest was 0.06. Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464.
 DISCREPANCY = 0.1
 
@@ -182,8 +184,11 @@ def _hindrance(scenario: Scenario) -> str:
     span = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
     steps = span // nanoseconds(scenario.time.macro_step)
     if steps > MOST_STEPS:
-        return (f"the recording lasts {steps} macro-steps, which takes more than seconds to simulate: only the readings "
-                "by themselves were looked at; is the unit of its clock right?")  # fmt: skip
+        return (
+            f"the recording lasts {steps} macro-steps, which takes more than seconds to simulate: only the "
+            f"readings "
+            "by themselves were looked at; is the unit of its clock right?"
+        )
     return ""
 
 
@@ -215,8 +220,12 @@ def _beside(channel: Channel, results: xr.Dataset | None, source: Path) -> Besid
     if series is None:
         return Beside(channel, None, pick, np.zeros(0), np.zeros((0, 0)))
     if not np.isfinite(series.values).all():
-        raise InputError(source, f"channels.{channel.name}", "the simulation gives values that are not finite",
-                         "run the scenario by itself with `cosim run`")  # fmt: skip
+        raise InputError(
+            source,
+            f"channels.{channel.name}",
+            "the simulation gives values that are not finite",
+            "run the scenario by itself with `cosim run`",
+        )
     span = float(channel.times[-1] - channel.times[0])
     least = 2.0 * float(np.median(np.diff(channel.times)))
     lags = np.geomspace(least, max(0.5 * span, 2.0 * least), LAGS)

@@ -33,7 +33,8 @@ def check_recordings(
             where they are known already.
 
     Returns:
-        Serious doubts first, then by their size. Of recordings that fit their scenario one in 1000 raises a serious one.
+        Serious doubts first, then by their size. Of recordings that fit their scenario one in 1000 raises a serious
+        one.
 
     Raises:
         InputError: A recording does not fit the scenario.

@@ -62,7 +62,8 @@ def independent(residual: Array) -> float:
 def gain(own: Fit, other: Fit) -> float:
     """-2 log likelihood that the other fit gains, both with the same number of samples and of parameters.
 
-    Errors are those of the model and not white: of N samples count only as many as are independent, by the residual that
+    Errors are those of the model and not white: of N samples count only as many as are independent, by the residual
+    that
     is correlated further. Negative where the other fit is worse.
     """
     count = min(independent(own.residual), independent(other.residual))
@@ -101,8 +102,10 @@ def fit(measured: Array, columns: Array, tolerance: float, free: Array | None = 
 def design(course: Beside, at: Array) -> Array:
     """Columns by which a simulated course may explain a channel, with weights that are not negative.
 
-    The course itself; the course behind one lag, or two of them: a sensor, a mass, a parameter that makes it slower; and
-    twice the course less the course behind a lag: time constants shorter by a factor of up to 2. So a parameter that is off or a
+    The course itself; the course behind one lag, or two of them: a sensor, a mass, a parameter that makes it slower;
+    and
+    twice the course less the course behind a lag: time constants shorter by a factor of up to 2. So a parameter that
+    is off or a
     lag is no misfit; a response to something else is.
 
     Args:

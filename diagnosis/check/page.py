@@ -1,4 +1,4 @@
-"""The page of `cosim recording check`: measured beside simulated, inputs beside programmes, doubts; one file, offline."""
+"""The page of `cosim recording check`: measured beside simulated, inputs, doubts; one file, offline."""
 
 from __future__ import annotations
 
@@ -35,16 +35,27 @@ def write_page(every: Sequence[Compared], doubts: Sequence[Doubt], out: Path) ->
     if doubts:
         parts.append(element("section", element("h2", "Doubts"), listing(_doubt(d) for d in doubts)))
     parts += [_recording(one, doubts) for one in every]
-    head = element("head", Html('<meta charset="utf-8">'), element("title", "Recording check"),
-                   element("style", Html(_STYLE.read_text())))  # fmt: skip
+    head = element(
+        "head",
+        Html('<meta charset="utf-8">'),
+        element("title", "Recording check"),
+        element("style", Html(_STYLE.read_text())),
+    )
     page = "<!DOCTYPE html>\n" + element("html", head, element("body", *parts), lang="en")
     write_atomically(out, page.encode())
 
 
 def _doubt(doubt: Doubt) -> Html:
     word = element("strong", "Serious: " if doubt.is_serious else "Note: ")
-    return joined([word, f"{doubt.recording}, {doubt.subject} ({doubt.kind}): ", coded(doubt.statement), ". ",
-                   element("em", coded(doubt.remedy))])  # fmt: skip
+    return joined(
+        [
+            word,
+            f"{doubt.recording}, {doubt.subject} ({doubt.kind}): ",
+            coded(doubt.statement),
+            ". ",
+            element("em", coded(doubt.remedy)),
+        ]
+    )
 
 
 def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
@@ -54,10 +65,13 @@ def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
     own = [d for d in doubts if d.recording == one.recording.title]
     note = [element("p", one.note)] if one.note else []
     return element(
-        "section", element("h2", one.recording.title), *note, table(head, cells),
+        "section",
+        element("h2", one.recording.title),
+        *note,
+        table(head, cells),
         listing(course_text(c) for c in one.courses),
         image(picture(one, own), f"measured beside simulated: {one.recording.title}"),
-    )  # fmt: skip
+    )
 
 
 def picture(one: Compared, doubts: Sequence[Doubt]) -> str:
@@ -79,7 +93,7 @@ def _chosen(one: Compared, doubts: Sequence[Doubt]) -> list[Beside]:
 
 def _paint(
     figure: Figure, one: Compared, courses: Sequence[Course], chosen: Sequence[Beside], doubts: Sequence[Doubt]
-) -> None:  # fmt: skip
+) -> None:
     panels = figure.subplots(len(chosen) + bool(courses), 1, sharex=True, squeeze=False)[:, 0]
     if courses:
         _paint_courses(panels[0], one, courses)
@@ -88,8 +102,13 @@ def _paint(
         scaled = axis(channel.values, channel.unit)
         if beside.simulated is not None:
             keep = thinned(beside.simulated.values)
-            axes.plot(beside.simulated.times[keep], scaled(beside.simulated.values[keep]), color=WITH_MODEL, lw=1.2,
-                      label="simulated")  # fmt: skip
+            axes.plot(
+                beside.simulated.times[keep],
+                scaled(beside.simulated.values[keep]),
+                color=WITH_MODEL,
+                lw=1.2,
+                label="simulated",
+            )
         keep = thinned(channel.values)
         axes.plot(channel.times[keep], scaled(channel.values[keep]), ".", ms=2.5, color="#2d3748", label="measured")
         for instant in one.switches() if len(one.switches()) <= 40 else ():

@@ -25,15 +25,44 @@ from diagnosis.recording.recording import FEWEST_VALUES
 
 #: How a unit may be spelled at the end of a column's name: spelling to unit and SI unit of its quantity.
 SPELLINGS = {
-    "degc": ("degC", "K"), "°c": ("degC", "K"), "celsius": ("degC", "K"), "c": ("degC", "K"),
-    "degf": ("degF", "K"), "°f": ("degF", "K"), "kelvin": ("K", "K"), "k": ("K", "K"),
-    "a": ("A", "A"), "ma": ("mA", "A"), "ua": ("uA", "A"), "v": ("V", "V"), "mv": ("mV", "V"),
-    "w": ("W", "W"), "mw": ("mW", "W"), "kw": ("kW", "W"), "m": ("m", "m"), "cm": ("cm", "m"), "mm": ("mm", "m"),
-    "um": ("um", "m"), "rad": ("rad", "rad"), "deg": ("deg", "rad"), "°": ("deg", "rad"), "rad/s": ("rad/s", "rad/s"),
-    "deg/s": ("deg/s", "rad/s"), "n": ("N", "N"), "mn": ("mN", "N"), "n/m": ("N/m", "N/m"), "n/mm": ("N/mm", "N/m"),
-    "ohm": ("ohm", "ohm"), "kohm": ("kohm", "ohm"), "s": ("s", "s"), "ms": ("ms", "s"), "us": ("us", "s"),
-    "min": ("min", "s"), "h": ("h", "s"), "1/m": ("1/m", "1/m"),
-}  # fmt: skip
+    "degc": ("degC", "K"),
+    "°c": ("degC", "K"),
+    "celsius": ("degC", "K"),
+    "c": ("degC", "K"),
+    "degf": ("degF", "K"),
+    "°f": ("degF", "K"),
+    "kelvin": ("K", "K"),
+    "k": ("K", "K"),
+    "a": ("A", "A"),
+    "ma": ("mA", "A"),
+    "ua": ("uA", "A"),
+    "v": ("V", "V"),
+    "mv": ("mV", "V"),
+    "w": ("W", "W"),
+    "mw": ("mW", "W"),
+    "kw": ("kW", "W"),
+    "m": ("m", "m"),
+    "cm": ("cm", "m"),
+    "mm": ("mm", "m"),
+    "um": ("um", "m"),
+    "rad": ("rad", "rad"),
+    "deg": ("deg", "rad"),
+    "°": ("deg", "rad"),
+    "rad/s": ("rad/s", "rad/s"),
+    "deg/s": ("deg/s", "rad/s"),
+    "n": ("N", "N"),
+    "mn": ("mN", "N"),
+    "n/m": ("N/m", "N/m"),
+    "n/mm": ("N/mm", "N/m"),
+    "ohm": ("ohm", "ohm"),
+    "kohm": ("kohm", "ohm"),
+    "s": ("s", "s"),
+    "ms": ("ms", "s"),
+    "us": ("us", "s"),
+    "min": ("min", "s"),
+    "h": ("h", "s"),
+    "1/m": ("1/m", "1/m"),
+}
 #: Words and letters that stand for a quantity at the begin of a name.
 WORDS = {
     "temperature": ("temperature", "temp", "thermocouple", "tc", "t"),
@@ -158,8 +187,9 @@ def _clock(table: Sniffed, heads: Sequence[Heading], source: Path) -> int:
             values = table.columns[k][np.isfinite(table.columns[k])]
             if is_right(head) and len(values) >= FEWEST_VALUES and np.mean(np.diff(values) > 0.0) > 0.9:
                 return k
-    raise InputError(source, "", "no column holds rising times",
-                     "name the column of times `time_s`, `time_ms` or `time [min]`")  # fmt: skip
+    raise InputError(
+        source, "", "no column holds rising times", "name the column of times `time_s`, `time_ms` or `time [min]`"
+    )
 
 
 def _clock_unit(table: Sniffed, head: Heading) -> str:
@@ -176,11 +206,20 @@ def _offered(scenario: Scenario) -> dict[str, str]:
     try:
         results = run(parse_scenario(yaml.safe_dump(data, sort_keys=False), scenario.path))
     except RunStopped as stopped:
-        raise InputError(scenario.path, "", f"the scenario cannot be run: {stopped.reason}",
-                         "see `cosim run`") from stopped  # fmt: skip
+        raise InputError(
+            scenario.path, "", f"the scenario cannot be run: {stopped.reason}", "see `cosim run`"
+        ) from stopped
     names = offered(results)
-    names += [n for n in (f"{c}.{q}" for c, k in scenario.components.items() if isinstance(k, PendulumComponent)
-                          for q in ("angle", "angular_velocity")) if n in results and n not in names]  # fmt: skip
+    names += [
+        n
+        for n in (
+            f"{c}.{q}"
+            for c, k in scenario.components.items()
+            if isinstance(k, PendulumComponent)
+            for q in ("angle", "angular_velocity")
+        )
+        if n in results and n not in names
+    ]
     if any(isinstance(c, CircuitComponent) for c in scenario.components.values()):
         names += [n for n in ("supply.voltage", "supply.power") if n not in names]
     found = {}
@@ -257,26 +296,38 @@ def _entry(head: Heading, times: Array, values: Array) -> dict[str, str]:
 
 
 def _sidecar(
-    scenario: Scenario, table: Sniffed, clock: Heading, channels: dict[str, dict[str, str]], unclear: Sequence[str],
-    dropped: int, source: Path,
-) -> str:  # fmt: skip
+    scenario: Scenario,
+    table: Sniffed,
+    clock: Heading,
+    channels: dict[str, dict[str, str]],
+    unclear: Sequence[str],
+    dropped: int,
+    source: Path,
+) -> str:
     data: dict[str, object] = {
-        "title": source.stem.replace("_", " "), "source": f"{source.name}; who measured it, where, when?",
-        "table": "data.csv", "time": {"column": clock.name, "unit": _clock_unit(table, clock)},
-    }  # fmt: skip
+        "title": source.stem.replace("_", " "),
+        "source": f"{source.name}; who measured it, where, when?",
+        "table": "data.csv",
+        "time": {"column": clock.name, "unit": _clock_unit(table, clock)},
+    }
     lines = ["# Proposed by `cosim recording new` from the names of columns. Read every line before you use it."]
     if table.is_decimal_comma or table.separator != "," or table.header_lines or table.instants:
-        lines.append(f"# data.csv is a plain copy: separator `{_shown(table.separator)}`, {table.header_lines} lines before "
-                     f"the header{', decimal commas' if table.is_decimal_comma else ''}"
-                     f"{', dates as seconds since the first' if table.instants else ''}.")  # fmt: skip
+        lines.append(
+            f"# data.csv is a plain copy: separator `{_shown(table.separator)}`, {table.header_lines} "
+            f"lines before "
+            f"the header{', decimal commas' if table.is_decimal_comma else ''}"
+            f"{', dates as seconds since the first' if table.instants else ''}."
+        )
     if dropped:
         lines.append(f"# {dropped} rows without a time, or whose time does not rise, were left out of the copy.")
     if clock.unit is None and clock.name not in table.instants:
         lines.append(f"# The unit of the clock `{clock.name}` is not in its name: s is taken. Is it ms, min?")
     lines.append(yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110).rstrip())
-    lines += ["# The clock starts at the scenario's time 0; else give `zero` and `offset_bound` under `time`.",
-              "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
-              *_conditions(scenario)]  # fmt: skip
+    lines += [
+        "# The clock starts at the scenario's time 0; else give `zero` and `offset_bound` under `time`.",
+        "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
+        *_conditions(scenario),
+    ]
     if channels:
         lines.append(
             "# Noise is the scatter of neighbouring readings; state the data sheet's where you know it better."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -83,11 +84,25 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     if not is_small and not degrees * (ratio / HONEST) ** 2 > most:
         return []
     way = "less" if is_small else "more"
-    text = (f"stated is a noise of {stated:.3g} {channel.unit}; neighbouring readings scatter by {seen:.3g} {channel.unit}, "
-            f"{max(ratio, 1 / ratio):.3g} times {way}")  # fmt: skip
+    text = (
+        f"stated is a noise of {stated:.3g} {channel.unit}; neighbouring readings scatter by {seen:.3g} "
+        f"{channel.unit}, "
+        f"{max(ratio, 1 / ratio):.3g} times {way}"
+    )
     remedy = f"correct `channels.{channel.name}.noise`, or leave it out: then it is estimated"
-    return [Doubt(compared.recording.title, channel.name, "noise", text, remedy, False, compared.begin, compared.end,
-                  float(abs(np.log(ratio)) * np.sqrt(2.0 * degrees)))]  # fmt: skip
+    return [
+        Doubt(
+            compared.recording.title,
+            channel.name,
+            "noise",
+            text,
+            remedy,
+            False,
+            compared.begin,
+            compared.end,
+            float(abs(np.log(ratio)) * np.sqrt(2.0 * degrees)),
+        )
+    ]
 
 
 def _gaps(compared: Compared, beside: Beside) -> list[Doubt]:
@@ -103,8 +118,19 @@ def _gaps(compared: Compared, beside: Beside) -> list[Doubt]:
     for i in np.flatnonzero(lost > max(float(allowed), 3.0)):
         begin, end = float(channel.times[i]), float(channel.times[i + 1])
         text = f"no readings from {begin:.4g} to {end:.4g} s, where one every {usual:.3g} s is usual"
-        found.append(Doubt(compared.recording.title, channel.name, "sensor", text,
-                           "nothing is judged there; was the sensor or the logger off?", False, begin, end, float(lost[i])))  # fmt: skip
+        found.append(
+            Doubt(
+                compared.recording.title,
+                channel.name,
+                "sensor",
+                text,
+                "nothing is judged there; was the sensor or the logger off?",
+                False,
+                begin,
+                end,
+                float(lost[i]),
+            )
+        )
     return found
 
 
@@ -112,7 +138,8 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
     """First and last reading of stretches of equal readings that cannot be chance.
 
     Equal readings are chance where nothing moves and a sensor rounds. They are not where the reading after them has to
-    catch up at once: a step beyond those of its neighbours and of the noise, after readings without any noise. At an end of
+    catch up at once: a step beyond those of its neighbours and of the noise, after readings without any noise. At an
+    end of
     the range a sensor clips, or a current is off: that is no fault.
     """
     channel = beside.channel
@@ -126,7 +153,7 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
     limit = float(norm.isf(LEVEL / (2.0 * len(values) * len(compared.channels)))) * np.sqrt(2.0)
     low, high = float(np.min(values)), float(np.max(values))
     found = []
-    for first, after in zip(edges[:-1], edges[1:]):
+    for first, after in itertools.pairwise(edges):
         length = int(after - first)
         if length < 4 or values[first] in (low, high) or channel.is_clipped[first]:
             continue
@@ -145,7 +172,7 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
 
 
 def _freedom(values: Array, first: int, after: int) -> float:
-    """Length that runs of equal readings reach by chance elsewhere in the channel, with the share of equal neighbours."""
+    """Length that runs of equal readings reach by chance, with the share of equal neighbours elsewhere."""
     outside = np.ones(len(values) - 1, dtype=bool)
     outside[first : after - 1] = False
     equal = (np.diff(values) == 0.0)[outside]
@@ -173,13 +200,24 @@ def _moves_within(beside: Beside, first: int, after: int, least: float) -> bool:
 def _stuck(compared: Compared, beside: Beside, first: int, last: int) -> Doubt:
     channel = beside.channel
     begin, end = float(channel.times[first]), float(channel.times[last])
-    caught = f", then {_size(channel.values[last + 1] - channel.values[last], channel.unit)} more at once" if (
-        last + 1 < len(channel.values)) else " to the end, while the rest moves"  # fmt: skip
+    caught = (
+        f", then {_size(channel.values[last + 1] - channel.values[last], channel.unit)} more at once"
+        if (last + 1 < len(channel.values))
+        else " to the end, while the rest moves"
+    )
     text = f"{last - first + 1} equal readings from {begin:.4g} to {end:.4g} s{caught}: the sensor stood still"
     shift = abs(float(channel.values[min(last + 1, len(channel.values) - 1)] - channel.values[last]))
-    return Doubt(compared.recording.title, channel.name, "sensor", text,
-                 "leave these readings empty in the table; look at plug and logger", True, begin, end,
-                 shift / max(channel.deviation, 1e-300))  # fmt: skip
+    return Doubt(
+        compared.recording.title,
+        channel.name,
+        "sensor",
+        text,
+        "leave these readings empty in the table; look at plug and logger",
+        True,
+        begin,
+        end,
+        shift / max(channel.deviation, 1e-300),
+    )
 
 
 def _size(value: float, unit: str) -> str:
@@ -190,7 +228,8 @@ def _size(value: float, unit: str) -> str:
 def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
     """Size that noise alone reaches with the probability `LEVEL` among so many tests.
 
-    Real sensors have wilder readings than a normal distribution: Student's t by maximum likelihood (Lange, Little, Taylor,
+    Real sensors have wilder readings than a normal distribution: Student's t by maximum likelihood (Lange, Little,
+    Taylor,
     J. Am. Stat. Assoc. 84 (1989) 881-896), of the scale of the noise at least.
 
     Args:
@@ -219,8 +258,10 @@ def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
 def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
     """Increments that stand out among their neighbours.
 
-    An increment less the mean of its neighbours is compared with the noise of the whole channel and, where the increments
-    around it scatter more than noise does, with their own scatter: a kink makes large increments too, one after the other.
+    An increment less the mean of its neighbours is compared with the noise of the whole channel and, where the
+    increments
+    around it scatter more than noise does, with their own scatter: a kink makes large increments too, one after the
+    other.
 
     Args:
         values: Shape (samples,).
@@ -255,7 +296,8 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     """Steps of the mean: lines through `WIDE` readings before and after, where both fit and do not meet.
 
     The generalised likelihood ratio of a step at a known instant between two lines, over all instants (Basseville,
-    Nikiforov, Detection of Abrupt Changes, 1993, ch. 2). Where a line does not fit within the noise (chi-square), the signal bends and
+    Nikiforov, Detection of Abrupt Changes, 1993, ch. 2). Where a line does not fit within the noise (chi-square),
+    the signal bends and
     nothing is said; the step itself must happen from one reading to the next.
 
     Args:
@@ -340,11 +382,21 @@ def _wild_doubt(compared: Compared, beside: Beside, off: Array, wild: AnyArray, 
     worst = int(places[np.argmax(np.abs(off[places]))])
     times = channel.times[places]
     count = f"{len(places)} readings are" if len(places) > 1 else "one reading is"
-    text = (f"{count} far from both neighbours, the farthest at {channel.times[worst]:.4g} s by "
-            f"{_size(off[worst], channel.unit)}, {abs(off[worst]) / noise:.3g} times the noise")  # fmt: skip
-    return Doubt(compared.recording.title, channel.name, "sensor", text,
-                 "leave wild readings empty in the table, if they are the logger's", False, float(times[0]),
-                 float(times[-1]), float(abs(off[worst]) / noise))  # fmt: skip
+    text = (
+        f"{count} far from both neighbours, the farthest at {channel.times[worst]:.4g} s by "
+        f"{_size(off[worst], channel.unit)}, {abs(off[worst]) / noise:.3g} times the noise"
+    )
+    return Doubt(
+        compared.recording.title,
+        channel.name,
+        "sensor",
+        text,
+        "leave wild readings empty in the table, if they are the logger's",
+        False,
+        float(times[0]),
+        float(times[-1]),
+        float(abs(off[worst]) / noise),
+    )
 
 
 def _at_switch(compared: Compared, times: Array, index: int) -> bool:
@@ -371,8 +423,10 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
             if back.index - first.index < SIDE:  # too short for a fault with begin and end: wild readings
                 continue
             begin, end = float(channel.times[first.index]), float(channel.times[back.index - 1])
-            text = (f"from {begin:.4g} to {end:.4g} s the readings stand {_size(first.size, channel.unit)} "
-                    f"{'higher' if first.size > 0 else 'lower'}, with a step at both ends within one reading")  # fmt: skip
+            text = (
+                f"from {begin:.4g} to {end:.4g} s the readings stand {_size(first.size, channel.unit)} "
+                f"{'higher' if first.size > 0 else 'lower'}, with a step at both ends within one reading"
+            )
             remedy = "leave this stretch empty in the table, or correct it; look at plug and amplifier"
             found.append((text.replace("stand -", "stand "), remedy, begin, end, min(first.z, back.z)))
         else:
@@ -381,8 +435,13 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
         worst = max(stays, key=lambda j: j.z)
         begin, end = float(channel.times[worst.index]), float(channel.times[-1])
         more = f" (the largest of {len(stays)} steps)" if len(stays) > 1 else ""
-        text = (f"at {begin:.4g} s the readings step by {_size(worst.size, channel.unit)} from one reading to the next{more}, "
-                "which no body with a heat capacity does")  # fmt: skip
+        text = (
+            f"at {begin:.4g} s the readings step by {_size(worst.size, channel.unit)} from one reading to "
+            f"the next{more}, "
+            "which no body with a heat capacity does"
+        )
         found.append((text, "was the sensor moved or knocked off? Use `begin` and `end`", begin, end, worst.z))
-    return [Doubt(compared.recording.title, channel.name, "sensor", text, remedy, is_body, begin, end, z)
-            for text, remedy, begin, end, z in found]  # fmt: skip
+    return [
+        Doubt(compared.recording.title, channel.name, "sensor", text, remedy, is_body, begin, end, z)
+        for text, remedy, begin, end, z in found
+    ]

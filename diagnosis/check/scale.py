@@ -16,17 +16,27 @@ from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
 
-#: Deviation of ln(measured range / simulated range) before anything is known: parameters of a class-room rig are off by a
+#: Deviation of ln(measured range / simulated range) before anything is known: parameters of a class-room rig are off
+#: by a
 #: factor of 1.6 (docs/real-recordings.md), and missing physics takes as much; a factor of 2 is one deviation.
 SPREAD = float(np.log(2.0))
-#: Deviation of a rig's temperature before it is heated from what the scenario says [K]: what a laboratory's varies over a year.
+#: Deviation of a rig's temperature before it is heated from what the scenario says [K]: what a laboratory's varies
+#: over a year.
 ROOM = 5.0
 #: Units in which a table may be written, by the SI unit of its quantity.
 UNITS = {
-    "K": ("K", "degC", "degF"), "A": ("A", "mA", "uA"), "V": ("V", "mV"), "W": ("W", "mW", "kW"),
-    "m": ("m", "cm", "mm", "um"), "rad": ("rad", "deg"), "rad/s": ("rad/s", "deg/s", "rpm"), "N": ("N", "mN", "kN"),
-    "N/m": ("N/m", "N/mm"), "ohm": ("ohm", "mohm", "kohm"), "1/m": ("1/m", "1/cm", "1/mm"),
-}  # fmt: skip
+    "K": ("K", "degC", "degF"),
+    "A": ("A", "mA", "uA"),
+    "V": ("V", "mV"),
+    "W": ("W", "mW", "kW"),
+    "m": ("m", "cm", "mm", "um"),
+    "rad": ("rad", "deg"),
+    "rad/s": ("rad/s", "deg/s", "rpm"),
+    "N": ("N", "mN", "kN"),
+    "N/m": ("N/m", "N/mm"),
+    "ohm": ("ohm", "mohm", "kohm"),
+    "1/m": ("1/m", "1/cm", "1/mm"),
+}
 #: Factors on the time of a swing that has no input: its frequency is a parameter.
 PACES = np.geomspace(0.5, 2.0, 57)
 
@@ -134,8 +144,19 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
     if channel.unit == "K":
         text += f" and begin at {measured - 273.15:.4g} degC, where {simulated - 273.15:.4g} degC is simulated"
     text += f"; as `unit: {best[1]}` they are of its size"
-    return [Doubt(compared.recording.title, channel.name, "unit", text, f"correct `channels.{channel.name}.unit`", True,
-                  compared.begin, compared.end, float(np.sqrt(worst - best[0])))]  # fmt: skip
+    return [
+        Doubt(
+            compared.recording.title,
+            channel.name,
+            "unit",
+            text,
+            f"correct `channels.{channel.name}.unit`",
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(worst - best[0])),
+        )
+    ]
 
 
 def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
@@ -149,11 +170,24 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
     found = gain(same, other)
     if found <= limit:
         return []
-    text = (f"the readings fall where the simulation rises: turned over it explains {100 * other.share:.2g} % of them, "
-            f"as it is {100 * same.share:.2g} %")  # fmt: skip
+    text = (
+        f"the readings fall where the simulation rises: turned over it explains {100 * other.share:.2g} % of them, "
+        f"as it is {100 * same.share:.2g} %"
+    )
     remedy = "is the sensor or the column of opposite sign? Correct the table, or the scenario's direction"
-    return [Doubt(compared.recording.title, beside.channel.name, "sign", text, remedy, True,
-                  compared.begin, compared.end, float(np.sqrt(found)))]  # fmt: skip
+    return [
+        Doubt(
+            compared.recording.title,
+            beside.channel.name,
+            "sign",
+            text,
+            remedy,
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(found)),
+        )
+    ]
 
 
 def _signed(compared: Compared, beside: Beside) -> tuple[Fit, Fit]:

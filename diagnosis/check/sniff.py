@@ -1,4 +1,4 @@
-"""Tables as loggers and spreadsheets write them: separators, decimal commas, byte-order marks, lines before the header."""
+"""Tables as loggers and spreadsheets write them: separators, decimal commas, lines before the header."""
 
 from __future__ import annotations
 
@@ -55,8 +55,12 @@ def read_table(path: Path) -> Sniffed:
         found = _parsed(path, lines, separator)
         if found is not None:
             return found
-    raise InputError(path, "", "no table with a header row and numbers is found in it",
-                     "give a CSV file with one line of column names above the numbers")  # fmt: skip
+    raise InputError(
+        path,
+        "",
+        "no table with a header row and numbers is found in it",
+        "give a CSV file with one line of column names above the numbers",
+    )
 
 
 def _lines(path: Path) -> list[str]:
@@ -128,8 +132,12 @@ def _table(path: Path, lines: list[str], header: int, separator: str | None) -> 
         if len(cells) > len(names) and not any(cells[len(names) :]):
             rows[n] = cells[: len(names)]  # a separator at the end of each line
         elif len(cells) != len(names):
-            raise InputError(path, f"row {n + 1}", f"it has {len(cells)} values, the header {len(names)}",
-                             "correct the row; is the decimal sign the separator too?")  # fmt: skip
+            raise InputError(
+                path,
+                f"row {n + 1}",
+                f"it has {len(cells)} values, the header {len(names)}",
+                "correct the row; is the decimal sign the separator too?",
+            )
     is_comma = _uses_comma(path, rows, separator)
     columns = np.full((len(names), len(rows)), np.nan)
     instants, texts = [], {}
@@ -152,8 +160,12 @@ def _uses_comma(path: Path, rows: list[list[str]], separator: str | None) -> boo
     comma = next((c for row in rows for c in row if "," in c and _COMMA.match(c)), None)
     point = next((c for row in rows for c in row if "." in c and _POINT.match(c)), None)
     if comma is not None and point is not None:
-        raise InputError(path, "", f"it has decimal commas (`{comma}`) and decimal points (`{point}`)",
-                         "write all numbers with one of them")  # fmt: skip
+        raise InputError(
+            path,
+            "",
+            f"it has decimal commas (`{comma}`) and decimal points (`{point}`)",
+            "write all numbers with one of them",
+        )
     return comma is not None
 
 
@@ -178,8 +190,12 @@ def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> tuple[Ar
         elif bad is None:
             bad = n, cell
     if bad is not None and good:
-        raise InputError(path, name, f"`{bad[1]}` in row {bad[0] + 1} of this column is no number",
-                         "leave the place empty where nothing was measured")  # fmt: skip
+        raise InputError(
+            path,
+            name,
+            f"`{bad[1]}` in row {bad[0] + 1} of this column is no number",
+            "leave the place empty where nothing was measured",
+        )
     if len(kind) > 1:
         raise InputError(path, name, "this column holds dates and numbers", "write all its times in one way")
     if bad is not None:

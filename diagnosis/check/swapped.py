@@ -16,7 +16,8 @@ from diagnosis.judge.diagnosis import Doubt
 def swap_doubts(compared: Compared) -> list[Doubt]:
     """One doubt for each quantity whose channels are explained better in another order.
 
-    Channels that are driven alike have simulated courses of one shape; since offset, gain and lags are free, no order of
+    Channels that are driven alike have simulated courses of one shape; since offset, gain and lags are free, no
+    order of
     them explains more than another, and nothing is said.
     """
     kinds: dict[tuple[str, str], list[Beside]] = defaultdict(list)
@@ -46,11 +47,25 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
         names = [members[i].channel.name for i in cycle]
         takes = ", ".join(f"`{members[i].channel.name}` reads like `{members[columns[i]].channel.name}`" for i in cycle)
         worst = min(cycle, key=lambda i: gains[i, columns[i]])
-        text = (f"{takes}: so exchanged, the simulation explains at least {percent(fits[worst][columns[worst]].share)} of "
-                f"each, in place of {percent(fits[worst][worst].share)}")  # fmt: skip
+        text = (
+            f"{takes}: so exchanged, the simulation explains at least "
+            f"{percent(fits[worst][columns[worst]].share)} of "
+            f"each, in place of {percent(fits[worst][worst].share)}"
+        )
         remedy = "are the columns, or the wires, exchanged? Correct `column` of these channels"
-        found.append(Doubt(compared.recording.title, ", ".join(names), "swapped", text, remedy, True,
-                           compared.begin, compared.end, float(np.sqrt(min(own)))))  # fmt: skip
+        found.append(
+            Doubt(
+                compared.recording.title,
+                ", ".join(names),
+                "swapped",
+                text,
+                remedy,
+                True,
+                compared.begin,
+                compared.end,
+                float(np.sqrt(min(own))),
+            )
+        )
     return found
 
 

@@ -118,8 +118,11 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
     console.print()
     for doubt in doubts:
         colour, word = ("red", "serious") if doubt.is_serious else ("yellow", "note")
-        console.print(f"[{colour}]{word}[/]: {escape(doubt.recording)}, {escape(doubt.subject)} ({doubt.kind}): "
-                      f"{escape(doubt.statement)}", soft_wrap=True)  # fmt: skip
+        console.print(
+            f"[{colour}]{word}[/]: {escape(doubt.recording)}, {escape(doubt.subject)} ({doubt.kind}): "
+            f"{escape(doubt.statement)}",
+            soft_wrap=True,
+        )
         console.print(f"  -> {escape(doubt.remedy)}", soft_wrap=True)
     console.print(summary(every, doubts), soft_wrap=True)
 

@@ -14,8 +14,14 @@ from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Recording
 
 #: Factors between units of time that are mistaken for one another: ms, s, min, h.
-FACTORS = {1e-3: "ms taken for s", 1e3: "s taken for ms", 1.0 / 60.0: "s taken for min", 60.0: "min taken for s",
-           1.0 / 3600.0: "s taken for h", 3600.0: "h taken for s"}  # fmt: skip
+FACTORS = {
+    1e-3: "ms taken for s",
+    1e3: "s taken for ms",
+    1.0 / 60.0: "s taken for min",
+    60.0: "min taken for s",
+    1.0 / 3600.0: "s taken for h",
+    3600.0: "h taken for s",
+}
 #: Share of the recording within which all switches of a programme lie if its times are far too long.
 EARLY = 0.1
 
@@ -23,7 +29,8 @@ EARLY = 0.1
 def time_unit_doubts(compared: Compared) -> list[Doubt]:
     """A doubt where the programme does not happen within the recording, and does in another unit of time.
 
-    Two tests, both of which must hold: as it is, the simulation leaves more than a model's discrepancy; in the other unit it
+    Two tests, both of which must hold: as it is, the simulation leaves more than a model's discrepancy; in the other
+    unit it
     does not (`diagnosis.check.timing.discrepant`). Only recordings are asked that end before the first switch, or whose
     switches all lie in their first tenth.
     """
@@ -41,10 +48,24 @@ def time_unit_doubts(compared: Compared) -> list[Doubt]:
     if best is None:
         return []
     z, name, share, own = best
-    text = (f"the recording lasts {span:.3g} s, and the programme switches from {switches[0]:.3g} to {switches[-1]:.3g} s: with "
-            f"{name} corrected it explains {percent(share)} of the readings, as it is {percent(own)}")  # fmt: skip
-    return [Doubt(compared.recording.title, "time", "clock", text, "correct `time.unit`", True, compared.begin,
-                  compared.end, z)]  # fmt: skip
+    text = (
+        f"the recording lasts {span:.3g} s, and the programme switches from {switches[0]:.3g} to "
+        f"{switches[-1]:.3g} s: with "
+        f"{name} corrected it explains {percent(share)} of the readings, as it is {percent(own)}"
+    )
+    return [
+        Doubt(
+            compared.recording.title,
+            "time",
+            "clock",
+            text,
+            "correct `time.unit`",
+            True,
+            compared.begin,
+            compared.end,
+            z,
+        )
+    ]
 
 
 def _in_unit(compared: Compared, factor: float) -> tuple[float, float, float] | None:

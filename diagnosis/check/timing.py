@@ -87,8 +87,19 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
         return []
     best = max(rivals, key=lambda r: r.gain)
     text = best.text.format(own=percent(best.own), other=percent(best.other))
-    return [Doubt(compared.recording.title, best.subject, best.kind, text, best.remedy, True,
-                  compared.begin, compared.end, float(np.sqrt(best.gain)))]  # fmt: skip
+    return [
+        Doubt(
+            compared.recording.title,
+            best.subject,
+            best.kind,
+            text,
+            best.remedy,
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(best.gain)),
+        )
+    ]
 
 
 def percent(share: float) -> str:
@@ -110,7 +121,7 @@ def resolution(compared: Compared, channel: Channel) -> float:
 
 
 def allowed(compared: Compared, channel: Channel) -> Array:
-    """Shifts that are no doubt [s]; later also by the lag stated for the sensor, since several lags look like a delay."""
+    """Shifts that are no doubt [s]; later also by the stated lag of the sensor: several lags look like a delay."""
     bound = resolution(compared, channel)
     late = np.linspace(0.0, channel.lag_bound, 9)[1:] if channel.lag_bound else np.zeros(0)
     return np.concatenate([np.linspace(-bound, bound, 5), bound + late])
@@ -130,7 +141,8 @@ def _own(compared: Compared, beside: Beside) -> Fit:
 def together(leads: Sequence[Beside], own: Sequence[Fit], gains: Array) -> float:
     """Gain of all channels together: their median, so that one faulty sensor does not decide, by independent channels.
 
-    The number of independent ones is (sum l)^2 / sum l^2 over the eigenvalues l of the correlation of what the recording's
+    The number of independent ones is (sum l)^2 / sum l^2 over the eigenvalues l of the correlation of what the
+    recording's
     own conditions leave (Bretherton et al., J. Climate 12 (1999) 1990-2009).
     """
     if len(leads) < 2:
@@ -165,12 +177,17 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
             asked.append(b)
         if gains:
             title = other.recording.title
-            found.append(Rival(
-                "other run", "inputs" if compared.recording.inputs else "overrides",
-                f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
-                f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
-                together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)), _shares(mine), _shares(theirs),
-            ))  # fmt: skip
+            found.append(
+                Rival(
+                    "other run",
+                    "inputs" if compared.recording.inputs else "overrides",
+                    f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
+                    f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
+                    together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
+                    _shares(mine),
+                    _shares(theirs),
+                )
+            )
     return found
 
 
@@ -195,12 +212,18 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     way = "later" if shift > 0 else "earlier"
     if abs(shift) < np.min(np.diff(ends)):
         stated = max(b.channel.offset_bound for b in leads)
-        text = (f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s are stated: "
-                "moved by that, it explains {other} of the readings, as it is {own}")  # fmt: skip
+        text = (
+            f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s "
+            f"are stated: "
+            "moved by that, it explains {other} of the readings, as it is {own}"
+        )
         remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
         return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
-    text = (f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain {{other}} of "
-            "them, as it is {own}")  # fmt: skip
+    text = (
+        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain "
+        f"{{other}} of "
+        "them, as it is {own}"
+    )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", _driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
 
@@ -222,8 +245,11 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
             best = found, float(size), fits
     assert best is not None
     gained, size, fits = best
-    text = (f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'}: so corrected, the "
-            "programme explains {other} of the readings, as it is {own}")  # fmt: skip
+    text = (
+        f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'}: so "
+        f"corrected, the "
+        "programme explains {other} of the readings, as it is {own}"
+    )
     remedy = "compare two instants that both clocks know; correct the column of times or its unit"
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
 
@@ -236,8 +262,10 @@ def _driver(compared: Compared) -> str:
 def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
     """Switches at other instants than the programme's explain the readings, and the programme does not.
 
-    Three tests, all of which must hold: the programme leaves more than a model's discrepancy (chi-square over independent
-    samples); as many switches of any size at free instants behind one lag leave no more than that; and at most half of the
+    Three tests, all of which must hold: the programme leaves more than a model's discrepancy (chi-square over
+    independent
+    samples); as many switches of any size at free instants behind one lag leave no more than that; and at most half
+    of the
     switches to which the simulation responds are among these instants: what a rig does of itself comes beside them.
     """
     switches = compared.switches()
@@ -260,8 +288,11 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
     others = [t for t in chosen if np.min(np.abs(switches - t)) > near]
     if not others:
         return []
-    text = (f"the readings change at about {_listed(others)} s, where the programme does not: switches at free instants "
-            f"explain {{other}} of them, the programme (switches at {_listed(switches)} s) {{own}}")  # fmt: skip
+    text = (
+        f"the readings change at about {_listed(others)} s, where the programme does not: switches at free "
+        f"instants "
+        f"explain {{other}} of them, the programme (switches at {_listed(switches)} s) {{own}}"
+    )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])
     return [Rival("programme", _driver(compared), text, remedy, gained, *shares)]
@@ -270,7 +301,8 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
 def discrepant(found: Fit) -> float:
     """How far a fit is from a model with its usual discrepancy, as a chi-square with one degree of freedom.
 
-    What is left, over the discrepancy that a model may have, is a chi-square with as many degrees as samples are independent.
+    What is left, over the discrepancy that a model may have, is a chi-square with as many degrees as samples are
+    independent.
     """
     degrees = independent(found.residual)
     left = float(found.residual @ found.residual) / len(found.residual) / found.floor

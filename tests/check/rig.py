@@ -21,7 +21,8 @@ SPAN, STEP, NOISE = 600.0, 2.0, 0.08
 def temperatures(points: Sequence[Sequence[float]]) -> Array:
     """Both temperatures [degC] every `STEP`, shape (samples, 2), by Euler steps of 0.1 s.
 
-    Heat capacity 40 % and heat loss 30 % off, heat between the heaters, and sensors behind a lag of 12 s: the scenario has
+    Heat capacity 40 % and heat loss 30 % off, heat between the heaters, and sensors behind a lag of 12 s: the
+    scenario has
     neither.
     """
     times = np.arange(0.0, SPAN, 0.1)
@@ -54,18 +55,28 @@ def programme(points: Sequence[Sequence[float]]) -> dict[str, Any]:
 
 
 def write(
-    folder: Path, points: Sequence[Sequence[float]], values: Array, *, times: Array | None = None,
-    channel: Mapping[str, Any] | None = None, title: str = "", **keys: Any,
-) -> Path:  # fmt: skip
+    folder: Path,
+    points: Sequence[Sequence[float]],
+    values: Array,
+    *,
+    times: Array | None = None,
+    channel: Mapping[str, Any] | None = None,
+    title: str = "",
+    **keys: Any,
+) -> Path:
     """A recording folder of both heaters, with the programme that it states."""
     folder.mkdir(parents=True)
     data = {"time": instants() if times is None else times, "T1": values[:, 0], "T2": values[:, 1]}
     pd.DataFrame(data).to_csv(folder / "data.csv", index=False)
     entry = {"unit": "degC", "noise": f"{NOISE} K", **(channel or {})}
     sidecar = {
-        "title": title or folder.name, "table": "data.csv", "time": {"column": "time", "zero": 0},
-        "overrides": programme(points), "uncertain": {"heaters.initial_temperature": "0.2 K"},
-        "channels": {f"coil[{k}].temperature": {"column": f"T{k}", **entry} for k in (1, 2)}, **keys,
-    }  # fmt: skip
+        "title": title or folder.name,
+        "table": "data.csv",
+        "time": {"column": "time", "zero": 0},
+        "overrides": programme(points),
+        "uncertain": {"heaters.initial_temperature": "0.2 K"},
+        "channels": {f"coil[{k}].temperature": {"column": f"T{k}", **entry} for k in (1, 2)},
+        **keys,
+    }
     (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False))
     return folder

@@ -63,9 +63,10 @@ def test_alike_driven_channels_cannot_be_told_apart(scenario: Scenario, tmp_path
 
 
 @pytest.mark.parametrize(
-    ("stated", "factor", "offset"), [("degC", 1.8, 32.0), ("degC", 1.0, 273.15), ("K", 1.0, 0.0)],
+    ("stated", "factor", "offset"),
+    [("degC", 1.8, 32.0), ("degC", 1.0, 273.15), ("K", 1.0, 0.0)],
     ids=["degF written", "K written", "degC written"],
-)  # fmt: skip
+)
 def test_unit_of_a_column(scenario: Scenario, tmp_path: Path, stated: str, factor: float, offset: float) -> None:
     values = factor * rig.readings(rig.FIRST) + offset
     a = rig.write(tmp_path / "a", rig.FIRST, values, channel={"unit": stated})
@@ -124,8 +125,10 @@ def test_several_faults_at_once(scenario: Scenario, tmp_path: Path) -> None:
     found = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
     stretches = {(d.subject, d.begin, d.end) for d in found}
     assert stretches == {
-        ("coil[1].temperature", 80.0, 138.0), ("coil[1].temperature", 400.0, 458.0), ("coil[2].temperature", 160.0, 218.0),
-    }  # fmt: skip
+        ("coil[1].temperature", 80.0, 138.0),
+        ("coil[1].temperature", 400.0, 458.0),
+        ("coil[2].temperature", 160.0, 218.0),
+    }
     assert "the sensor stood still" in next(d for d in found if "[2]" in d.subject).statement
 
 
