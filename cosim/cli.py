@@ -17,6 +17,7 @@ from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
+from diagnosis.check import command as recording
 from diagnosis.command import diagnose
 from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
@@ -34,6 +35,7 @@ app = typer.Typer(
 
 app.add_typer(fmu.app, name="fmu")
 app.add_typer(ssp.app, name="ssp")
+app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(record)
 app.command()(diagnose)

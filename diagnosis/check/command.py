@@ -1,0 +1,73 @@
+"""`cosim recording new` and `cosim recording check`: arguments, what is printed, exit codes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from cosim.errors import InputError
+from cosim.run_folder import write_atomically, writing
+from cosim.scenario import load_scenario
+
+app = typer.Typer(no_args_is_help=True, help="Recordings: begin one from a table, and check it against a scenario.")
+
+
+@app.command()
+def new(
+    table: Annotated[Path, typer.Argument(help="CSV table as a logger or spreadsheet wrote it.")],
+    scenario: Annotated[str, typer.Option(help="A scenario file or name: the model that it belongs to.")],
+    out: Annotated[Path, typer.Option(help="Folder for the recording: recording.yaml and a plain copy of the table.")],
+) -> None:
+    """Propose a recording.yaml for a table: channels, units, clock and noise, as far as column names tell.
+
+    What is not clear stands in it as a comment with the reason. Read it before you use it. Nothing is overwritten.
+    """
+    from diagnosis.check.propose import propose
+    from diagnosis.check.sniff import read_table
+
+    for name in ("recording.yaml", "data.csv"):
+        if (out / name).exists():
+            raise InputError(out / name, "", "this file exists already", "give another folder with `--out`")
+    found = propose(load_scenario(scenario), read_table(table), table)
+    with writing(out):
+        out.mkdir(parents=True, exist_ok=True)
+        write_atomically(out / "data.csv", found.table.encode())
+        write_atomically(out / "recording.yaml", found.sidecar.encode())
+    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {found.unclear} columns unclear")
+    if not found.channels:
+        print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
+    else:
+        print(f"read it, then: cosim recording check {out} --scenario {scenario}")
+
+
+@app.command()
+def check(
+    recordings: Annotated[list[Path], typer.Argument(help="Folders of recordings of one rig.")],
+    scenario: Annotated[str, typer.Option(help="A scenario file or name: the model as it is.")],
+    out: Annotated[Path | None, typer.Option(help="Page (.html) with measured beside simulated.")] = None,
+) -> None:
+    """Are these recordings and this scenario of the same experiment? In seconds, without any search.
+
+    One simulation for each recording. Exit code 0: no serious doubt; 1: a serious one; 2: wrong input.
+    """
+    from diagnosis.check.beside import compare
+    from diagnosis.check.check import doubts_of
+    from diagnosis.check.page import write_page
+    from diagnosis.check.tables import print_check
+    from diagnosis.recording.recording import load_recording
+
+    if out is not None and out.exists():
+        raise InputError(out, "", "this file exists already", "give another name with `--out`")
+    base = load_scenario(scenario)
+    every = [compare(base, load_recording(path)) for path in recordings]
+    doubts = doubts_of(every)
+    print_check(every, doubts, Console())
+    if out is not None:
+        with writing(out):
+            out.parent.mkdir(parents=True, exist_ok=True)
+            write_page(every, doubts, out)
+        print(out)
+    raise typer.Exit(1 if any(d.is_serious for d in doubts) else 0)

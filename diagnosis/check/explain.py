@@ -1,0 +1,133 @@
+"""How well one course explains another: regressions after a recalibration, compared by likelihood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+from cosim.unit import Array
+from diagnosis.check.beside import Beside
+from diagnosis.recording.series import sample
+
+#: Probability that a recording that fits its scenario raises one false serious doubt.
+LEVEL = 1e-3
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A regression.
+
+    Args:
+        residual: Measured minus fitted, shape (samples,).
+        floor: Variance that any fit leaves.
+        total: Sum of squares of the readings about their mean.
+    """
+
+    residual: Array
+    floor: float
+    total: float
+
+    @property
+    def squares(self) -> float:
+        """Sum of squares that is left, noise included."""
+        return float(self.residual @ self.residual) + len(self.residual) * self.floor
+
+    @property
+    def share(self) -> float:
+        """Share of the readings' variance that is explained, 0 to 1."""
+        left = float(self.residual @ self.residual)
+        return max(0.0, 1.0 - left / self.total) if self.total else 0.0
+
+
+def independent(residual: Array) -> float:
+    """Number of independent samples among correlated ones.
+
+    N / (1 + 2 sum rho), the sum of autocorrelations over the initial positive sequence (Geyer, Statistical Science 7
+    (1992) 473-483). At least 2.
+    """
+    count = len(residual)
+    centred = residual - residual.mean() if count else residual
+    power = np.abs(np.fft.rfft(centred, 2 * count)) ** 2
+    covariance = np.fft.irfft(power)[:count] if count else np.zeros(0)
+    if count < 4 or not covariance[0] > 0.0:
+        return max(2.0, float(count))
+    rho = covariance / covariance[0]
+    pairs = rho[0 : count - 1 : 2] + rho[1:count:2]
+    last = int(np.argmax(pairs <= 0.0)) if (pairs <= 0.0).any() else len(pairs)
+    return float(np.clip(count / max(2.0 * float(pairs[:last].sum()) - 1.0, 1.0), 2.0, count))
+
+
+def gain(own: Fit, other: Fit) -> float:
+    """-2 log likelihood that the other fit gains, both with the same number of samples and of parameters.
+
+    Errors are those of the model and not white: of N samples count only as many as are independent, by the residual
+    that
+    is correlated further. Negative where the other fit is worse.
+    """
+    count = min(independent(own.residual), independent(other.residual))
+    floor = np.finfo(float).tiny
+    return float(count * np.log(max(own.squares, floor) / max(other.squares, floor)))
+
+
+def fit(measured: Array, columns: Array, tolerance: float, free: Array | None = None) -> Fit:
+    """Least squares of readings on an offset and columns with weights that are not negative.
+
+    Args:
+        measured: Shape (samples,).
+        columns: Shape (samples, columns).
+        tolerance: Standard deviation that any fit leaves.
+        free: Columns whose weights may have any sign, shape (samples, any).
+    """
+    centred = measured - measured.mean()
+    if not columns.shape[1]:
+        return Fit(centred, tolerance**2, float(centred @ centred))
+    rest, target = columns - columns.mean(axis=0), centred
+    if free is not None and free.shape[1]:
+        basis, sizes, _ = np.linalg.svd(free - free.mean(axis=0), full_matrices=False)
+        basis = basis[:, sizes > 1e-9 * max(float(sizes[0]), 1e-300)]
+        rest, target = rest - basis @ (basis.T @ rest), centred - basis @ (basis.T @ centred)
+    scale = np.linalg.norm(rest, axis=0)
+    rest = rest[:, scale > 1e-9 * max(float(scale.max(initial=0.0)), 1e-300)]
+    if not rest.shape[1]:
+        return Fit(target, tolerance**2, float(centred @ centred))
+    scale = np.linalg.norm(rest, axis=0)
+    # of a tall problem only its triangle matters
+    left, triangle = np.linalg.qr(rest / scale)
+    weights, _ = nnls(triangle, left.T @ target)
+    return Fit(target - rest @ (weights / scale), tolerance**2, float(centred @ centred))
+
+
+def design(course: Beside, at: Array) -> Array:
+    """Columns by which a simulated course may explain a channel, with weights that are not negative.
+
+    The course itself; the course behind one lag, or two of them: a sensor, a mass, a parameter that makes it slower;
+    and
+    twice the course less the course behind a lag: time constants shorter by a factor of up to 2. So a parameter that
+    is off or a
+    lag is no misfit; a response to something else is.
+
+    Args:
+        course: Channel whose simulation explains.
+        at: Where on the simulation's clock [s], shape (samples,).
+    """
+    assert course.simulated is not None
+    own = sample(course.simulated, at)
+    behind = np.stack([np.interp(at, course.simulated.times, row) for row in course.lagged], axis=1)
+    return np.hstack([own[:, None], behind, 2.0 * own[:, None] - behind[:, : len(course.lags)]])
+
+
+def explained(beside: Beside, course: Beside, at: Array | None = None, inside: Array | None = None) -> Fit:
+    """The channel explained by a simulated course.
+
+    Args:
+        beside: The channel.
+        course: Whose simulation explains it.
+        at: Times on the simulation's clock, shape (picked,); default: those of the samples.
+        inside: Which samples count, shape (picked,); default: all.
+    """
+    chosen = np.ones(len(beside.pick), dtype=bool) if inside is None else np.asarray(inside, dtype=bool)
+    times = beside.times[chosen]
+    instants = times if at is None else at[chosen]
+    return fit(beside.measured[chosen], design(course, instants), beside.tolerance)

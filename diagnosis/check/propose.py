@@ -1,0 +1,366 @@
+"""A recording.yaml proposed for a table, by the names of its columns."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from cosim.components import CircuitComponent, PendulumComponent, ProgrammeComponent, nanoseconds
+from cosim.errors import InputError
+from cosim.quantity import conversion
+from cosim.run import RunStopped, run
+from cosim.scenario import Scenario, parse_scenario
+from cosim.unit import Array
+from cosim.yaml_file import parse_yaml, read_text
+from diagnosis.check.sniff import Sniffed
+from diagnosis.recording.channels import offered
+from diagnosis.recording.noise import estimate_noise, find_quantum
+from diagnosis.recording.quantity import SI_UNITS, parse_quantity
+from diagnosis.recording.recording import FEWEST_VALUES
+
+#: How a unit may be spelled at the end of a column's name: spelling to unit and SI unit of its quantity.
+SPELLINGS = {
+    "degc": ("degC", "K"),
+    "°c": ("degC", "K"),
+    "celsius": ("degC", "K"),
+    "c": ("degC", "K"),
+    "degf": ("degF", "K"),
+    "°f": ("degF", "K"),
+    "kelvin": ("K", "K"),
+    "k": ("K", "K"),
+    "a": ("A", "A"),
+    "ma": ("mA", "A"),
+    "ua": ("uA", "A"),
+    "v": ("V", "V"),
+    "mv": ("mV", "V"),
+    "w": ("W", "W"),
+    "mw": ("mW", "W"),
+    "kw": ("kW", "W"),
+    "m": ("m", "m"),
+    "cm": ("cm", "m"),
+    "mm": ("mm", "m"),
+    "um": ("um", "m"),
+    "rad": ("rad", "rad"),
+    "deg": ("deg", "rad"),
+    "°": ("deg", "rad"),
+    "rad/s": ("rad/s", "rad/s"),
+    "deg/s": ("deg/s", "rad/s"),
+    "n": ("N", "N"),
+    "mn": ("mN", "N"),
+    "n/m": ("N/m", "N/m"),
+    "n/mm": ("N/mm", "N/m"),
+    "ohm": ("ohm", "ohm"),
+    "kohm": ("kohm", "ohm"),
+    "s": ("s", "s"),
+    "ms": ("ms", "s"),
+    "us": ("us", "s"),
+    "min": ("min", "s"),
+    "h": ("h", "s"),
+    "1/m": ("1/m", "1/m"),
+}
+#: Words and letters that stand for a quantity at the begin of a name.
+WORDS = {
+    "temperature": ("temperature", "temp", "thermocouple", "tc", "t"),
+    "current": ("current", "amps", "i"),
+    "voltage": ("voltage", "volts", "u", "v"),
+    "power": ("power", "p", "q", "heater"),
+    "extension": ("extension", "displacement", "position", "pos", "x"),
+    "stiffness": ("stiffness",),
+    "resistance": ("resistance", "r"),
+    "angle": ("angle", "theta", "phi"),
+    "angular_velocity": ("angular_velocity", "omega", "rate"),
+    "max_curvature": ("max_curvature", "curvature", "kappa"),
+    "length": ("length",),
+}
+_TIMES = frozenset({"time", "t", "timestamp", "date", "datetime", "clock", "seconds", "elapsed", "zeit"})
+_NAME = re.compile(r"^\s*(?P<body>.*?)\s*[\[(]\s*(?P<unit>[^\])]*)\s*[\])]\s*$")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What the name of a column says.
+
+    Args:
+        name: As it stands.
+        word: Letters at its begin, small.
+        numbers: Numbers in it.
+        unit: As recording.yaml has it; None where the name has none.
+        si_unit: SI unit of its quantity; None likewise.
+    """
+
+    name: str
+    word: str
+    numbers: tuple[int, ...]
+    unit: str | None
+    si_unit: str | None
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What is written.
+
+    Args:
+        sidecar: Text of recording.yaml.
+        table: Text of the plain copy of the table.
+        channels: How many channels were matched.
+        unclear: How many columns were not.
+    """
+
+    sidecar: str
+    table: str
+    channels: int
+    unclear: int
+
+
+def heading(name: str) -> Heading:
+    """Read the name of a column.
+
+    >>> heading("T2_degC")
+    Heading(name='T2_degC', word='t', numbers=(2,), unit='degC', si_unit='K')
+    >>> heading("Strom 1 [mA]").unit
+    'mA'
+    """
+    bracket = _NAME.match(name)
+    body, tail = (bracket["body"], bracket["unit"]) if bracket else (name, "")
+    if not tail:
+        parts = re.split(r"[_\s]+", name.strip())
+        if len(parts) > 1 and parts[-1].lower() in SPELLINGS:
+            tail, body = parts[-1], "_".join(parts[:-1])
+    unit, si_unit = SPELLINGS.get(tail.lower(), (None, None))
+    if tail == "M":
+        unit, si_unit = None, None
+    numbers = tuple(int(n) for n in re.findall(r"\d+", body))
+    word = re.sub(r"[\d\W_]+", "_", body).strip("_").lower()
+    return Heading(name, word, numbers, unit, si_unit)
+
+
+def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
+    """Channels, clock, units and noise of a table.
+
+    Args:
+        scenario: What its columns are matched with.
+        table: Read.
+        source: File of the table, for errors and the proposal's `source`.
+
+    Raises:
+        InputError: No column holds times, or the scenario cannot be run.
+    """
+    heads = [heading(n) for n in table.names]
+    clock = _clock(table, heads, source)
+    times = table.columns[clock] * conversion(_clock_unit(table, heads[clock]), "s")[0]
+    keep = np.isfinite(times)
+    keep[keep] = np.concatenate([[True], np.diff(np.maximum.accumulate(times[keep])) > 0.0])
+    names = _offered(scenario)
+    channels: dict[str, dict[str, str]] = {}
+    unclear: list[str] = []
+    for k, head in enumerate(heads):
+        if k == clock:
+            continue
+        reason, name = _match(table, head, names, list(channels))
+        known = keep & np.isfinite(table.columns[k])
+        if not reason and np.count_nonzero(known) < FEWEST_VALUES:
+            reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}"
+        if reason:
+            unclear.append(f"{head.name}: {reason}")
+            continue
+        assert head.unit is not None
+        channels[name] = _entry(head, times[known], table.columns[k][known])
+    dropped = int(np.count_nonzero(~keep))
+    text = _sidecar(scenario, table, heads[clock], channels, unclear, dropped, source)
+    return Proposal(text, _plain(table, keep), len(channels), len(unclear))
+
+
+def _clock(table: Sniffed, heads: Sequence[Heading], source: Path) -> int:
+    """Number of the column of times."""
+    for is_right in (
+        lambda h: h.name in table.instants,
+        lambda h: h.word in _TIMES and h.si_unit == "s",
+        lambda h: h.word in _TIMES and not h.numbers and h.unit is None,
+        lambda h: h.si_unit == "s",
+    ):
+        for k, head in enumerate(heads):
+            values = table.columns[k][np.isfinite(table.columns[k])]
+            if is_right(head) and len(values) >= FEWEST_VALUES and np.mean(np.diff(values) > 0.0) > 0.9:
+                return k
+    raise InputError(
+        source, "", "no column holds rising times", "name the column of times `time_s`, `time_ms` or `time [min]`"
+    )
+
+
+def _clock_unit(table: Sniffed, head: Heading) -> str:
+    return "s" if head.name in table.instants or head.unit is None else head.unit
+
+
+def _offered(scenario: Scenario) -> dict[str, str]:
+    """Channels that a scenario offers, with the SI unit of each: of one step of it, which takes no time."""
+    assert scenario.path is not None, "the scenario was read from a file"
+    data = parse_yaml(read_text(scenario.path), scenario.path)
+    begin = scenario.time.start.to("s")
+    step = nanoseconds(scenario.time.output_step) * 1e-9
+    data["time"]["stop"] = f"{begin + step:.12g} s"
+    try:
+        results = run(parse_scenario(yaml.safe_dump(data, sort_keys=False), scenario.path))
+    except RunStopped as stopped:
+        raise InputError(
+            scenario.path, "", f"the scenario cannot be run: {stopped.reason}", "see `cosim run`"
+        ) from stopped
+    names = offered(results)
+    names += [
+        n
+        for n in (
+            f"{c}.{q}"
+            for c, k in scenario.components.items()
+            if isinstance(k, PendulumComponent)
+            for q in ("angle", "angular_velocity")
+        )
+        if n in results and n not in names
+    ]
+    if any(isinstance(c, CircuitComponent) for c in scenario.components.values()):
+        names += [n for n in ("supply.voltage", "supply.power") if n not in names]
+    found = {}
+    for name in names:
+        target = parse_quantity(name)
+        found[name] = SI_UNITS.get(target.quantity, "1")
+    return found
+
+
+def _match(table: Sniffed, head: Heading, names: dict[str, str], taken: Sequence[str]) -> tuple[str, str]:
+    """Why a column is unclear, or the channel that it is."""
+    if head.name in table.texts:
+        return f"it holds text (`{table.texts[head.name]}`)", ""
+    if head.name in table.instants:
+        return "it holds dates, and another column is the clock", ""
+    quantities = [q for q, words in WORDS.items() if head.word.split("_")[0] in words or head.word in words]
+    if head.word.startswith("set") or "setpoint" in head.word or head.word.startswith("sp_"):
+        return "by its name it is a set point, not a reading", ""
+    if head.unit is None:
+        return "its name has no unit that is known; write it as `name_degC`, `name_mA` or `name [mm]`", ""
+    fitting = [n for n, unit in names.items() if unit == head.si_unit]
+    if not fitting:
+        return f"the scenario has no channel in {head.si_unit}", ""
+    by_word = [n for n in fitting if parse_quantity(n).quantity in quantities]
+    if not by_word:
+        return f"its name does not say which quantity it is; in {head.si_unit} there are {_few(fitting)}", ""
+    chosen = _numbered(by_word, head)
+    if len(chosen) != 1:
+        return f"it may be {_few(chosen or by_word)}", ""
+    if chosen[0] in taken:
+        return f"another column is {chosen[0]} already", ""
+    return "", chosen[0]
+
+
+def _numbered(names: Sequence[str], head: Heading) -> list[str]:
+    """Channels whose element is the number in a column's name."""
+    whole = [n for n in names if n.startswith(("supply.", "fabric."))]
+    if not head.numbers:
+        is_whole = any(w in head.word for w in ("supply", "total", "sum"))
+        others = [n for n in names if n not in whole]
+        return (
+            whole
+            if is_whole or not others
+            else (others if not whole else list(names))
+            if len(names) > 1
+            else list(names)
+        )
+    if any(w in head.word for w in ("supply", "total", "sum")):
+        return whole
+    exact = [n for n in names if parse_quantity(n).element == head.numbers]
+    if exact or len(head.numbers) != 1:
+        return exact
+    counted = [n for n in names if parse_quantity(n).element]
+    number = head.numbers[0]
+    # coils of several strings are named coil[2,3]: one number counts through all of them
+    if any(len(parse_quantity(n).element) == 2 for n in counted):
+        return [counted[number - 1]] if 1 <= number <= len(counted) and len(counted) == 1 else []
+    return [n for n in counted if parse_quantity(n).element == (number,)]
+
+
+def _few(names: Sequence[str]) -> str:
+    return ", ".join(names[:4]) + (f" or {len(names) - 4} others" if len(names) > 4 else "")
+
+
+def _entry(head: Heading, times: Array, values: Array) -> dict[str, str]:
+    unit = head.unit or ""
+    difference = {"degC": "K", "degF": "delta_degF"}.get(unit, unit)
+    entry = {"column": head.name, "unit": unit}
+    quantum = find_quantum(values)
+    if quantum:
+        entry["quantum"] = f"{quantum:.3g} {difference}"
+    entry["noise"] = f"{estimate_noise(times, values, quantum):.3g} {difference}"
+    return entry
+
+
+def _sidecar(
+    scenario: Scenario,
+    table: Sniffed,
+    clock: Heading,
+    channels: dict[str, dict[str, str]],
+    unclear: Sequence[str],
+    dropped: int,
+    source: Path,
+) -> str:
+    data: dict[str, object] = {
+        "title": source.stem.replace("_", " "),
+        "source": f"{source.name}; who measured it, where, when?",
+        "table": "data.csv",
+        "time": {"column": clock.name, "unit": _clock_unit(table, clock)},
+    }
+    lines = ["# Proposed by `cosim recording new` from the names of columns. Read every line before you use it."]
+    if table.is_decimal_comma or table.separator != "," or table.header_lines or table.instants:
+        lines.append(
+            f"# data.csv is a plain copy: separator `{_shown(table.separator)}`, {table.header_lines} "
+            f"lines before "
+            f"the header{', decimal commas' if table.is_decimal_comma else ''}"
+            f"{', dates as seconds since the first' if table.instants else ''}."
+        )
+    if dropped:
+        lines.append(f"# {dropped} rows without a time, or whose time does not rise, were left out of the copy.")
+    if clock.unit is None and clock.name not in table.instants:
+        lines.append(f"# The unit of the clock `{clock.name}` is not in its name: s is taken. Is it ms, min?")
+    lines.append(yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110).rstrip())
+    lines += [
+        "# The clock starts at the scenario's time 0; else give `zero` and `offset_bound` under `time`.",
+        "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
+        *_conditions(scenario),
+    ]
+    if channels:
+        lines.append(
+            "# Noise is the scatter of neighbouring readings; state the data sheet's where you know it better."
+        )
+        lines.append(yaml.safe_dump({"channels": channels}, sort_keys=False, allow_unicode=True, width=110).rstrip())
+    else:
+        lines.append(
+            "channels: {}  # none could be matched: write them, as in `coil[1].temperature: {column: T1, unit: degC}`"
+        )
+    lines += [f"# unclear column {text}" for text in unclear]
+    return "\n".join(line.replace("\r", " ") for line in lines) + "\n"
+
+
+def _shown(separator: str) -> str:
+    return {"\t": "tab", " ": "spaces"}.get(separator, separator)
+
+
+def _conditions(scenario: Scenario) -> list[str]:
+    """Comments with what drives the scenario, to be replaced."""
+    lines = []
+    for name, component in scenario.components.items():
+        if isinstance(component, ProgrammeComponent):
+            for output, given in component.outputs.items():
+                what = f"constant: {given.constant}" if given.points is None else "points: [[0 s, ...], ...]"
+                lines.append(f"#   {name}.{output} [{given.unit}]: {what if len(what) < 60 else 'constant: ...'}")
+    return lines
+
+
+def _plain(table: Sniffed, keep: np.ndarray) -> str:  # type: ignore[type-arg]
+    """The table with commas, points and one header line; columns of text are left out."""
+    chosen = [k for k, name in enumerate(table.names) if name not in table.texts]
+    quoted = [f'"{table.names[k]}"' if "," in table.names[k] else table.names[k] for k in chosen]
+    rows = [",".join(quoted)]
+    for values in table.columns[chosen][:, keep].T.tolist():
+        rows.append(",".join("" if v != v else repr(v) for v in values))
+    return "\n".join(rows) + "\n"

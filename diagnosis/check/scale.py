@@ -1,0 +1,202 @@
+"""Order of magnitude, unit, sign: are the readings of the size that the scenario says?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from cosim.errors import InputError
+from cosim.quantity import conversion
+from cosim.unit import Array
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.explain import LEVEL, Fit, fit, gain
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import FEWEST_VALUES
+from diagnosis.recording.sidecar import load_sidecar
+
+#: Deviation of ln(measured range / simulated range) before anything is known: parameters of a class-room rig are off
+#: by a
+#: factor of 1.6 (docs/real-recordings.md), and missing physics takes as much; a factor of 2 is one deviation.
+SPREAD = float(np.log(2.0))
+#: Deviation of a rig's temperature before it is heated from what the scenario says [K]: what a laboratory's varies
+#: over a year.
+ROOM = 5.0
+#: Units in which a table may be written, by the SI unit of its quantity.
+UNITS = {
+    "K": ("K", "degC", "degF"),
+    "A": ("A", "mA", "uA"),
+    "V": ("V", "mV"),
+    "W": ("W", "mW", "kW"),
+    "m": ("m", "cm", "mm", "um"),
+    "rad": ("rad", "deg"),
+    "rad/s": ("rad/s", "deg/s", "rpm"),
+    "N": ("N", "mN", "kN"),
+    "N/m": ("N/m", "N/mm"),
+    "ohm": ("ohm", "mohm", "kohm"),
+    "1/m": ("1/m", "1/cm", "1/mm"),
+}
+#: Factors on the time of a swing that has no input: its frequency is a parameter.
+PACES = np.geomspace(0.5, 2.0, 57)
+
+
+@dataclass(frozen=True)
+class _Size:
+    """What tells the size of a channel.
+
+    Args:
+        ranges: Measured over simulated range.
+        levels: First readings, measured and simulated.
+    """
+
+    ranges: float
+    levels: tuple[float, float]
+
+
+def scale_doubts(compared: Compared, is_timed: bool) -> list[Doubt]:
+    """Doubts about unit and sign of every channel.
+
+    Args:
+        compared: A recording beside its simulation.
+        is_timed: Whether the response follows the programme; else signs are not asked for.
+    """
+    units = _units(compared)
+    found = []
+    for name, beside in compared.channels.items():
+        if beside.simulated is None or len(beside.pick) < FEWEST_VALUES or not np.ptp(beside.at(beside.times)) > 0.0:
+            continue
+        unit = units.get(name, beside.channel.unit)
+        found += _unit_doubts(compared, beside, unit)
+        if is_timed and beside.moves:
+            found += _sign_doubts(compared, beside)
+    return found
+
+
+def _units(compared: Compared) -> dict[str, str]:
+    """Unit of every channel's column, as recording.yaml states it."""
+    try:
+        sidecar = load_sidecar(compared.recording.path / "recording.yaml")
+    except InputError:  # the recording is not from a file
+        return {}
+    return {name: entry.unit for name, entry in sidecar.channels.items()}
+
+
+def first(beside: Beside) -> tuple[Array, float]:
+    """The readings before anything changes (at least three), and their time [s]."""
+    assert beside.simulated is not None
+    times, values = beside.channel.times, beside.channel.values
+    course = beside.at(times)
+    moved = np.flatnonzero(np.abs(course - course[0]) > beside.floor)
+    count = int(np.clip(moved[0] if moved.size else len(times), 3, 20))
+    return values[:count], float(times[0])
+
+
+def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
+    """Range and first level of the readings after a conversion."""
+    simulated = beside.at(beside.times)
+    measured = factor * beside.measured + offset
+    low, high = np.quantile(measured, (0.01, 0.99))
+    own = np.quantile(simulated, (0.01, 0.99))
+    values, _ = first(beside)
+    return _Size(
+        float(high - low) / float(own[1] - own[0]), (factor * float(np.median(values)) + offset, float(simulated[0]))
+    )
+
+
+def _score(size: _Size, unit: str) -> float:
+    """-2 log of how probable a size is, up to a constant: chi-square with two degrees of freedom."""
+    found = (np.log(max(size.ranges, 1e-12)) / SPREAD) ** 2
+    measured, simulated = size.levels
+    if unit == "K":
+        return float(found + ((measured - simulated) / ROOM) ** 2)
+    if unit in ("m", "N/m", "ohm") and measured > 0.0 and simulated > 0.0:
+        # what hangs loaded from the start has a level too: a threshold that is missed changes the range alone
+        found += (np.log(measured / simulated) / SPREAD) ** 2
+    return float(found)
+
+
+def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]:
+    """A size that no rig like this has, where another unit gives one that it has."""
+    channel = beside.channel
+    as_is = _size(beside)
+    worst = _score(as_is, channel.unit)
+    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 2))
+    # a channel that does not move is no question of its unit: a wire may have come off
+    if worst <= limit or np.std(beside.measured) <= 3.0 * channel.deviation:
+        return []
+    best: tuple[float, str] | None = None
+    for unit in UNITS.get(channel.unit, ()):
+        if unit == stated:
+            continue
+        own, other = conversion(stated, channel.unit), conversion(unit, channel.unit)
+        factor = other[0] / own[0]
+        offset = other[1] - factor * own[1]
+        if np.std(beside.at(beside.times)) <= 3.0 * factor * channel.deviation:
+            continue  # in that unit the noise would hide all that is simulated
+        score = _score(_size(beside, factor, offset), channel.unit)
+        if best is None or score < best[0]:
+            best = score, unit
+    if best is None or best[0] > chi2.isf(0.05, 2) or worst - best[0] <= limit:
+        return []
+    measured, simulated = as_is.levels
+    text = f"as `unit: {stated}` the readings span {as_is.ranges:.3g} times what is simulated"
+    if channel.unit == "K":
+        text += f" and begin at {measured - 273.15:.4g} degC, where {simulated - 273.15:.4g} degC is simulated"
+    text += f"; as `unit: {best[1]}` they are of its size"
+    return [
+        Doubt(
+            compared.recording.title,
+            channel.name,
+            "unit",
+            text,
+            f"correct `channels.{channel.name}.unit`",
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(worst - best[0])),
+        )
+    ]
+
+
+def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
+    """A response that goes the other way than the simulated one."""
+    if len(beside.pick) < 24:
+        return []
+    same, other = _signed(compared, beside)
+    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 1)) + (
+        0.0 if len(compared.switches()) else 2.0 * np.log(len(PACES))
+    )
+    found = gain(same, other)
+    if found <= limit:
+        return []
+    text = (
+        f"the readings fall where the simulation rises: turned over it explains {100 * other.share:.2g} % of them, "
+        f"as it is {100 * same.share:.2g} %"
+    )
+    remedy = "is the sensor or the column of opposite sign? Correct the table, or the scenario's direction"
+    return [
+        Doubt(
+            compared.recording.title,
+            beside.channel.name,
+            "sign",
+            text,
+            remedy,
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(found)),
+        )
+    ]
+
+
+def _signed(compared: Compared, beside: Beside) -> tuple[Fit, Fit]:
+    """Best fits with a gain of the right and of the wrong sign, behind any one lag."""
+    assert beside.simulated is not None
+    times, measured = beside.times, beside.measured
+    courses = [beside.at(times), *(np.interp(times, beside.simulated.times, row) for row in beside.lagged)]
+    if not len(compared.switches()):
+        courses += [beside.at(pace * times) for pace in PACES]
+    fits = [[fit(measured, sign * c[:, None], beside.tolerance) for c in courses] for sign in (1.0, -1.0)]
+    same, other = (min(found, key=lambda f: f.squares) for found in fits)
+    return same, other

@@ -1,0 +1,351 @@
+"""Does the response follow this programme: another run's, a late one, a clock that runs wrong, other switches?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from cosim.components import nanoseconds
+from cosim.unit import Array
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.explain import LEVEL, Fit, explained, gain, independent
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import Channel
+
+#: Channels of one recording that are asked for timing; more of the same rig say the same again.
+MOST_CHANNELS = 6
+#: Shifts each way and factors on time each way that are tried.
+SHIFTS, FACTORS = 24, 16
+#: Greatest factor on time that is called a drifting clock; beyond it the unit of time is asked for.
+FASTEST = 0.3
+#: Instants at which an unknown switch may lie.
+INSTANTS = 120
+
+
+@dataclass(frozen=True)
+class Rival:
+    """Another explanation of a recording's timing.
+
+    Args:
+        kind: Of the doubt.
+        subject: What it concerns.
+        text: What the readings do, in plain words, with `{own}` and `{other}` for shares of variance.
+        remedy: What to look at.
+        gain: -2 log likelihood gained, after the price of what was chosen.
+        own: Share of variance that the recording's own conditions explain, median over channels.
+        other: Share that this explanation explains.
+    """
+
+    kind: str
+    subject: str
+    text: str
+    remedy: str
+    gain: float
+    own: float
+    other: float
+
+
+def critical(tests: float) -> float:
+    """Gain that one more degree of freedom reaches by chance in `LEVEL` of recordings, over so many tests.
+
+    Wilks' theorem with Bonferroni's correction; a median over channels exceeds it less often than one channel.
+    """
+    return float(chi2.isf(LEVEL / tests, 1))
+
+
+def leading(compared: Compared) -> list[Beside]:
+    """Channels that tell the time best: those whose simulation moves, temperatures and flows before positions.
+
+    Extensions, curvature and the like depend on thresholds that a model may miss altogether.
+    """
+    moving = [b for b in compared.channels.values() if b.moves and len(b.pick) >= 24]
+    direct = [b for b in moving if b.channel.target.domain in ("thermal", "electrical")]
+    chosen = direct or moving
+    step = max(1, -(-len(chosen) // MOST_CHANNELS))
+    return chosen[::step]
+
+
+def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]:
+    """At most one doubt: the explanation of the timing that beats the recording's own conditions by most.
+
+    Args:
+        compared: The recording.
+        others: The other recordings of the same rig.
+    """
+    leads = leading(compared)
+    if not leads or not len(compared.switches()):
+        return []
+    own = [_own(compared, b) for b in leads]
+    rivals = [*_other_runs(compared, others, leads), *_shifts(compared, leads, own), *_factors(compared, leads, own)]
+    rivals = [r for r in rivals if r.gain > critical(4.0)]
+    # an explanation that something is known of comes before switches at free instants
+    rivals = rivals or [r for r in _switches(compared, leads, own) if r.gain > critical(4.0)]
+    if not rivals:
+        return []
+    best = max(rivals, key=lambda r: r.gain)
+    text = best.text.format(own=percent(best.own), other=percent(best.other))
+    return [
+        Doubt(
+            compared.recording.title,
+            best.subject,
+            best.kind,
+            text,
+            best.remedy,
+            True,
+            compared.begin,
+            compared.end,
+            float(np.sqrt(best.gain)),
+        )
+    ]
+
+
+def percent(share: float) -> str:
+    """A share as a person reads it: never 100 % of what is not whole.
+
+    >>> percent(0.99987), percent(0.5), percent(0.0)
+    ('99.99 %', '50 %', '0 %')
+    """
+    if share > 0.99:
+        return f"{min(np.floor(1e4 * share) / 100, 99.99):.4g} %"
+    return f"{100.0 * share:.2g} %"
+
+
+def resolution(compared: Compared, channel: Channel) -> float:
+    """Shift in time that is no doubt [s]: the bound stated for the clock, a reading, an output and a macro-step."""
+    time = compared.scenario.time
+    steps = (nanoseconds(time.output_step) + nanoseconds(time.macro_step)) * 1e-9
+    return channel.offset_bound + float(np.median(np.diff(channel.times))) + steps
+
+
+def allowed(compared: Compared, channel: Channel) -> Array:
+    """Shifts that are no doubt [s]; later also by the stated lag of the sensor: several lags look like a delay."""
+    bound = resolution(compared, channel)
+    late = np.linspace(0.0, channel.lag_bound, 9)[1:] if channel.lag_bound else np.zeros(0)
+    return np.concatenate([np.linspace(-bound, bound, 5), bound + late])
+
+
+def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
+    """The best fit with clock and sensor within their bounds."""
+    shifts = allowed(compared, beside.channel)
+    fits = [explained(beside, course, beside.times - d, inside) for d in shifts]
+    return min(fits, key=lambda f: f.squares)
+
+
+def _own(compared: Compared, beside: Beside) -> Fit:
+    return _within(compared, beside, beside)
+
+
+def together(leads: Sequence[Beside], own: Sequence[Fit], gains: Array) -> float:
+    """Gain of all channels together: their median, so that one faulty sensor does not decide, by independent channels.
+
+    The number of independent ones is (sum l)^2 / sum l^2 over the eigenvalues l of the correlation of what the
+    recording's
+    own conditions leave (Bretherton et al., J. Climate 12 (1999) 1990-2009).
+    """
+    if len(leads) < 2:
+        return float(np.median(gains))
+    grid = np.linspace(max(b.times[0] for b in leads), min(b.times[-1] for b in leads), 400)
+    rows = np.stack([np.interp(grid, b.times[-len(f.residual) :], f.residual) for b, f in zip(leads, own)])
+    sizes = np.linalg.eigvalsh(np.nan_to_num(np.corrcoef(rows), nan=0.0))
+    return float(np.median(gains)) * float(sizes.sum() ** 2 / np.sum(sizes**2))
+
+
+def _shares(fits: Sequence[Fit]) -> float:
+    return float(np.median([f.share for f in fits]))
+
+
+def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[Beside]) -> list[Rival]:
+    found = []
+    for other in others:
+        pairs = [(b, other.channels[b.channel.name]) for b in leads if b.channel.name in other.channels]
+        pairs = [(b, o) for b, o in pairs if o.simulated is not None]
+        if not pairs:
+            continue
+        gains, mine, theirs, asked = [], [], [], []
+        for b, o in pairs:
+            assert o.simulated is not None
+            inside = b.times <= o.simulated.times[-1]
+            if np.count_nonzero(inside) < max(24, 0.5 * len(inside)):
+                continue
+            own, another = _within(compared, b, b, inside), _within(compared, b, o, inside)
+            gains.append(gain(own, another))
+            mine.append(own)
+            theirs.append(another)
+            asked.append(b)
+        if gains:
+            title = other.recording.title
+            found.append(
+                Rival(
+                    "other run",
+                    "inputs" if compared.recording.inputs else "overrides",
+                    f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
+                    f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
+                    together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
+                    _shares(mine),
+                    _shares(theirs),
+                )
+            )
+    return found
+
+
+def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
+    """The whole response earlier or later than its programme."""
+    bound = max(resolution(compared, b.channel) for b in leads)
+    span = compared.end - compared.begin
+    if not 2.0 * bound < 0.5 * span:
+        return []
+    sizes = np.geomspace(1.5 * bound, 0.5 * span, SHIFTS)
+    slowest = max(b.channel.lag_bound for b in leads)
+    price = 2.0 * np.log(2.0 * SHIFTS)
+    best: tuple[float, float, list[Fit]] | None = None
+    for shift in (*-sizes[::-1], *sizes[sizes > slowest + bound]):
+        fits = [explained(b, b, b.times - shift) for b in leads]
+        found = together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price
+        if best is None or found > best[0]:
+            best = found, float(shift), fits
+    assert best is not None
+    gained, shift, fits = best
+    ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
+    way = "later" if shift > 0 else "earlier"
+    if abs(shift) < np.min(np.diff(ends)):
+        stated = max(b.channel.offset_bound for b in leads)
+        text = (
+            f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s "
+            f"are stated: "
+            "moved by that, it explains {other} of the readings, as it is {own}"
+        )
+        remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
+        return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
+    text = (
+        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain "
+        f"{{other}} of "
+        "them, as it is {own}"
+    )
+    remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
+    return [Rival("programme", _driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
+    """A clock that runs too fast or too slow."""
+    bound = max(resolution(compared, b.channel) for b in leads)
+    span = compared.end - compared.begin
+    least = 1.5 * bound / span
+    if not least < FASTEST:
+        return []
+    sizes = np.geomspace(least, FASTEST, FACTORS)
+    price = 2.0 * np.log(2.0 * FACTORS)
+    best: tuple[float, float, list[Fit]] | None = None
+    for size in (*-sizes[::-1], *sizes):
+        fits = [explained(b, b, b.times / (1.0 + size)) for b in leads]
+        found = together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price
+        if best is None or found > best[0]:
+            best = found, float(size), fits
+    assert best is not None
+    gained, size, fits = best
+    text = (
+        f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'}: so "
+        f"corrected, the "
+        "programme explains {other} of the readings, as it is {own}"
+    )
+    remedy = "compare two instants that both clocks know; correct the column of times or its unit"
+    return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _driver(compared: Compared) -> str:
+    """Name of what changes."""
+    return next((c.name for c in compared.courses if c.switches().size), "programme")
+
+
+def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
+    """Switches at other instants than the programme's explain the readings, and the programme does not.
+
+    Three tests, all of which must hold: the programme leaves more than a model's discrepancy (chi-square over
+    independent
+    samples); as many switches of any size at free instants behind one lag leave no more than that; and at most half
+    of the
+    switches to which the simulation responds are among these instants: what a rig does of itself comes beside them.
+    """
+    switches = compared.switches()
+    if len(switches) > 12:  # a recorded course that moves all the time: its instants are no statement
+        return []
+    span = compared.end - compared.begin
+    grid = compared.begin + span * (np.arange(INSTANTS) + 0.5) / INSTANTS
+    pairs = []
+    for b, plain in zip(leads, own):
+        chosen, free = _greedy(b, grid, len(switches) + 1)
+        near = resolution(compared, b.channel) + 1.5 * span / INSTANTS
+        met = [t for t in switches if min(abs(t - c) for c in chosen) < near]
+        is_other = len(met) <= 0.5 * len(switches)
+        excess, left = discrepant(plain), discrepant(free)
+        pairs.append((excess if is_other and left < critical(4.0) else 0.0, plain, free, chosen, near))
+    gained = float(np.median([p[0] for p in pairs]))
+    if not gained > 0.0:
+        return []
+    chosen, near = max(pairs, key=lambda p: p[0])[3:]
+    others = [t for t in chosen if np.min(np.abs(switches - t)) > near]
+    if not others:
+        return []
+    text = (
+        f"the readings change at about {_listed(others)} s, where the programme does not: switches at free "
+        f"instants "
+        f"explain {{other}} of them, the programme (switches at {_listed(switches)} s) {{own}}"
+    )
+    remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
+    shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])
+    return [Rival("programme", _driver(compared), text, remedy, gained, *shares)]
+
+
+def discrepant(found: Fit) -> float:
+    """How far a fit is from a model with its usual discrepancy, as a chi-square with one degree of freedom.
+
+    What is left, over the discrepancy that a model may have, is a chi-square with as many degrees as samples are
+    independent.
+    """
+    degrees = independent(found.residual)
+    left = float(found.residual @ found.residual) / len(found.residual) / found.floor
+    return float(chi2.isf(max(chi2.sf(degrees * left, degrees), 1e-300), 1))
+
+
+def _listed(instants: Sequence[float] | Array) -> str:
+    few = [f"{t:.3g}" for t in sorted(instants)]
+    return ", ".join(few[:4]) + (", ..." if len(few) > 4 else "")
+
+
+def _responses(times: Array, instants: Array, lag: float) -> Array:
+    """Steps at instants behind a lag [s], shape (samples, instants)."""
+    since = times[:, None] - instants[None, :]
+    return np.where(since > 0.0, -np.expm1(-np.maximum(since, 0.0) / lag), 0.0)
+
+
+def _step_lags(beside: Beside) -> Array:
+    return np.geomspace(beside.lags[0], beside.lags[-1], 8)
+
+
+def _greedy(beside: Beside, grid: Array, count: int) -> tuple[list[float], Fit]:
+    """Orthogonal matching pursuit of steps behind one lag, over the lags."""
+    measured = beside.measured - beside.measured.mean()
+    best: tuple[list[float], Fit] | None = None
+    for lag in _step_lags(beside):
+        atoms = _responses(beside.times, grid, float(lag))
+        basis = np.ones((len(measured), 1)) / np.sqrt(len(measured))
+        left, chosen = measured, []
+        for _ in range(count):
+            free = atoms - basis @ (basis.T @ atoms)
+            sizes = np.linalg.norm(free, axis=0)
+            scores = np.where(
+                sizes > 1e-6 * np.sqrt(len(measured)), np.abs(free.T @ left) / np.maximum(sizes, 1e-12), 0.0
+            )
+            index = int(np.argmax(scores))
+            if not scores[index] > 0.0:
+                break
+            basis = np.hstack([basis, free[:, index : index + 1] / sizes[index]])
+            left = measured - basis @ (basis.T @ measured)
+            chosen.append(float(grid[index]))
+        found = Fit(left, beside.tolerance**2, float(measured @ measured))
+        if best is None or found.squares < best[1].squares:
+            best = chosen, found
+    assert best is not None
+    return best

@@ -1,0 +1,185 @@
+"""Recordings that fit their scenario raise no serious doubt; sabotaged ones raise the right one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cosim.scenario import Scenario, load_scenario
+from diagnosis.check.check import check_recordings
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import load_recording
+from tests.check import rig
+
+
+@pytest.fixture(scope="module")
+def scenario() -> Scenario:
+    return load_scenario("tclab")
+
+
+def doubts(scenario: Scenario, *folders: Path) -> list[Doubt]:
+    return list(check_recordings(scenario, [load_recording(f) for f in folders]))
+
+
+def serious(scenario: Scenario, *folders: Path) -> list[tuple[str, str]]:
+    return [(d.kind, d.subject) for d in doubts(scenario, *folders) if d.is_serious]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_missing_physics_and_wrong_numbers_are_no_doubt(scenario: Scenario, tmp_path: Path, seed: int) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST, seed))
+    b = rig.write(tmp_path / "b", rig.SECOND, rig.readings(rig.SECOND, seed + 10))
+    assert doubts(scenario, a, b) == []
+
+
+def test_programme_of_another_day(scenario: Scenario, tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.FIRST))
+    b = rig.write(tmp_path / "b", rig.FIRST, rig.readings(rig.SECOND))
+    found = [d for d in doubts(scenario, a, b) if d.is_serious]
+    assert {(d.kind, d.recording) for d in found} == {("other run", "a"), ("other run", "b")}
+    assert "the programme of `b` explains" in next(d for d in found if d.recording == "a").statement
+
+
+def test_scenario_s_programme_is_not_what_was_done(scenario: Scenario, tmp_path: Path) -> None:
+    pulse = ((0.0, 0.0, 0.0), (60.0, 1.0, 1.0), (150.0, 0.0, 0.0), (300.0, 1.0, 1.0), (350.0, 0.0, 0.0))
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(pulse))
+    assert [kind for kind, _ in serious(scenario, a)] == ["programme"]
+
+
+def test_exchanged_columns(scenario: Scenario, tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)[:, ::-1])
+    assert serious(scenario, a) == [("swapped", "coil[1].temperature, coil[2].temperature")]
+
+
+def test_alike_driven_channels_cannot_be_told_apart(scenario: Scenario, tmp_path: Path) -> None:
+    both = tuple((t, p, p) for t, p, _ in rig.FIRST)
+    values = rig.readings(both)
+    values[:, 0] = 21.0 + 1.3 * (values[:, 0] - 21.0)  # so they are not equal
+    a = rig.write(tmp_path / "a", both, values[:, ::-1])
+    assert serious(scenario, a) == []
+
+
+@pytest.mark.parametrize(
+    ("stated", "factor", "offset"),
+    [("degC", 1.8, 32.0), ("degC", 1.0, 273.15), ("K", 1.0, 0.0)],
+    ids=["degF written", "K written", "degC written"],
+)
+def test_unit_of_a_column(scenario: Scenario, tmp_path: Path, stated: str, factor: float, offset: float) -> None:
+    values = factor * rig.readings(rig.FIRST) + offset
+    a = rig.write(tmp_path / "a", rig.FIRST, values, channel={"unit": stated})
+    found = [d for d in doubts(scenario, a) if d.is_serious]
+    assert [(d.kind, d.subject) for d in found] == [("unit", f"coil[{k}].temperature") for k in (1, 2)]
+    right = {32.0: "degF", 273.15: "K", 0.0: "degC"}[offset]
+    assert f"as `unit: {right}` they are of its size" in found[0].statement
+
+
+def test_turned_over(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    values[:, 0] = 42.0 - values[:, 0]
+    assert ("sign", "coil[1].temperature") in serious(scenario, rig.write(tmp_path / "a", rig.FIRST, values))
+
+
+@pytest.mark.parametrize("late", [-40.0, 60.0])
+def test_a_clock_that_is_off(scenario: Scenario, tmp_path: Path, late: float) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + late)
+    (found,) = [d for d in doubts(scenario, a) if d.is_serious]
+    assert found.kind == "dead time"
+    assert f"{'later' if late > 0 else 'earlier'} than its programme" in found.statement
+
+
+def test_a_clock_within_its_stated_bound_is_no_doubt(scenario: Scenario, tmp_path: Path) -> None:
+    clock = {"column": "time", "zero": 0, "offset_bound": "70 s"}
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + 60.0, time=clock)
+    assert serious(scenario, a) == []
+
+
+def test_milliseconds_taken_for_seconds(scenario: Scenario, tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() * 1000.0)
+    (found,) = [d for d in doubts(scenario, a) if d.is_serious]
+    assert (found.kind, found.subject) == ("clock", "time")
+    assert "with ms taken for s corrected" in found.statement
+
+
+def test_minutes_stated_as_seconds(scenario: Scenario, tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() / 60.0)
+    (found,) = [d for d in doubts(scenario, a) if d.is_serious]
+    assert "with min taken for s corrected" in found.statement
+
+
+@pytest.mark.parametrize("size", [0.6, -3.0])
+def test_a_sensor_that_is_off_for_a_while(scenario: Scenario, tmp_path: Path, size: float) -> None:
+    values = rig.readings(rig.FIRST)
+    values[90:150, 1] += size
+    (found,) = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
+    assert (found.kind, found.subject, found.begin, found.end) == ("sensor", "coil[2].temperature", 180.0, 298.0)
+
+
+def test_several_faults_at_once(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    values[40:70, 0] += 2.0
+    values[200:230, 0] -= 2.5
+    values[80:110, 1] = values[80, 1]
+    found = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
+    stretches = {(d.subject, d.begin, d.end) for d in found}
+    assert stretches == {
+        ("coil[1].temperature", 80.0, 138.0),
+        ("coil[1].temperature", 400.0, 458.0),
+        ("coil[2].temperature", 160.0, 218.0),
+    }
+    assert "the sensor stood still" in next(d for d in found if "[2]" in d.subject).statement
+
+
+def test_rounded_readings_at_rest_are_not_stuck(scenario: Scenario, tmp_path: Path) -> None:
+    values = np.round(rig.temperatures(rig.FIRST) / 0.5) * 0.5
+    a = rig.write(tmp_path / "a", rig.FIRST, values, channel={"noise": "0.15 K", "quantum": "0.5 K"})
+    assert serious(scenario, a) == []
+
+
+def test_wild_reading_and_gap_are_notes(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    values[100, 0] += 8.0
+    values[180:220, 1] = np.nan
+    found = doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values))
+    assert not any(d.is_serious for d in found)
+    texts = {d.subject: d.statement for d in found}
+    assert "one reading is far from both neighbours, the farthest at 200 s by 8" in texts["coil[1].temperature"]
+    assert "no readings from 358 to 440 s" in texts["coil[2].temperature"]
+
+
+@pytest.mark.parametrize(("stated", "word"), [("0.008 K", "times more"), ("0.8 K", "times less")])
+def test_noise_as_stated(scenario: Scenario, tmp_path: Path, stated: str, word: str) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), channel={"noise": stated})
+    found = [d for d in doubts(scenario, a) if d.kind == "noise"]
+    assert [d.subject for d in found] == ["coil[1].temperature", "coil[2].temperature"]
+    assert all(word in d.statement and not d.is_serious for d in found)
+
+
+def test_start_of_one_coil(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    values[:, 1] += 3.0
+    found = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.kind == "start"]
+    assert [(d.subject, d.is_serious) for d in found] == [("coil[2].temperature", False)]
+    assert "begins at 24" in found[0].statement
+    assert "where 21 degC is simulated" in found[0].statement
+
+
+def test_order_of_recordings_and_channels_changes_nothing(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    values[90:150, 1] += 2.0
+    a = rig.write(tmp_path / "a", rig.FIRST, values)
+    b = rig.write(tmp_path / "b", rig.SECOND, rig.readings(rig.SECOND))
+    assert doubts(scenario, a, b) == doubts(scenario, b, a)
+
+
+def test_results_that_are_known_are_not_simulated_again(scenario: Scenario, tmp_path: Path, monkeypatch: Any) -> None:
+    from cosim.run import run
+    from diagnosis.check import beside
+    from diagnosis.recording.conditions import scenario_of
+
+    recording = load_recording(rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)))
+    results = run(scenario_of(scenario, recording))
+    monkeypatch.setattr(beside, "run", None)
+    assert check_recordings(scenario, [recording], {str(recording.path): results}) == ()

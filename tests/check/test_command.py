@@ -1,0 +1,65 @@
+"""`cosim recording check`: what is printed, the page, exit codes."""
+
+from __future__ import annotations
+
+import base64
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from cosim.cli import app
+from cosim.errors import InputError
+from tests.check import rig
+
+
+def check(*arguments: str) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["recording", "check", *arguments], catch_exceptions=False, env={"COLUMNS": "200"})
+    return result.exit_code, result.output
+
+
+def test_no_doubt_is_exit_code_0_and_a_page(tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
+    page = tmp_path / "page.html"
+    code, text = check(str(a), "--scenario", "tclab", "--out", str(page))
+    assert code == 0
+    assert "No serious doubt. That is no statement about the model" in text
+    assert re.search(r"coil\[2\]\.temperature +300 +0 to 598 +0\.08 / 0\.0[789]", text)
+    assert "drive.power_1: programme, 0 to 1 W, switches at 10, 250, 430 s" in text
+    html = page.read_text()
+    (picture,) = re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html)
+    svg = base64.b64decode(picture).decode()
+    assert "http" not in html.replace("http://www.w3.org", "")
+    assert svg.count("<!-- measured -->") == svg.count("<!-- simulated -->") == 2
+
+
+def test_serious_doubt_is_exit_code_1_with_its_remedy(tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)[:, ::-1])
+    code, text = check(str(a), "--scenario", "tclab")
+    assert code == 1
+    assert "`coil[1].temperature` reads like `coil[2].temperature`" in text
+    assert "-> are the columns, or the wires, exchanged?" in text
+    assert text.rstrip().endswith("1 serious doubt: settle it first.")
+
+
+def test_a_fabric_is_not_simulated_and_the_page_says_so(tmp_path: Path) -> None:
+    folder = tmp_path / "f"
+    folder.mkdir()
+    times = np.arange(0.0, 40.0, 1.0)
+    rows = "\n".join(f"{t},{0.1 + 0.001 * (n % 7)}" for n, t in enumerate(times))
+    (folder / "data.csv").write_text("time,kappa\n" + rows)
+    (folder / "recording.yaml").write_text(
+        "title: f\ntable: data.csv\nchannels:\n  fabric.max_curvature: {column: kappa, unit: 1/cm}\n"
+    )
+    code, text = check(str(folder), "--scenario", "passive_drape")
+    assert code == 0
+    assert "a fabric in Bullet takes minutes to simulate: only the readings by themselves were looked at" in text
+    assert "they were not compared with a simulation" in text
+
+
+def test_page_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "page.html").write_text("mine")
+    with pytest.raises(InputError, match="this file exists already"):
+        check(str(tmp_path), "--scenario", "tclab", "--out", str(tmp_path / "page.html"))
