@@ -182,7 +182,7 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
                     "other run",
                     "inputs" if compared.recording.inputs else "overrides",
                     f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
-                    f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
+                    f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides`, `inputs`",
                     together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
                     _shares(mine),
                     _shares(theirs),
