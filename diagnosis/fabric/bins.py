@@ -33,8 +33,7 @@ class Binning:
         self.plain_names = [c.name for c in self._channels]
         named = labels(recordings)
         self.names = [
-            c.name if len(recordings) == 1 else f"{c.name} ({named[n]})"
-            for c, n in zip(self._channels, number_of)
+            c.name if len(recordings) == 1 else f"{c.name} ({named[n]})" for c, n in zip(self._channels, number_of)
         ]
         kinds = [(c.target.kind, c.target.quantity) for c in self._channels]
         known = {kind: i for i, kind in enumerate(dict.fromkeys(kinds))}
