@@ -59,6 +59,8 @@ class TermParameter:
             along it.
         is_instant: An instant of the recording.
         negligible: Size of a strength below which it is no finding.
+        plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
+        plausible_reason: Why.
     """
 
     name: str
@@ -69,6 +71,8 @@ class TermParameter:
     is_switch: bool = False
     is_instant: bool = False
     negligible: float = 0.0
+    plausible: float = math.inf
+    plausible_reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -176,4 +180,5 @@ def strength_slopes(
     start = model.residuals([point])[0] if here is None else here
     points = [point.plus(term, values) for term, values in tasks]
     strengths = np.array([values[0] for _, values in tasks])
-    return np.asarray((model.residuals(points) - start) / strengths[:, None])
+    with np.errstate(over="ignore", invalid="ignore"):  # what runs away is not finite, as the result may be
+        return np.asarray((model.residuals(points) - start) / strengths[:, None])
