@@ -87,7 +87,7 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
 def switch_doubts(compared: Compared) -> list[Doubt]:
     """At most one doubt: the readings change at other instants than the programme.
 
-    To be asked where no explanation is found that something is known of: another run, a clock, exchanged columns, a sign.
+    To be asked where no known explanation is found: another run, a clock, exchanged columns, a sign.
     """
     leads = leading(compared)
     if not leads or not len(compared.switches()):

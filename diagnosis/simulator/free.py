@@ -13,14 +13,9 @@ from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import coil_label
 from diagnosis.bank.sensitivities import Direction
-<<<<<<< HEAD
-from diagnosis.search.problem import MOST_FOLD, Parameter
+from diagnosis.search.problem import Parameter
 from diagnosis.search.shares import own_label
 from diagnosis.simulator.priors import DailyPriors, Prior, matters
-=======
-from diagnosis.search.problem import Parameter
-from diagnosis.simulator.priors import Prior, matters
->>>>>>> recording
 
 #: Both branches of the stiffness moved along the temperature; no field of the bank.
 SHIFTS: Mapping[str, tuple[str, ...]] = {
