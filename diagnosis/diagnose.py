@@ -34,7 +34,7 @@ from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.biased import with_biases
-from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.models import DiagnosisModel, model_of, timeline_of
 from diagnosis.simulator.unit_laws import identifiers
 
 
@@ -114,7 +114,10 @@ def diagnose(
     begin = clock.perf_counter()
     known = means.catalogue()
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
-    judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
+    judge = None
+    if held_out:
+        placed = timeline_of(model)
+        judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches, placed)
     is_fast = isinstance(model, BankModel)
     if isinstance(model, FabricModel):
         outcome = search_fabric(model, settings, on_progress)

@@ -14,6 +14,8 @@ PlaceKind = Literal[
 ]
 Axis = Literal["coil", "string", "source", "channel"]
 StateKind = Literal["continuous", "memory", "shared"]
+#: `rig`: what sets in lasts, in later recordings too. `day`: it belongs to one day, and other days do not have it.
+Scope = Literal["rig", "day"]
 
 #: Hooks over one axis each, in the order in which a step comes to them.
 HOOK_AXES: Mapping[str, Axis] = {
@@ -54,7 +56,7 @@ class Parameter:
 
     @property
     def is_instant(self) -> bool:
-        """Whether it is an instant, for which start values are to be spread over the recording."""
+        """Whether it is an instant, for which start values are to be spread over the recordings."""
         return self.name == "instant"
 
     def __post_init__(self) -> None:
@@ -106,6 +108,9 @@ class CandidateTerm:
         keeps_sums: A sensor that is linear in the signal of its own channel: a sum passes it as its parts do.
         same_as: A named candidate with the same law: this one is tried only where that is not in the catalogue.
         rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
+        scope: Whether what sets in at an instant lasts in later recordings, or belongs to the day in which it sets in;
+            of an effect without an instant, whether it may be there on one day alone.
+        scope_reason: Why; needed where it has an instant or belongs to a day.
     """
 
     identifier: str
@@ -123,6 +128,8 @@ class CandidateTerm:
     keeps_sums: bool = False
     same_as: str = ""
     rank: int = 0
+    scope: Scope = "rig"
+    scope_reason: str = ""
 
     def __post_init__(self) -> None:
         unknown = sorted(set(self.lines) - set(HOOK_AXES))
@@ -132,6 +139,8 @@ class CandidateTerm:
             raise ValueError(f"{self.identifier}: its hooks lie on different axes; make two candidates")
         if [p.is_amplitude for p in self.parameters] != [True] + [False] * (len(self.parameters) - 1):
             raise ValueError(f"{self.identifier}: its first parameter, and it alone, must be the amplitude")
+        if (self.scope == "day" or any(p.is_instant for p in self.parameters)) and not self.scope_reason:
+            raise ValueError(f"{self.identifier}: say why it lasts, or why it belongs to one day (scope_reason)")
 
     @property
     def axis(self) -> Axis:

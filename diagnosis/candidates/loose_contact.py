@@ -12,7 +12,7 @@ CANDIDATE = CandidateTerm(
         Parameter(
             "R_contact", "ohm", 0.0, 10000.0, "passive: a contact gives no energy", (0.3, 1.0, 10.0), is_amplitude=True
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("string",),
     lines={
@@ -23,4 +23,5 @@ CANDIDATE = CandidateTerm(
         "open_coil": "a partly open coil: its own heat or resistance decides",
         "contact_resistance": "the part before the instant decides",
     },
+    scope_reason="a contact that came loose stays so until somebody tightens it",
 )

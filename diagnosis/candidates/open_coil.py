@@ -18,7 +18,7 @@ CANDIDATE = CandidateTerm(
             (1.0, 0.9, 0.5),
             is_amplitude=True,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("coil",),
     lines={
@@ -29,4 +29,5 @@ CANDIDATE = CandidateTerm(
         "loose_contact": "voltage across the coil, or its heat where the break is partial, decides",
         "open_coil": "another coil of the same string: never from currents and temperatures after a clean break",
     },
+    scope_reason="a wire that broke does not mend by itself",
 )

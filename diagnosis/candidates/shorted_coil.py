@@ -10,7 +10,7 @@ CANDIDATE = CandidateTerm(
     source="Bridge in a series circuit (Kirchhoff's laws)",
     parameters=(
         Parameter("bridged", "1", 0.0, 1.0, "share of the turns that are bridged", (1.0, 0.5, 0.2), is_amplitude=True),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("coil",),
     lines={
@@ -20,4 +20,5 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "base:reference_resistance": "the part before the instant decides",
     },
+    scope_reason="turns or crimps that touch stay so until somebody parts them",
 )

@@ -21,7 +21,9 @@ _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 _EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
 _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 500.0))
 _COOLING = Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
-_INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
+_INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,))
+#: What changes a heat balance at once comes from outside (a fan, a lamp, the sun); what changes in a circuit is a fault.
+_OF_DAY, _OF_RIG = "heat from the surroundings is of that day", "a fault of a circuit stays until somebody mends it"
 
 
 #: Generic terms whose law is that of a named candidate.
@@ -51,12 +53,13 @@ def _term(
     places: tuple[PlaceKind, ...] = _LOCAL, states: tuple[State, ...] = (),
 ) -> CandidateTerm:  # fmt: skip
     unit, name, words = identity
+    reason = "" if _INSTANT not in parameters else _OF_DAY if unit == "thermal" else _OF_RIG
     equation = name.split("_", 1)[0]
     return CandidateTerm(
         identifier=f"unnamed_{name}", name=f"unnamed term in {equation}: {words}", unit=unit, law=law, source=_SOURCE,
         parameters=parameters, places=places, lines=lines,
         signature=f"What is missing in {equation} follows {words}.", states=states, is_named=False,
-        same_as=_SAME.get(name, ""),
+        same_as=_SAME.get(name, ""), scope="day" if reason == _OF_DAY else "rig", scope_reason=reason,
     )  # fmt: skip
 
 

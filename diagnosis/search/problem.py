@@ -54,8 +54,9 @@ class TermParameter:
         starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
         is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
             along it.
-        is_instant: An instant of the recording.
+        is_instant: An instant of the recordings laid end to end (`diagnosis.simulator.timeline`).
         negligible: Size of a strength below which it is no finding.
+        scan: Instants from which a fit may begin; empty: evenly spread within the bounds.
     """
 
     name: str
@@ -66,6 +67,7 @@ class TermParameter:
     is_switch: bool = False
     is_instant: bool = False
     negligible: float = 0.0
+    scan: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
