@@ -22,7 +22,7 @@ _EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
 _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", (5.0, 1.0, 20.0, 500.0))
 _COOLING = Parameter("a", "W", -0.2, 2.0, "cooling stays cooling", (0.01, -0.01, 0.05, -0.05), is_amplitude=True)
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,))
-#: What changes a heat balance at once comes from outside (a fan, a lamp, the sun); what changes in a circuit is a fault.
+#: What changes a heat balance at once comes from outside (a fan, the sun); what changes in a circuit is a fault.
 _OF_DAY, _OF_RIG = "heat from the surroundings is of that day", "a fault of a circuit stays until somebody mends it"
 
 

@@ -245,8 +245,8 @@ class BankModel:
             absent, probes = self._probes(tasks, self.seats[number])
             own = slice(begin, begin + run.count)
             found[absent, own] = 0.0
-            for (identifier, values), places in probes.items():
-                members = list(places.values())
+            for (identifier, values), at_places in probes.items():
+                members = list(at_places.values())
                 term = tasks[members[0][0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
                 at = [self._places[tasks[same[0]][0]][1] for same in members]

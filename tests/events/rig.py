@@ -49,11 +49,16 @@ def scenario() -> Scenario:
 
 def coil(number: int, value: float = 1.0) -> Array:
     """A value at one coil of four, from 1."""
-    return value * np.eye(4)[number - 1]
+    return np.asarray(value * np.eye(4)[number - 1])
 
 
 def open_coil(number: int, instant: float) -> Terms:
     return {"open_coil": {"openness": coil(number), "instant": instant}}
+
+
+def loose_contact(instant: float) -> Terms:
+    """1.5 ohm in the second string."""
+    return {"loose_contact": {"R_contact": np.array([0.0, 1.5]), "instant": instant}}
 
 
 def draught(amount: float, instant: float) -> Terms:

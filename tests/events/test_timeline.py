@@ -23,7 +23,7 @@ def timeline(*orders: int | None, days: tuple[str, ...] = ("", "", "")) -> Timel
     return Timeline.of(given, SPANS)
 
 
-def test_recordings_follow_each_other_without_gaps_as_given():
+def test_recordings_follow_each_other_without_gaps_as_given() -> None:
     line = timeline()
     assert [s.position for s in line.seats] == [0.0, 60.0, 110.0]
     assert (line.begin, line.end) == (0.0, 174.0)
@@ -33,13 +33,13 @@ def test_recordings_follow_each_other_without_gaps_as_given():
     assert line.place(174.0) == (2, 64.0)
 
 
-def test_one_recording_keeps_its_own_clock():
+def test_one_recording_keeps_its_own_clock() -> None:
     line = Timeline.of([recording("r")], [(10.0, 60.0)])
     assert (line.begin, line.end) == (10.0, 60.0)
     assert line.seats[0].local(23.0) == 23.0
 
 
-def test_what_sets_in_lasts_in_later_recordings_and_is_not_there_before():
+def test_what_sets_in_lasts_in_later_recordings_and_is_not_there_before() -> None:
     first, second, third = timeline().seats
     line = timeline()
     assert line.local(70.0, first, lasts=True) is None
@@ -48,26 +48,26 @@ def test_what_sets_in_lasts_in_later_recordings_and_is_not_there_before():
     assert line.local(line.end, third, lasts=True) is None
 
 
-def test_what_belongs_to_a_day_is_in_no_other_recording():
+def test_what_belongs_to_a_day_is_in_no_other_recording() -> None:
     line = timeline()
     assert [line.local(70.0, s, lasts=False) for s in line.seats] == [None, 20.0, None]
 
 
-def test_a_day_of_two_recordings_keeps_what_set_in_within_the_first():
+def test_a_day_of_two_recordings_keeps_what_set_in_within_the_first() -> None:
     line = timeline(days=("", "monday", "monday"))
     assert [line.local(70.0, s, lasts=False) for s in line.seats] == [None, 20.0, -ASIDE]
     assert line.days == (Day("", 0), Day("monday"))
     assert [d.label for d in line.days] == ["in recording 1", "on day monday"]
 
 
-def test_the_order_that_recordings_say_counts():
+def test_the_order_that_recordings_say_counts() -> None:
     line = timeline(3, 1, 2)
     assert line.order == (1, 2, 0)
     assert [s.position for s in line.seats] == [124.0, 10.0, 60.0]
     assert line.place(124.0) == (0, 0.0)
 
 
-def test_recordings_held_out_come_last_or_where_they_say():
+def test_recordings_held_out_come_last_or_where_they_say() -> None:
     line = timeline(1, 2, 4)
     late, between, early = line.others(
         [recording("a"), recording("b", order=3), recording("c", order=0)], [(0.0, 50.0)] * 3
@@ -79,7 +79,7 @@ def test_recordings_held_out_come_last_or_where_they_say():
     assert line.local(118.0, late, lasts=False) is None
 
 
-def test_a_recording_held_out_of_the_same_day_has_what_belongs_to_it():
+def test_a_recording_held_out_of_the_same_day_has_what_belongs_to_it() -> None:
     line = timeline(days=("", "", "monday"))
     (same,) = line.others([recording("a", day="monday")], [(0.0, 50.0)])
     assert line.local(118.0, same, lasts=False) == -ASIDE
@@ -90,7 +90,7 @@ def test_a_recording_held_out_of_the_same_day_has_what_belongs_to_it():
     ("orders", "said"),
     [((1, None, 2), "is missing here"), ((1, 2, 2), "is 2, as in r1")],
 )
-def test_an_order_that_is_not_clear_is_refused(orders: tuple[int | None, ...], said: str):
+def test_an_order_that_is_not_clear_is_refused(orders: tuple[int | None, ...], said: str) -> None:
     with pytest.raises(InputError, match=said) as error:
         timeline(*orders)
     assert error.value.key == "order"
@@ -98,7 +98,7 @@ def test_an_order_that_is_not_clear_is_refused(orders: tuple[int | None, ...], s
     assert error.value.remedy
 
 
-def test_a_place_that_is_taken_or_not_comparable_is_refused():
+def test_a_place_that_is_taken_or_not_comparable_is_refused() -> None:
     with pytest.raises(InputError, match="is given here and not in the recordings that are fitted"):
         timeline().others([recording("a", order=2)], [(0.0, 50.0)])
     with pytest.raises(InputError, match="is 2, as in r1"):
