@@ -77,7 +77,8 @@ def instant_interval(term: Term, fit: Fit, model: DiagnosisModel, doubt: float =
     While nothing is driven a break at one instant is as good as at any other, and the curvature there says nothing. So
     instants farther and farther away are tried, everything else as fitted: the interval ends at the first that raises
     -2 log posterior by more than the 95 % point of chi-square with one degree of freedom (likelihood ratio; S. S.
-    Wilks, Ann. Math. Statist. 9 (1938) 60-62). It is wider than that by at most the distance of two instants that are tried.
+    Wilks, Ann. Math. Statist. 9 (1938) 60-62). It is wider than that by at most the distance of two instants that are
+    tried.
 
     Args:
         term: A term of the fit.
