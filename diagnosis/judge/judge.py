@@ -8,6 +8,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
+from diagnosis.judge.events import event_of, local_estimates
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
@@ -108,17 +109,20 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
     bends = {t.identifier for e in outcome.rivals if bends_into(e, outcome.best) for t in e.terms if not t.is_named}
     near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
+    doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
+    since = "" if event is None else f", at {event.statement}"
+    found = estimates(fit, term, doubt, model.unseen(term))
     return Finding(
         unit=term.unit,
         place=place.label,
         elements=_elements(model, term),
-        intervals=_intervals(model, effect),
+        intervals=_intervals(model, effect) if event is None else ((event.seconds, event.end),),
         channels=_channels(model, effect),
         effect=term.identifier,
         is_named=term.is_named and is_trusted(outcome) and not is_limiting_case(fit, term),
-        statement=f"{candidate.name}, {place.label}",
+        statement=f"{candidate.name}, {place.label}{since}",
         law=candidate.law,
-        parameters=estimates(fit, term, _doubt(outcome), model.unseen(term)),
+        parameters=local_estimates(found, term, fit, model, doubt),
         gain=outcome.best.gains.get(term, 0.0),
         probability=probability,
         ambiguous_with=tuple(sorted({a.effect for a in near if a.effect != term.identifier})),
