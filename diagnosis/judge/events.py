@@ -104,6 +104,31 @@ def instant_interval(term: Term, fit: Fit, model: DiagnosisModel, doubt: float =
     return ends[0], ends[1]
 
 
+def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0) -> str:
+    """When a fitted term sets in, for people, as sharply as the recordings tell it; empty for one without an instant.
+
+    `at 8.0 s of recording stairs`, `between 7.6 and 8.4 s of recording stairs`, or
+    `between 43.8 s of recording levels and 3.2 s of recording stairs`.
+
+    Args:
+        term: A term of the fit.
+        fit: Of the recordings.
+        model: Their model.
+        doubt: As in `instant_interval`.
+    """
+    timeline, interval = timeline_of(model), instant_interval(term, fit, model, doubt)
+    if timeline is None or interval is None:
+        return ""
+    (first, begin), (last, end) = (timeline.place(joint) for joint in interval)
+    titles = [f"recording {timeline.recordings[n].title}" for n in (first, last)]
+    texts = [f"{begin:.1f}", f"{end:.1f}"]
+    if first != last:
+        return f"between {texts[0]} s of {titles[0]} and {texts[1]} s of {titles[1]}"
+    if texts[0] == texts[1]:
+        return f"at {texts[0]} s of {titles[0]}"
+    return f"between {texts[0]} and {texts[1]} s of {titles[0]}"
+
+
 def local_estimates(
     estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
 ) -> tuple[Estimate, ...]:  # fmt: skip

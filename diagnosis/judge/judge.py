@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Alternative, Estimate, Finding, Verdict
-from diagnosis.judge.events import event_of, local_estimates
+from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Point, Term
@@ -110,7 +110,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
     near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
-    since = "" if event is None else f", at {event.statement}"
+    when = since(term, fit, model, doubt)
     found = estimates(fit, term, doubt, model.unseen(term))
     return Finding(
         unit=term.unit,
@@ -120,7 +120,7 @@ def _finding(model: DiagnosisModel, outcome: Outcome, term: Term) -> Finding:
         channels=_channels(model, effect),
         effect=term.identifier,
         is_named=term.is_named and is_trusted(outcome) and not is_limiting_case(fit, term),
-        statement=f"{candidate.name}, {place.label}{since}",
+        statement=f"{candidate.name}, {place.label}" + (f", {when}" if when else ""),
         law=candidate.law,
         parameters=local_estimates(found, term, fit, model, doubt),
         gain=outcome.best.gains.get(term, 0.0),

@@ -21,12 +21,12 @@ from proving.truth import Truth
 SCENARIOS = Path(__file__).resolve().parents[2] / "proving" / "scenarios"
 
 
-def open_coil(setup: str, string: int, place: int, instant: float) -> Effect:
-    """A coil that is open from an instant on."""
+def open_coil(setup: str, string: int, place: int, instant: float, openness: float = 0.8) -> Effect:
+    """A coil that is open in part from an instant on; after a clean break nothing tells which of a string it was."""
     sheet = SETUPS[setup].sheet
     amount = np.zeros(sheet.coils)
     amount[sum(sheet.strings[: string - 1]) + place - 1] = 1.0
-    return OpenCoil(Place("coil", ((string, place),), amount), {"openness": 1.0, "instant": instant})
+    return OpenCoil(Place("coil", ((string, place),), amount), {"openness": openness, "instant": instant})
 
 
 def draught(setup: str, amount: float, instant: float) -> Effect:

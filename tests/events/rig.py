@@ -52,8 +52,8 @@ def coil(number: int, value: float = 1.0) -> Array:
     return np.asarray(value * np.eye(4)[number - 1])
 
 
-def open_coil(number: int, instant: float) -> Terms:
-    return {"open_coil": {"openness": coil(number), "instant": instant}}
+def open_coil(number: int, instant: float, openness: float = 1.0) -> Terms:
+    return {"open_coil": {"openness": coil(number, openness), "instant": instant}}
 
 
 def loose_contact(instant: float) -> Terms:
