@@ -37,7 +37,7 @@ from diagnosis.search.problem import Point
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
 from diagnosis.simulator.biased import with_biases
-from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.models import DiagnosisModel, model_of, timeline_of
 from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
 
@@ -113,7 +113,10 @@ def diagnose(
     begin = clock.perf_counter()
     known = means.catalogue()
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
-    judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
+    judge = None
+    if held_out:
+        placed = timeline_of(model)
+        judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches, placed)
     outcome, model, judge = _searched(model, judge, settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)

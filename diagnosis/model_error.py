@@ -32,8 +32,6 @@ MANY = 1_000_000
 WEIGHED = 4
 #: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
 EXCHANGED = 4
-#: Parameters of laws that belong to one recording: another day has another draught and another drift.
-OF_A_DAY = ("instant", "drift")
 
 
 def search_with_model_error(
@@ -162,16 +160,16 @@ def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
     for term in terms:
         spot = model.where(term)[1]
         mask = getattr(spot, "mask", None)
-        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes())
+        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes(), getattr(spot, "day", None))
         found.setdefault(key, term)
     return list(found.values())
 
 
 def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
-    """Laws with a name that hold on any day, and faults of sensors that a recording itself says may be there.
+    """Laws with a name that hold at any time, and faults of sensors that a recording itself says may be there.
 
-    Where much is left unexplained, an event at some instant, a drift, a term without a name or a sensor under suspicion
-    without a reason fills any gap; none of them says anything about another recording.
+    Where much is left unexplained, an event at some instant, what belongs to one day (a drift), a term without a name
+    or a sensor under suspicion without a reason fills any gap; none of them says anything about another recording.
     """
     channels = [s.channel for run in model.runs for s in run.series]
     stated = {
@@ -183,7 +181,8 @@ def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
         t
         for t in terms
         if t.is_named
-        and all(p.name not in OF_A_DAY for p in t.parameters)
+        and not any(p.is_instant for p in t.parameters)
+        and getattr(model.where(t)[0], "scope", "rig") == "rig"
         and (t.unit != "measurement" or stated.get(t.identifier, False))
     ]
 

@@ -185,6 +185,7 @@ class Bench:
         """A model of other runs; candidates, parameters and the compiled bank are shared."""
         other = copy.copy(self.model)
         other.runs = runs
+        other.seats = (self.model.timeline.afterwards,) * len(runs)
         series = [s for run in runs for s in run.series]
         channel = np.concatenate([np.full(len(s.samples), n) for n, s in enumerate(series)])
         time = np.concatenate([s.times for s in series])
@@ -192,11 +193,8 @@ class Bench:
         return other
 
     def _restarted(self, point: Point) -> Point:
-        """The same on another day: its own ambient, and what broke once stays broken."""
-        begin = self.model.runs[0].translation.start
-        terms = {t: tuple(begin if p.name == "instant" else v for p, v in zip(t.parameters, values))
-                 for t, values in point.terms.items()}  # fmt: skip
-        return Point(np.where(self._daily, 0.0, point.base), terms)
+        """The same on another day: its own ambient. What broke once stays broken (`Timeline.afterwards`)."""
+        return Point(np.where(self._daily, 0.0, point.base), point.terms)
 
     def _spread(self, belief: Belief) -> Array:
         """Covariance of the parameters before another experiment: those of a day are as uncertain as ever."""

@@ -59,7 +59,7 @@ def read_data(case: Path) -> Data:
     training = tuple(load_recording(case / n) for n in task.training)
     held_out = tuple(load_recording(case / n) for n in task.held_out)
     model = BankModel(scenario, training, catalogue(), threads=1)
-    judge = BankModel(scenario, held_out, catalogue(), threads=1)
+    judge = BankModel(scenario, held_out, catalogue(), threads=1, timeline=model.timeline)
     return Data(case, model, judge, training, held_out, read_rig(case))
 
 

@@ -30,7 +30,7 @@ ROUGH = 0.03
 OUTDONE = 1.6
 #: Equations of which a generic law is fitted all the same where what is best leaves structure.
 EQUATIONS = 3
-#: Instants from which a fit may begin.
+#: Instants from which a fit may begin where the model does not say which.
 INSTANTS = 40
 #: How far from where a fit ended its instants are tried [s].
 LATE = (-3.0, -2.0, -1.4, -1.0, -0.7, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0)
@@ -215,7 +215,9 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
 
 
 def _instants(parameter: TermParameter, _: float = 0.0) -> list[float]:
-    """Instants within the bounds of one [s], evenly spread, wherever it is."""
+    """Instants to try for one [s], wherever it is: those that the model gives, else evenly spread within its bounds."""
+    if parameter.scan:
+        return list(parameter.scan)
     return [float(v) for v in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]]
 
 

@@ -57,10 +57,11 @@ class TermParameter:
         starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
         is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
             along it.
-        is_instant: An instant of the recording.
+        is_instant: An instant of the recordings laid end to end (`diagnosis.simulator.timeline`).
         negligible: Size of a strength below which it is no finding.
         plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
         plausible_reason: Why.
+        scan: Instants from which a fit may begin; empty: evenly spread within the bounds.
     """
 
     name: str
@@ -73,6 +74,7 @@ class TermParameter:
     negligible: float = 0.0
     plausible: float = math.inf
     plausible_reason: str = ""
+    scan: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from diagnosis.simulator.free import FreeSet, directions, free_parameters, senso
 from diagnosis.simulator.priors import daily_priors, own_priors, stated_priors
 from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
 from diagnosis.simulator.term_at import term_at
+from diagnosis.simulator.timeline import Seat, Timeline
 from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
@@ -43,15 +44,17 @@ class BankModel:
         recordings: Training recordings.
         catalogue: Candidate terms that are compiled in.
         threads: Threads that share simulations.
+        timeline: Recordings that were fitted, where these are others: terms have their instants on its axis.
 
     Raises:
         NoBank: The scenario is none for a bank.
-        InputError: A recording does not fit the scenario.
+        InputError: A recording does not fit the scenario, or the recordings do not say their order clearly.
     """
 
     def __init__(
-        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 1
-    ) -> None:
+        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 1,
+        timeline: Timeline | None = None,
+    ) -> None:  # fmt: skip
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
@@ -61,6 +64,10 @@ class BankModel:
         self.bank = Bank(translations[0].layout, catalogue)
         self._candidates = {t.identifier: t for t in catalogue}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
+        spans = [(run.translation.start, max(float(t[-1]) for t in run.times.values())) for run in self.runs]
+        self.timeline = Timeline.of(recordings, spans) if timeline is None else timeline
+        #: Where each recording lies on the joint axis.
+        self.seats = self.timeline.seats if timeline is None else timeline.others(recordings, spans)
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
         nominal = translations[0].parameters.base
         first = translations[0]
@@ -110,9 +117,21 @@ class BankModel:
                     found = [replace(p, fixed={**p.fixed, "noise": self._noise}) for p in found]
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
-                        self._places[term_at(candidate, place, self.coils, self.runs)] = (candidate, place)
+                        for own in self._on_days(candidate, place):
+                            term = term_at(candidate, own, self.coils, self.runs, self.timeline)
+                            self._places[term] = (candidate, own)
                         known.add(place.mask.tobytes())
         return list(self._places)
+
+    def _on_days(self, candidate: CandidateTerm, place: Place) -> list[Place]:
+        """The place, and the same on each day alone for what may belong to a day and has no instant that tells which.
+
+        A room that drifts alike in every recording is a habit of the laboratory: it stays one effect.
+        """
+        days = self.timeline.days
+        if candidate.scope != "day" or len(days) < 2 or any(p.is_instant for p in candidate.parameters):
+            return [place]
+        return [place, *(replace(place, label=f"{place.label} {day.label}", day=day) for day in days)]
 
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:
         """Candidate and place of a term."""
@@ -139,16 +158,52 @@ class BankModel:
 
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""
+        return self._parameters(point.base, self._there(point, self.seats[run]), run)
+
+    def _parameters(self, z: Array, there: Mapping[Term, tuple[float, ...]], run: int) -> BankParameters:
+        """Values of the bank's parameters with the terms that are there, instants on the clock of the recording."""
         base = {**self.runs[run].translation.parameters.base, **self._sensors}
-        self._sets[run].vary(base, point.base)
+        base["cycles_before"] = self.seats[run].cycles_before
+        self._sets[run].vary(base, z)
+        return BankParameters(base, self._arrays(there))
+
+    def _arrays(self, there: Mapping[Term, tuple[float, ...]]) -> dict[str, Mapping[str, float | Array]]:
         terms: dict[str, Mapping[str, float | Array]] = {}
-        for term, values in point.terms.items():
+        for term, values in there.items():
             candidate, place = self._places[term]
             own = place.values(candidate, dict(zip((p.name for p in term.parameters), values)))
             if candidate.identifier in terms:
                 own = merge(candidate, terms[candidate.identifier], own)
             terms[candidate.identifier] = own
-        return BankParameters(base, terms)
+        return terms
+
+    def _there(self, point: Point, seat: Seat) -> dict[Term, tuple[float, ...]]:
+        """Terms that are there in a recording, instants on its own clock."""
+        found = {term: self.local_values(term, values, seat) for term, values in point.terms.items()}
+        return {term: values for term, values in found.items() if values is not None}
+
+    def local_values(self, term: Term, values: Sequence[float], seat: Seat) -> tuple[float, ...] | None:
+        """Values of a term with its instants on the clock of a recording [s].
+
+        Returns:
+            None where the term is not there: it has not set in yet, or it belongs to another day.
+        """
+        candidate, place = self._places[term]
+        if place.day is not None and place.day != seat.day:
+            return None
+        local = []
+        for parameter, value in zip(term.parameters, values):
+            own: float | None = value
+            if parameter.is_instant:
+                own = self.timeline.local(value, seat, candidate.scope == "rig")
+            if own is None:
+                return None
+            local.append(own)
+        return tuple(local)
+
+    def terms_at(self, point: Point, seat: Seat) -> dict[str, Mapping[str, float | Array]]:
+        """Terms of a point as the bank takes them in a recording, without those that are not there."""
+        return self._arrays(self._there(point, seat))
 
     def groups(self) -> dict[str, AnyArray]:
         """Channels that are looked at together: the same quantity in every string, and over all coils."""
@@ -169,12 +224,14 @@ class BankModel:
         found = np.full((len(points), len(self.layout.time)), np.inf)
         begin = 0
         for number, run in enumerate(self.runs):
-            for group in _by_terms(points):
-                parameters = [self.bank_parameters(points[i], number) for i in group]
-                for i, row in zip(group, self._simulate(run, parameters)):
+            there = [self._there(p, self.seats[number]) for p in points]
+            for group in _by_terms(there):
+                alike = _alike(points, there, group)
+                parameters = [self._parameters(points[i].base, there[i], number) for i, *_ in alike]
+                for members, row in zip(alike, self._simulate(run, parameters)):
                     own = None if row is None else run.residuals(row[None])[0]
                     if own is not None and np.isfinite(own).all():
-                        found[i, begin : begin + run.count] = own
+                        found[members, begin : begin + run.count] = own
             begin += run.count
         return found
 
@@ -186,17 +243,18 @@ class BankModel:
             tasks: Terms with the values of their parameters; the strength is the step of the difference.
         """
         found = np.full((len(tasks), len(self.layout.time)), np.inf)
-        probes: dict[tuple[str, tuple[float, ...]], list[int]] = {}
-        for i, (term, values) in enumerate(tasks):
-            probes.setdefault((term.identifier, values), []).append(i)
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
             outputs = shared_outputs(self.bank, parameters, run.plan)
-            for (identifier, values), members in probes.items():
-                term = tasks[members[0]][0]
+            absent, probes = self._probes(tasks, self.seats[number])
+            own = slice(begin, begin + run.count)
+            found[absent, own] = 0.0
+            for (identifier, values), at_places in probes.items():
+                members = list(at_places.values())
+                term = tasks[members[0][0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
-                at = [self._places[tasks[i][0]][1] for i in members]
+                at = [self._places[tasks[same[0]][0]][1] for same in members]
                 probe = Probe(self._candidates[identifier], shape, at, values[0])
                 self.simulations += len(members)
                 try:
@@ -205,9 +263,27 @@ class BankModel:
                     )
                 except BankError:
                     continue
-                found[members, begin : begin + run.count] = run.slopes(slopes)
+                for same, slope in zip(members, run.slopes(slopes)):
+                    found[same, own] = slope
             begin += run.count
         return found
+
+    def _probes(
+        self, tasks: Sequence[tuple[Term, tuple[float, ...]]], seat: Seat
+    ) -> tuple[list[int], dict[tuple[str, tuple[float, ...]], dict[int, list[int]]]]:
+        """Tasks whose term is not there in a recording; the others by candidate and values, and by place.
+
+        On the clock of a recording all instants of earlier ones are one: it is there from the start.
+        """
+        absent: list[int] = []
+        probes: dict[tuple[str, tuple[float, ...]], dict[int, list[int]]] = {}
+        for i, (term, values) in enumerate(tasks):
+            local = self.local_values(term, values, seat)
+            if local is None:
+                absent.append(i)
+            else:
+                probes.setdefault((term.identifier, local), {}).setdefault(id(term), []).append(i)
+        return absent, probes
 
     def _simulate(self, run: Run, parameters: Sequence[BankParameters]) -> list[Array | None]:
         """Outputs as the bank lays them out; None where a simulation failed."""
@@ -254,9 +330,20 @@ class BankModel:
         return jacobian.T
 
 
-def _by_terms(points: Sequence[Point]) -> list[list[int]]:
+def _by_terms(there: Sequence[Mapping[Term, tuple[float, ...]]]) -> list[list[int]]:
     """Points that switch on the same candidates are simulated together."""
     groups: dict[frozenset[str], list[int]] = {}
-    for i, point in enumerate(points):
-        groups.setdefault(frozenset(t.identifier for t in point.terms), []).append(i)
+    for i, terms in enumerate(there):
+        groups.setdefault(frozenset(t.identifier for t in terms), []).append(i)
     return list(groups.values())
+
+
+def _alike(
+    points: Sequence[Point], there: Sequence[Mapping[Term, tuple[float, ...]]], group: Sequence[int]
+) -> list[list[int]]:  # fmt: skip
+    """Points of a group that are one in a recording: an instant outside it does not matter to it."""
+    found: dict[tuple[object, ...], list[int]] = {}
+    for i in group:
+        key = (points[i].base.tobytes(), *((id(t), v) for t, v in there[i].items()))
+        found.setdefault(key, []).append(i)
+    return list(found.values())
