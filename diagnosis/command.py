@@ -44,6 +44,13 @@ def diagnose(
     brief: Annotated[
         bool, typer.Option("--brief", help="Verdict, findings and fit alone, as diagnosis.json: for many in a row.")
     ] = False,
+    despite_doubts: Annotated[
+        bool,
+        typer.Option(
+            "--despite-doubts",
+            help="Search although the recordings seem to be of another experiment.",
+        ),
+    ] = False,
     limit: Annotated[
         list[str] | None, typer.Option(help="Greatest value in a next experiment: `supply.voltage=12 V`.")
     ] = None,
@@ -54,7 +61,7 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.compute.alone import alone  # late: `--help` must not load Bullet
+    from diagnosis.alone import alone  # late: `--help` must not load Bullet
     from diagnosis.compute.batch import Batches
     from diagnosis.compute.cache import Cache
     from diagnosis.compute.cluster import choose_place
@@ -79,7 +86,9 @@ def diagnose(
                 raise InputError(out, "", "an interrupted diagnosis left its simulations here",
                                  "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip
             base = load_scenario(scenario)
-            means = Means(tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief)
+            means = Means(
+                tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief, not despite_doubts
+            )
             training, judges = prepared(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )

@@ -12,6 +12,7 @@ from cosim.errors import InputError
 from cosim.scenario import Scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
+from diagnosis.check.check import check_recordings
 from diagnosis.compute.batch import Batches
 from diagnosis.experiment.design import next_experiment
 from diagnosis.fabric.model import FabricModel
@@ -20,7 +21,8 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
-from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
+from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
+from diagnosis.judge.doubts import doubted, is_of_another_experiment
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
@@ -32,6 +34,7 @@ from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
+from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Outcome, Settings
@@ -52,6 +55,7 @@ class Means:
         batches: Makes simulations that take seconds: in processes, kept on disk; closed by whoever made it.
         is_brief: Verdict, findings and fit alone.
         limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
+        is_checked: Whether recordings that seem to be of another experiment than the scenario are not searched.
     """
 
     without: tuple[str, ...] = ()
@@ -59,6 +63,7 @@ class Means:
     limits: Mapping[str, float] = field(default_factory=dict)
     batches: Batches = field(default_factory=Batches)
     is_brief: bool = False
+    is_checked: bool = True
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -112,11 +117,18 @@ def diagnose(
     """
     begin = clock.perf_counter()
     known = means.catalogue()
+    both = distinct([*training, *held_out])
+    training, held_out = both[: len(training)], both[len(training) :]
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
     judge = None
     if held_out:
         placed = timeline_of(model)
         judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches, placed)
+    on_progress("checking that recordings and scenario are of the same experiment")
+    doubts = check_recordings(scenario, both)
+    if means.is_checked and any(is_of_another_experiment(d) for d in doubts):
+        seconds = clock.perf_counter() - begin
+        return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
     outcome, model, judge = _searched(model, judge, settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
@@ -131,11 +143,11 @@ def diagnose(
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
-    found = findings(model, outcome, accepted, [r.title for r in training])
+    found = doubted(findings(model, outcome, accepted, [r.title for r in training]), doubts)
     tried = searched(model, scenario, means.without)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, readings, day)
-    word = verdict(outcome, found, right, tried, nominal_cost(model))
+    word = verdict(outcome, found, right, tried, nominal_cost(model), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
         on_progress("finding out what these channels can tell apart")
@@ -147,7 +159,7 @@ def diagnose(
     first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
-        statement=headline(word, found, right, why_open(outcome, found, right, tried)),
+        statement=headline(word, found, right, why_open(outcome, found, right, tried), doubts),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
@@ -171,6 +183,44 @@ def diagnose(
         next_experiment=experiment,
         adequacy=right,
         searched=tried,
+        doubts=doubts,
+    )
+    return Found(diagnosis, model, judge, points, carried)
+
+
+def _unsearched(
+    scenario: Scenario, fitted: tuple[DiagnosisModel, Sequence[Recording]],
+    judged: tuple[DiagnosisModel | None, Sequence[Recording]], doubts: tuple[Doubt, ...], settings: Settings,
+    seconds: float,
+) -> Found:  # fmt: skip
+    """The answer where recordings and scenario are not of the same experiment: nothing is fitted."""
+    (model, training), (judge, held_out) = fitted, judged
+    points = dict.fromkeys(("before", "recalibrated", "after"), Point(np.zeros(len(model.parameters))))
+    fits = channel_fits(model, training, points, is_held_out=False)
+    carried: dict[str, Point] = {}
+    if judge is not None:
+        carried = dict.fromkeys(points, Point(np.zeros(len(judge.parameters))))
+        fits += channel_fits(judge, held_out, carried, is_held_out=True)
+    diagnosis = Diagnosis(
+        verdict=Verdict.RECORDING_FAULT,
+        statement=headline(Verdict.RECORDING_FAULT, (), None, doubts=doubts),
+        findings=(),
+        fit=tuple(fits),
+        margin=settings.floor,
+        false_alarm_rate=1.0,
+        structure_before=float("nan"),
+        structure_after=float("nan"),
+        recalibration=(),
+        isolability=Isolability(),
+        amended_model=None,
+        seconds=seconds,
+        simulations=model.simulations,
+        seed=settings.seed,
+        scenario=str(scenario.path or scenario.title),
+        recordings=used(training, held_out),
+        spread=spread_over_recordings(fits),
+        searched=Searched(untried=("nothing was searched: the recordings come first",)),
+        doubts=doubts,
     )
     return Found(diagnosis, model, judge, points, carried)
 

@@ -12,7 +12,7 @@ from diagnosis.amend.judged import judged
 from diagnosis.curves import curves
 from diagnosis.diagnose import Found
 from diagnosis.experiment.write import write_experiment
-from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.recording.recording import Recording
 from diagnosis.report.json_file import write_json
 from diagnosis.report.network import Network
@@ -39,7 +39,8 @@ def hand_over(found: Found, scenario: Scenario, held_out: Sequence[Recording], o
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
         points = found.points, found.held_out_points
-        diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
+        if diagnosis.verdict is not Verdict.RECORDING_FAULT:  # else there is nothing to amend
+            diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

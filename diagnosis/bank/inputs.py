@@ -11,6 +11,10 @@ import numpy.typing as npt
 
 from diagnosis.bank.layout import Array
 
+#: Values within a fifth of each other are alike: their variance is at most a hundredth of their square (range R: at
+#: most R^2 / 4), so that a law that goes with the square of a course feels its mean to 1 %.
+ALIKE = 0.2
+
 
 @dataclass(frozen=True)
 class Programme:
@@ -83,6 +87,19 @@ class Drive:
     power: Programme | None = None
     temperature: Programme | None = None
 
+    def thinned(self, span: float) -> Drive:
+        """The same with neighbouring values of a recorded course that are alike in place of one: their mean.
+
+        What a heater takes is the mean of its power, what a coil takes the mean square of its voltage. Values that are
+        not `ALIKE` stay apart, so that a switch stays where it is.
+
+        Args:
+            span: Longest time over which a mean is taken [s].
+        """
+        voltage = None if self.voltage is None else _merged(self.voltage, span, is_squared=True)
+        power = None if self.power is None else _merged(self.power, span)
+        return Drive(_merged(self.ambient, span), voltage, power, self.temperature)
+
     def switches(self) -> list[float]:
         """Instants at which a programme that is held jumps [s], those of linear ones at which it bends."""
         programmes = (self.ambient, self.voltage, self.power)
@@ -123,6 +140,30 @@ class Drive:
             given,
             is_switch,
         )
+
+
+def _merged(programme: Programme, span: float, is_squared: bool = False) -> Programme:
+    """A held programme with means of values that are alike, each over at most `span` [s]."""
+    times = programme.times
+    if programme.is_linear or len(times) < 3:
+        return programme
+    values = programme.values.reshape(len(times), -1)
+    begins, low, high = [0], values[0], values[0]
+    for i in range(1, len(times) - 1):
+        lower, higher = np.minimum(low, values[i]), np.maximum(high, values[i])
+        is_alike = np.all(higher - lower <= ALIKE * np.minimum(np.abs(lower), np.abs(higher)))
+        if is_alike and times[i + 1] - times[begins[-1]] <= span * (1.0 + 1e-9):
+            low, high = lower, higher
+        else:
+            begins.append(i)
+            low = high = values[i]
+    begins.append(len(times) - 1)
+    lasts = np.append(np.diff(times), 1.0)[:, None]
+    parts = np.add.reduceat(lasts * (values**2 if is_squared else values), begins)
+    means = parts / np.add.reduceat(lasts, begins)
+    if is_squared:
+        means = np.sqrt(means) * np.sign(values[begins])
+    return Programme(times[begins], means.reshape(len(begins), *programme.values.shape[1:]))
 
 
 def _at(programme: Programme, time: Array) -> Array:

@@ -48,7 +48,8 @@ def choose_step(
     a time constant. What limits it is the temperature's curvature in what depends on it (resistance, convection,
     stiffness), and the straight line between ends of steps on which readings lie. Steps up to `USUAL` are always tried;
     longer ones, up to the interval between readings, where the readings are farther apart: a reading that a law bends
-    within one step (an instant, a lag) is then next to an end of it.
+    within one step (an instant, a lag) is then next to an end of it. Every point of a recorded input is an end of a
+    step; with long steps, points that are alike are taken together where that keeps the error small as well.
 
     Args:
         bank: The bank.
@@ -64,6 +65,7 @@ def choose_step(
     """
     stop = max(float(t[-1]) for t in times.values())
     switches = drive.switches()
+    judges = [parameters] if fastest is None else [parameters, fastest]
 
     def simulated(step: float, at: BankParameters) -> tuple[BankInputs, dict[str, Array]]:
         inputs = drive.on_grid(grid(start, stop, step, switches))
@@ -79,6 +81,16 @@ def choose_step(
         error = change(now, then)
         if step > USUAL and fastest is not None and error < SHARE:
             error = max(error, change(simulated(step, fastest)[1], simulated(0.5 * step, fastest)[1]))
+        span = step
+        while step > USUAL and error < SHARE and span > USUAL:
+            merged = drive.thinned(span)
+            thin = merged.on_grid(grid(start, stop, step, merged.switches()))
+            if 2 * len(thin.time) > len(inputs.time):
+                break  # the input is not recorded more densely than the steps are long
+            away = max(change(bank.simulate(p, thin, times), bank.simulate(p, inputs, times)) for p in judges)
+            if error + away < SHARE:
+                return StepChoice(step, thin, error + away)
+            span *= 0.5
         if error < SHARE or step <= SHORTEST:
             return StepChoice(step, inputs, error)
         step, inputs, now = 0.5 * step, finer, then

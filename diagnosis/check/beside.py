@@ -53,7 +53,7 @@ class Course:
 
     def switches(self) -> Array:
         """Instants at which the value changes [s]."""
-        return self.times[1:][np.diff(self.values) != 0.0]
+        return np.asarray(self.times[1:][np.diff(self.values) != 0.0])
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,12 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
-from diagnosis.check.inputs import input_doubts
 from diagnosis.check.readings import reading_doubts
-from diagnosis.check.scale import scale_doubts
+from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
 from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.time_unit import time_unit_doubts
-from diagnosis.check.timing import timing_doubts
+from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Recording
 
@@ -48,9 +47,18 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = []
     for one in every:
-        timing = time_unit_doubts(one) or timing_doubts(one, [o for o in every if o is not one])
-        swaps = swap_doubts(one)
-        found += timing or swaps
-        found += scale_doubts(one, not timing and not swaps)
-        found += [*reading_doubts(one, not timing), *start_doubts(one), *input_doubts(one)]
+        relation = _relation(one, [o for o in every if o is not one])
+        units = unit_doubts(one)
+        found += [*relation, *units, *reading_doubts(one, not relation)]
+        if not relation and not units:  # a start that another column or unit has is no start
+            found += start_doubts(one)
     return tuple(sorted(found, key=lambda d: (not d.is_serious, -d.z)))
+
+
+def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:
+    """What is wrong between readings and programme, the explanation that is known best first."""
+    timing = time_unit_doubts(one) or timing_doubts(one, others)
+    swaps = swap_doubts(one)
+    if timing or swaps:
+        return timing if not swaps or (timing and timing[0].z > max(d.z for d in swaps)) else swaps
+    return sign_doubts(one) or switch_doubts(one)

@@ -356,7 +356,7 @@ def _conditions(scenario: Scenario) -> list[str]:
     return lines
 
 
-def _plain(table: Sniffed, keep: np.ndarray) -> str:  # type: ignore[type-arg]
+def _plain(table: Sniffed, keep: np.ndarray) -> str:
     """The table with commas, points and one header line; columns of text are left out."""
     chosen = [k for k, name in enumerate(table.names) if name not in table.texts]
     quoted = [f'"{table.names[k]}"' if "," in table.names[k] else table.names[k] for k in chosen]

@@ -288,8 +288,23 @@ def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
         is_rough = degrees * own**2 > float(chi2.isf(LEVEL, degrees)) * scatter**2
         if is_rough and size <= float(t.isf(LEVEL / (2.0 * tests), degrees)) * own:
             continue
+        # a wild reading goes and comes back: the level after the step is that before it
+        after, before = values[i + 1 : i + 1 + SIDE], values[max(i + 1 - SIDE, 0) : i + 1]
+        if abs(float(np.median(after) - np.median(before)) - float(sizes[i])) > 0.5 * size:
+            continue
         found.append(Jump(int(i) + 1, float(sizes[i]), size / scatter))
-    return found
+    return _apart(found, SIDE)
+
+
+def _apart(found: Sequence[Jump], reach: int) -> list[Jump]:
+    """Of steps within reach of one another the largest."""
+    kept: list[Jump] = []
+    for one in found:
+        if kept and one.index - kept[-1].index <= reach:
+            kept[-1] = max(kept[-1], one, key=lambda j: j.z)
+        else:
+            kept.append(one)
+    return kept
 
 
 def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
@@ -320,15 +335,8 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     most = float(chi2.isf(LEVEL, width - 2))
     sharp = np.abs(np.diff(values)[width - 1 : count - width] - sizes) < 0.5 * np.abs(sizes) + 3.0 * noise
     good = (np.abs(sizes) > limit) & (left[before] < most) & (left[after] < most) & sharp
-    found: list[Jump] = []
-    for k in np.flatnonzero(good):
-        one = Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation))
-        if found and one.index - found[-1].index <= width // 2:
-            if one.z > found[-1].z:
-                found[-1] = one
-        else:
-            found.append(one)
-    return found
+    every = [Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation)) for k in np.flatnonzero(good)]
+    return _apart(every, width // 2)
 
 
 def _merged(sudden: Sequence[Jump], shifts: Sequence[Jump]) -> list[Jump]:

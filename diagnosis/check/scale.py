@@ -11,7 +11,7 @@ from cosim.errors import InputError
 from cosim.quantity import conversion
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import LEVEL, Fit, fit, gain
+from diagnosis.check.explain import LEVEL, Fit, design, fit, gain
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
@@ -54,23 +54,23 @@ class _Size:
     levels: tuple[float, float]
 
 
-def scale_doubts(compared: Compared, is_timed: bool) -> list[Doubt]:
-    """Doubts about unit and sign of every channel.
-
-    Args:
-        compared: A recording beside its simulation.
-        is_timed: Whether the response follows the programme; else signs are not asked for.
-    """
+def unit_doubts(compared: Compared) -> list[Doubt]:
+    """Doubts about the unit of every channel."""
     units = _units(compared)
-    found = []
-    for name, beside in compared.channels.items():
-        if beside.simulated is None or len(beside.pick) < FEWEST_VALUES or not np.ptp(beside.at(beside.times)) > 0.0:
-            continue
-        unit = units.get(name, beside.channel.unit)
-        found += _unit_doubts(compared, beside, unit)
-        if is_timed and beside.moves:
-            found += _sign_doubts(compared, beside)
-    return found
+    return [
+        d for b in _simulated(compared) for d in _unit_doubts(compared, b, units.get(b.channel.name, b.channel.unit))
+    ]
+
+
+def sign_doubts(compared: Compared) -> list[Doubt]:
+    """Doubts about the sign of every channel; to be asked where the response follows the programme."""
+    return [d for b in _simulated(compared) if b.moves for d in _sign_doubts(compared, b)]
+
+
+def _simulated(compared: Compared) -> list[Beside]:
+    """Channels whose simulation changes."""
+    every = [b for b in compared.channels.values() if b.simulated is not None and len(b.pick) >= FEWEST_VALUES]
+    return [b for b in every if np.ptp(b.at(b.times)) > 0.0]
 
 
 def _units(compared: Compared) -> dict[str, str]:
@@ -191,12 +191,12 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
 
 
 def _signed(compared: Compared, beside: Beside) -> tuple[Fit, Fit]:
-    """Best fits with a gain of the right and of the wrong sign, behind any one lag."""
+    """Best fits with weights of the right and of the wrong sign."""
     assert beside.simulated is not None
     times, measured = beside.times, beside.measured
-    courses = [beside.at(times), *(np.interp(times, beside.simulated.times, row) for row in beside.lagged)]
-    if not len(compared.switches()):
-        courses += [beside.at(pace * times) for pace in PACES]
-    fits = [[fit(measured, sign * c[:, None], beside.tolerance) for c in courses] for sign in (1.0, -1.0)]
+    groups = [design(beside, times)]
+    if not len(compared.switches()):  # a swing without an input: its frequency is a parameter
+        groups += [beside.at(pace * times)[:, None] for pace in PACES]
+    fits = [[fit(measured, sign * columns, beside.tolerance) for columns in groups] for sign in (1.0, -1.0)]
     same, other = (min(found, key=lambda f: f.squares) for found in fits)
     return same, other

@@ -42,7 +42,7 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     values, time = first(beside)
     measured = float(np.mean(values))
     simulated = measured - off
-    text = f"begins at {measured - 273.15:.4g} degC, where {simulated - 273.15:.4g} degC is simulated"
+    text = f"begins at {measured - 273.15:.4g} degC ({time:.4g} s), where {simulated - 273.15:.4g} degC is simulated"
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
         "are unknown under `uncertain`"

@@ -73,7 +73,7 @@ def _one(beside: Beside, course: Beside) -> Fit:
     return fit(beside.measured, design(course, beside.times), beside.tolerance)
 
 
-def _cycles(rows: np.ndarray, columns: np.ndarray) -> list[list[int]]:  # type: ignore[type-arg]
+def _cycles(rows: np.ndarray, columns: np.ndarray) -> list[list[int]]:
     """Cycles of a permutation that move something."""
     left, found = set(rows.tolist()), []
     while left:

@@ -56,7 +56,7 @@ def row(beside: Beside) -> Row:
     )
 
 
-def _range(values: np.ndarray, unit: str) -> str:  # type: ignore[type-arg]
+def _range(values: np.ndarray, unit: str) -> str:
     return f"{np.min(values):.4g} to {np.max(values):.4g} {unit}"
 
 

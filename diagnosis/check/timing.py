@@ -81,25 +81,26 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
     own = [_own(compared, b) for b in leads]
     rivals = [*_other_runs(compared, others, leads), *_shifts(compared, leads, own), *_factors(compared, leads, own)]
     rivals = [r for r in rivals if r.gain > critical(4.0)]
-    # an explanation that something is known of comes before switches at free instants
-    rivals = rivals or [r for r in _switches(compared, leads, own) if r.gain > critical(4.0)]
-    if not rivals:
+    return [_doubt(compared, max(rivals, key=lambda r: r.gain))] if rivals else []
+
+
+def switch_doubts(compared: Compared) -> list[Doubt]:
+    """At most one doubt: the readings change at other instants than the programme.
+
+    To be asked where no known explanation is found: another run, a clock, exchanged columns, a sign.
+    """
+    leads = leading(compared)
+    if not leads or not len(compared.switches()):
         return []
-    best = max(rivals, key=lambda r: r.gain)
+    found = _switches(compared, leads, [_own(compared, b) for b in leads])
+    return [_doubt(compared, r) for r in found if r.gain > critical(4.0)]
+
+
+def _doubt(compared: Compared, best: Rival) -> Doubt:
     text = best.text.format(own=percent(best.own), other=percent(best.other))
-    return [
-        Doubt(
-            compared.recording.title,
-            best.subject,
-            best.kind,
-            text,
-            best.remedy,
-            True,
-            compared.begin,
-            compared.end,
-            float(np.sqrt(best.gain)),
-        )
-    ]
+    z = float(np.sqrt(best.gain))
+    title, begin, end = compared.recording.title, compared.begin, compared.end
+    return Doubt(title, best.subject, best.kind, text, best.remedy, True, begin, end, z)
 
 
 def percent(share: float) -> str:
@@ -182,7 +183,7 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
                     "other run",
                     "inputs" if compared.recording.inputs else "overrides",
                     f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
-                    f"is the input or the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
+                    f"is the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
                     together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
                     _shares(mine),
                     _shares(theirs),

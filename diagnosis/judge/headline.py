@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
+from diagnosis.judge.doubts import faults
 from diagnosis.report.display import clean, difference, moved, number
 
 #: Explained share from which a whole number of per cent would read as everything.
@@ -34,7 +35,7 @@ def headline(
         Verdict.CONSISTENT: f"The model as it is agrees with the {adequacy.basis} within {_noise(adequacy)}.",
         Verdict.RECALIBRATED: f"The model agrees with the {adequacy.basis} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {accepted}.",
+        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(accepted, doubts)}.",
         Verdict.MISSING_PHYSICS: f"The model leaves out: {accepted}.",
         Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {accepted}.",
         Verdict.CANNOT_TELL: f"It cannot be told whether something is missing: {'; '.join(reasons)}.",
@@ -47,6 +48,11 @@ def headline(
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy)}.")
     return " ".join(parts)
+
+
+def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
+    """What was fitted of the faults, or else what the check saw."""
+    return accepted or "; ".join(d.statement.rstrip(".") for d in faults(doubts)[:2])
 
 
 def _noise(adequacy: Adequacy) -> str:

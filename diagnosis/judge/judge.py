@@ -9,7 +9,18 @@ import numpy as np
 from cosim.unit import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.judge.acceptance import Accepted
-from diagnosis.judge.diagnosis import Adequacy, Alternative, Estimate, Finding, Moved, Searched, Standing, Verdict
+from diagnosis.judge.diagnosis import (
+    Adequacy,
+    Alternative,
+    Doubt,
+    Estimate,
+    Finding,
+    Moved,
+    Searched,
+    Standing,
+    Verdict,
+)
+from diagnosis.judge.doubts import faults
 from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
@@ -46,8 +57,9 @@ SHOWS = 0.1
 
 
 def verdict(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, nominal_cost: float
-) -> Verdict:
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, nominal_cost: float,
+    doubts: Sequence[Doubt] = (),
+) -> Verdict:  # fmt: skip
     """One word for a search.
 
     Args:
@@ -56,10 +68,11 @@ def verdict(
         adequacy: How right the accepted model is.
         searched: What was searched.
         nominal_cost: -2 log posterior of the model as it was.
+        doubts: About the recordings.
     """
     accepted = [f for f in found if f.is_accepted]
     physics = [f for f in accepted if f.unit not in ("measurement", "input")]
-    if accepted and not physics:
+    if (accepted or faults(doubts)) and not physics:
         return Verdict.MEASUREMENT_FAULT
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)

@@ -90,6 +90,8 @@ def _check(unit: str, target: str) -> str:
     try:
         name = str(parse_unit(unit))
     except ValueError as error:
+        if unit == target:  # an FMU's own way to write it: there is nothing to convert
+            return unit
         raise WrongUnit(str(error), _instead(unit, target)) from error
     if any(part.endswith(_SCREEN) for part in re.split(r"[^A-Za-z_]+", name)):
         raise WrongUnit(

@@ -71,7 +71,7 @@ def test_unit_of_a_column(scenario: Scenario, tmp_path: Path, stated: str, facto
     values = factor * rig.readings(rig.FIRST) + offset
     a = rig.write(tmp_path / "a", rig.FIRST, values, channel={"unit": stated})
     found = [d for d in doubts(scenario, a) if d.is_serious]
-    assert [(d.kind, d.subject) for d in found] == [("unit", f"coil[{k}].temperature") for k in (1, 2)]
+    assert {(d.kind, d.subject) for d in found} == {("unit", f"coil[{k}].temperature") for k in (1, 2)}
     right = {32.0: "degF", 273.15: "K", 0.0: "degC"}[offset]
     assert f"as `unit: {right}` they are of its size" in found[0].statement
 
@@ -82,7 +82,7 @@ def test_turned_over(scenario: Scenario, tmp_path: Path) -> None:
     assert ("sign", "coil[1].temperature") in serious(scenario, rig.write(tmp_path / "a", rig.FIRST, values))
 
 
-@pytest.mark.parametrize("late", [-40.0, 60.0])
+@pytest.mark.parametrize("late", [-60.0, 130.0])
 def test_a_clock_that_is_off(scenario: Scenario, tmp_path: Path, late: float) -> None:
     a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + late)
     (found,) = [d for d in doubts(scenario, a) if d.is_serious]
@@ -91,8 +91,8 @@ def test_a_clock_that_is_off(scenario: Scenario, tmp_path: Path, late: float) ->
 
 
 def test_a_clock_within_its_stated_bound_is_no_doubt(scenario: Scenario, tmp_path: Path) -> None:
-    clock = {"column": "time", "zero": 0, "offset_bound": "70 s"}
-    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + 60.0, time=clock)
+    clock = {"column": "time", "zero": 0, "offset_bound": "140 s"}
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + 130.0, time=clock)
     assert serious(scenario, a) == []
 
 
@@ -109,7 +109,7 @@ def test_minutes_stated_as_seconds(scenario: Scenario, tmp_path: Path) -> None:
     assert "with min taken for s corrected" in found.statement
 
 
-@pytest.mark.parametrize("size", [0.6, -3.0])
+@pytest.mark.parametrize("size", [1.0, -3.0])
 def test_a_sensor_that_is_off_for_a_while(scenario: Scenario, tmp_path: Path, size: float) -> None:
     values = rig.readings(rig.FIRST)
     values[90:150, 1] += size
@@ -153,7 +153,7 @@ def test_wild_reading_and_gap_are_notes(scenario: Scenario, tmp_path: Path) -> N
 def test_noise_as_stated(scenario: Scenario, tmp_path: Path, stated: str, word: str) -> None:
     a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), channel={"noise": stated})
     found = [d for d in doubts(scenario, a) if d.kind == "noise"]
-    assert [d.subject for d in found] == ["coil[1].temperature", "coil[2].temperature"]
+    assert {d.subject for d in found} == {"coil[1].temperature", "coil[2].temperature"}
     assert all(word in d.statement and not d.is_serious for d in found)
 
 

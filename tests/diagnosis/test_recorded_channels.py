@@ -174,4 +174,4 @@ def test_a_free_run_is_read_on_every_derived_quantity(tmp_path):
         quantity, element = bank_quantity(parse_quantity(name), translate(scenario).layout, recording)
         own = series_of(results, parse_quantity(name), tmp_path)
         steps = np.searchsorted(own.times, times[quantity] - 1e-9)  # a flow stands at the end of its step
-        np.testing.assert_allclose(found[quantity][:, element], own.values[steps], rtol=1e-3, err_msg=name)
+        np.testing.assert_allclose(found[quantity][:, element], own.values[steps], rtol=2e-3, err_msg=name)

@@ -76,6 +76,13 @@ def test_units_that_people_mean_are_taken(unit, target, factor, offset):
     assert conversion_of_reading(unit, target) == pytest.approx((factor, offset), rel=1e-12)
 
 
+def test_a_unit_that_only_the_fmu_knows_is_taken_as_it_is_written_there():
+    assert conversion_of_reading("N.m/rad", "N.m/rad") == (1.0, 0.0)
+    with pytest.raises(WrongUnit) as caught:
+        conversion_of_reading("mm", "N.m/rad")
+    assert caught.value.remedy == "give a unit that converts to N.m/rad"
+
+
 def test_a_difference_of_temperatures_may_be_written_either_way():
     assert conversion_of_difference("degC", "K") == conversion_of_difference("delta_degC", "K") == 1.0
     with pytest.raises(WrongUnit, match="screens"):

@@ -43,7 +43,7 @@ def without_first_column_of_values(lines: list[str]) -> list[str]:
         (in_text("recording.yaml", "T1_degC, unit: degC", "T1_degC, unit: ohm"),
          "channels.coil[1,1].temperature.unit", "ohm cannot be converted to K"),
         (in_text("recording.yaml", "T1_degC", "T9_degC"), "channels.coil[1,1].temperature.column", "no column"),
-        (in_text("recording.yaml", "coil[1,1]", "coil[5,7]"), "channels.coil[5,7].temperature", "no such quantity"),
+        (in_text("recording.yaml", "coil[1,1]", "coil[5,7]"), "channels.coil[5,7].temperature", "there is no coil 7 in string 5"),
         (in_text("recording.yaml", "    room:", "    hall:"), "components.hall", "the key `kind` is missing"),
         (rows(without_first_column_of_values), "channels.coil[1,1].temperature", "it has 0 values"),
         (rows(lambda r: [*r[:40], r[50], *r[40:]]), "channels.coil[1,1].temperature", "its times do not rise"),

@@ -9,9 +9,9 @@ import yaml
 
 from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from diagnosis.alone import NAME, alone
 from diagnosis.candidates.registry import catalogue
 from diagnosis.command import diagnose
-from diagnosis.compute.alone import NAME, alone
 from diagnosis.recording.recording import load_recording
 from diagnosis.simulator.models import model_of
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from cosim.errors import InputError
+from cosim.quantity import PhysicalValue
 from cosim.scenario import load_scenario
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.judge.beginning import begun
@@ -16,6 +17,7 @@ from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.translate import translate
 from tests.diagnosis.two_heaters import conditions, record, scenario
 
 CELSIUS = 273.15
@@ -296,3 +298,13 @@ def test_an_amended_scenario_has_what_every_day_has_and_no_day_of_its_own(tmp_pa
     assert room == pytest.approx(21.0 + 1.0 / np.sqrt(2.0))
     start = written["heaters"].parameters["initial_temperature"].to("degC")
     assert start == pytest.approx(21.0 + 0.3 / np.sqrt(2.0))
+
+
+def test_a_bank_hears_a_single_coil_by_its_name_in_fmi_2():
+    base = load_scenario("hanging_contraction")
+    coils = base.components["actuator"]
+    own = {**coils.parameters, "initial_temperature[2]": PhysicalValue(48.0, "degC")}
+    second = coils.model_copy(update={"fmi": 2, "parameters": own})
+    found = translate(base.model_copy(update={"components": {**base.components, "actuator": second}}))
+    starts = np.asarray(found.parameters.base["initial_temperature"]) - CELSIUS
+    np.testing.assert_allclose(starts, np.where(np.arange(36) == 1, 48.0, 22.0))

@@ -56,12 +56,39 @@ def test_the_longest_step_is_within_the_interval_of_the_densest_readings(interva
     assert longest(times) == pytest.approx(expected)
 
 
-def test_a_noisy_course_at_one_hertz_costs_a_step_for_each_of_its_points_and_no_more():
-    points = np.arange(0.0, STOP, 1.0)
-    noise = 1.0 + 0.02 * np.random.default_rng(1).standard_normal((len(points), 2))
-    drive = Drive(Programme.constant(ROOM), power=Programme(points, np.array([0.3, 0.2]) * noise))
+def noisy(interval, size=0.02):
+    """Heaters at noisy powers recorded at an interval, with one switch at 2000 s."""
+    points = np.arange(0.0, STOP, interval)
+    noise = 1.0 + size * np.random.default_rng(1).standard_normal((len(points), 2))
+    power = np.where(points[:, None] < 2000.0, [0.3, 0.2], [0.1, 0.4]) * noise
+    return Drive(Programme.constant(ROOM), power=Programme(points, power))
+
+
+@pytest.mark.parametrize("interval", [1.0, 0.1])
+def test_a_noisy_course_is_taken_together_as_far_as_the_readings_allow(interval):
+    drive = noisy(interval)
     choice = choose_step(full_bank(HEATERS), SLOW, drive, 0.0, TIMES, NOISE)
-    assert len(choice.inputs.time) <= len(points) + 1
+    assert len(choice.inputs.time) < 2.5 * len(TIMES["temperature"])
+    assert 2000.0 in choice.inputs.time
+    whole = drive.on_grid(grid(0.0, STOP, 0.1, drive.switches()))
+    bank = full_bank(HEATERS)
+    away = bank.simulate(SLOW, choice.inputs, TIMES)["temperature"] - bank.simulate(SLOW, whole, TIMES)["temperature"]
+    assert np.abs(away).max() < 2.0 * SHARE * NOISE["temperature"]  # K
+
+
+def test_a_course_that_switches_keeps_every_point():
+    points = np.arange(0.0, STOP, 1.0)
+    pulses = np.where(points % 2.0 < 1.0, 0.6, 0.0)[:, None] * np.ones(2)
+    drive = Drive(Programme.constant(ROOM), power=Programme(points, pulses))
+    assert drive.thinned(10.0).switches() == drive.switches()
+
+
+def test_a_voltage_that_is_taken_together_heats_as_much():
+    points = np.arange(0.0, 100.0, 1.0)
+    volts = 5.0 + 0.1 * np.random.default_rng(1).standard_normal(len(points))
+    thin = Drive(Programme.constant(ROOM), Programme(points, volts)).thinned(11.0).voltage
+    assert len(thin.times) == 10
+    assert thin.values[:-1] == pytest.approx([np.sqrt(np.mean(part**2)) for part in np.split(volts[:99], 9)])
 
 
 def test_what_every_law_would_change_is_the_same_with_long_steps():

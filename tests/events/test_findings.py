@@ -7,7 +7,9 @@ import pytest
 
 from diagnosis.candidates.registry import candidate, catalogue
 from diagnosis.experiment.bench import Belief, Bench
+from diagnosis.judge.acceptance import accept
 from diagnosis.judge.judge import findings
+from diagnosis.judge.unfitted import left_out_readings
 from diagnosis.model_error import distinct, plain_terms
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings, search
@@ -31,7 +33,12 @@ def model() -> BankModel:
 def test_a_break_between_two_recordings_is_one_at_the_begin_of_the_later(model: BankModel) -> None:
     settings = Settings(nulls=2, most_terms=2)
     outcome = search(model, model.terms(), settings, model.groups())
-    (found,) = findings(model, outcome)
+    titles = [r.title for r in model.timeline.recordings]
+    unfitted = left_out_readings(model, titles)
+    accepted = accept(model, outcome, unfitted, unfitted, lambda term: False)
+    (found,) = findings(model, outcome, accepted, titles)
+    assert found.is_accepted
+    assert found.recording in ("levels", "stairs")
     assert (found.effect, found.place) == ("open_coil", "coil[1,2]")
     (instant,) = [p for p in found.parameters if p.name == "instant"]
     # nothing flows in the last 6 s of `levels`, which ends at 50 s, nor in the first 2 s of `stairs`
