@@ -16,6 +16,7 @@ from diagnosis.compute.batch import Batches
 from diagnosis.experiment.design import next_experiment
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.search import search_fabric
+from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.confirmed import confirmed
@@ -121,7 +122,7 @@ def diagnose(
         if isinstance(judge, FabricModel):
             judge.take_scatter(model)
     else:
-        outcome, model = search_with_model_error(with_biases(model), settings, on_progress)
+        outcome, model = search_with_model_error(with_faults(with_biases(model)), settings, on_progress)
         judge = with_biases(judge) if judge is not None else None
     word = verdict(outcome, nominal_cost(model))
     points = {

@@ -31,7 +31,7 @@ def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -
     values = {p.name: z for p, z in zip(trained.parameters, point.base) if " of recording " not in p.name}
     base = np.array([values.get(p.name, 0.0) for p in other.parameters])
     same = {str(t): t for t in other.terms()}
-    return Point(base, {same[str(t)]: v for t, v in point.terms.items()})
+    return Point(base, {same[str(t)]: v for t, v in point.terms.items() if str(t) in same})
 
 
 def predictions(model: DiagnosisModel, points: Mapping[str, Point]) -> Predictions:

@@ -152,7 +152,7 @@ def search(
                 rivals = (best, *grown)
             break
         if level == 0:
-            rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost)
+            rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost - grown[0].price)
         grown = list(select(current[0], grown))
         if not grown:
             break
@@ -194,7 +194,8 @@ def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation
     while True:
         without = {t: fit(model, explanation.fit.point.without(t), near=explanation.fit) for t in explanation.terms}
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
-        if not gains or min(gains.values()) > margin:
+        worth = {t: gain - t.price for t, gain in gains.items()}
+        if not worth or min(worth.values()) > margin:
             return replace(explanation, gains=gains)
-        point = without[min(gains, key=lambda t: gains[t])].point
+        point = without[min(worth, key=lambda t: worth[t])].point
         explanation = Explanation(fit(model, point, widths=explanation.fit.widths))
