@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -102,6 +102,14 @@ class Span:
         """
         count = max(self.instants, 2)
         return 2.0 * float(np.log(0.5 * count * (count - 1)))
+
+
+def occasion(label: str, titles: Sequence[str], number: int) -> str:
+    """A place with its recording, where there are several: by its title, or by its number where titles are alike."""
+    if len(titles) == 1:
+        return label
+    named = titles[number] if len(set(titles)) == len(titles) else f"recording {number + 1}"
+    return f"{label} ({named})"
 
 
 def fault_term(law: FaultLaw, label: str, strength: TermParameter, span: Span, recording: int) -> Term:

@@ -16,6 +16,8 @@ from diagnosis.bank.places import Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.faults import bank_inputs
+from diagnosis.faults.law import INPUT, Span, fault_term, occasion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
@@ -52,8 +54,10 @@ class BankModel:
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
-        self.bank = Bank(translations[0].layout, catalogue)
+        self.bank = Bank(translations[0].layout, [*bank_inputs.CANDIDATES, *catalogue])
         self._candidates = {t.identifier: t for t in catalogue}
+        self._titles = [r.title for r in recordings]
+        self._inputs: dict[Term, tuple[CandidateTerm, Place]] = {}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
         nominal = translations[0].parameters.base
@@ -110,9 +114,21 @@ class BankModel:
                         known.add(place.mask.tobytes())
         return list(self._places)
 
+    def input_terms(self) -> list[Term]:
+        """Every input of every recording, as it may have been another within an interval."""
+        if not self._inputs:
+            for number, run in enumerate(self.runs):
+                times = np.unique(np.concatenate([s.times for s in run.series]))
+                span = Span(float(run.inputs.time[0]), float(times[-1]), len(times))
+                for candidate, place in bank_inputs.driven_places(self.coils, run.inputs):
+                    label = occasion(place.label, self._titles, number)
+                    term = fault_term(INPUT, label, bank_inputs.gain(), span, number)
+                    self._inputs[term] = (candidate, replace(place, label=label))
+        return list(self._inputs)
+
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:
         """Candidate and place of a term."""
-        return self._places[term]
+        return self._inputs[term] if term in self._inputs else self._places[term]
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
@@ -139,7 +155,9 @@ class BankModel:
         self._sets[run].vary(base, point.base)
         terms: dict[str, Mapping[str, float | Array]] = {}
         for term, values in point.terms.items():
-            candidate, place = self._places[term]
+            if term.recording not in (None, run):
+                continue  # it belongs to another recording
+            candidate, place = self.where(term)
             own = place.values(candidate, dict(zip((p.name for p in term.parameters), values)))
             if candidate.identifier in terms:
                 own = merge(candidate, terms[candidate.identifier], own)
@@ -183,16 +201,22 @@ class BankModel:
         found = np.full((len(tasks), len(self.layout.time)), np.inf)
         probes: dict[tuple[str, tuple[float, ...]], list[int]] = {}
         for i, (term, values) in enumerate(tasks):
-            probes.setdefault((term.identifier, values), []).append(i)
+            probes.setdefault((self.where(term)[0].identifier, values), []).append(i)
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
             outputs = shared_outputs(self.bank, parameters, run.plan)
-            for (identifier, values), members in probes.items():
+            own = slice(begin, begin + run.count)
+            begin += run.count
+            for values, every in ((key[1], members) for key, members in probes.items()):
+                members = [i for i in every if tasks[i][0].recording in (None, number)]
+                found[[i for i in every if i not in members], own] = 0.0
+                if not members:
+                    continue
                 term = tasks[members[0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
-                at = [self._places[tasks[i][0]][1] for i in members]
-                probe = Probe(self._candidates[identifier], shape, at, values[0])
+                candidate, _ = self.where(term)
+                probe = Probe(candidate, shape, [self.where(tasks[i][0])[1] for i in members], values[0])
                 self.simulations += len(members)
                 try:
                     slopes = flat_probe_sensitivities(
@@ -200,8 +224,7 @@ class BankModel:
                     )
                 except BankError:
                     continue
-                found[members, begin : begin + run.count] = run.slopes(slopes)
-            begin += run.count
+                found[members, own] = run.slopes(slopes)
         return found
 
     def _simulate(self, run: Run, parameters: Sequence[BankParameters]) -> list[Array | None]:
