@@ -71,7 +71,8 @@ class Changes:
 def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     """What a fitted point changes in a scenario.
 
-    What belongs to a day alone (its ambient, its first temperature) is left as the scenario has it.
+    What belongs to a day alone (its ambient, its first temperature, a fault with begin and end) is left as the scenario
+    has it.
 
     Raises:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
@@ -80,7 +81,7 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
         [0.0 if " of recording " in p.name else z for p, z in zip(model.parameters, point.base)], dtype=np.float64
     )
     nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
-    fitted = model.bank_parameters(Point(lasting, point.terms), 0)
+    fitted = model.bank_parameters(Point(lasting, point.lasting.terms), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
     terms = fitted_terms(model.bank.terms, fitted)
     return Changes(translate(scenario), _factors(nominal, fitted), terms, sensors)

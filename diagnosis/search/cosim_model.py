@@ -16,6 +16,7 @@ from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.compute.batch import Batches
 from diagnosis.compute.result import Task
+from diagnosis.faults.programme import programme_inputs
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search import cosim_run
@@ -88,6 +89,8 @@ class CosimModel:
         self.free = list(free)
         self.parameters: Sequence[Parameter] = [f.parameter for f in free]
         self._terms = {t.term: t for t in terms}
+        #: Faults of outputs of programmes within an interval, with component and output.
+        self.inputs = programme_inputs(self.scenarios, recordings)
         self.layout = _layout(recordings)
         self._batches = batches or Batches()
         self._sizes = [sum(len(c.times) for c in r.channels.values()) for r in recordings]
@@ -110,11 +113,17 @@ class CosimModel:
                 shifts.setdefault(free.component, {})[free.name] = value - free.parameter.nominal
             else:
                 parameters.setdefault(free.component, {})[free.name] = PhysicalValue(value, free.parameter.unit)
+        gains: dict[str, dict[str, tuple[float, float, float]]] = {}
         for term, values in point.terms.items():
+            if term.recording is not None:
+                component, output = self.inputs[term]
+                if term.recording == number:
+                    gains.setdefault(component, {})[output] = (values[0], values[1], values[2])
+                continue
             own = self._terms[term]
             for name, parameter, value in zip(own.names, term.parameters, values):
                 parameters.setdefault(own.component, {})[name] = PhysicalValue(value, parameter.unit)
-        return Changes(parameters, shifts)
+        return Changes(parameters, shifts, gains)
 
     def scenario_at(self, point: Point, number: int) -> Scenario:
         """The scenario of one recording with the values of a point; it can be run as it is."""
@@ -122,13 +131,15 @@ class CosimModel:
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
-        tasks = []
+        different: dict[str, Task] = {}  # a fault of one recording changes no run of the others
+        keys = []
         for point, number in wanted:
             changes = self.changes_at(point, number)
-            tasks.append(Task(self.settings[number].task_key(changes), (number, changes)))
-        self.runs += len(tasks)
-        results = self._batches.results(simulate, self.settings, tasks)
-        return [list(r.arrays) if r.is_complete else None for r in results]
+            keys.append(self.settings[number].task_key(changes))
+            different.setdefault(keys[-1], Task(keys[-1], (number, changes)))
+        self.runs += len(different)
+        results = dict(zip(different, self._batches.results(simulate, self.settings, list(different.values()))))
+        return [list(results[k].arrays) if results[k].is_complete else None for k in keys]
 
     def predict(self, point: Point, number: int) -> list[Array] | None:
         """Values of every channel of a recording at its samples, SI; None where the run stopped."""

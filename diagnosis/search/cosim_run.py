@@ -28,6 +28,7 @@ from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.compute.result import Result
+from diagnosis.faults.programme import with_gain
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import sample, series_of
@@ -40,16 +41,19 @@ class Changes:
     Args:
         parameters: Component to its parameters that have other values.
         shifts: Programme to its outputs that are moved as a whole, and by how much, in the unit of the output.
+        gains: Programme to its outputs that were another within an interval: gain, begin [s], end [s].
     """
 
     parameters: Mapping[str, Mapping[str, PhysicalValue]] = field(default_factory=dict)
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    gains: Mapping[str, Mapping[str, tuple[float, float, float]]] = field(default_factory=dict)
 
     def text(self) -> str:
         """Every number to its last bit, in an order that does not depend on how it was put together."""
         parameters = {c: {n: (v.number.hex(), v.unit) for n, v in own.items()} for c, own in self.parameters.items()}
         shifts = {c: {o: float(s).hex() for o, s in own.items()} for c, own in self.shifts.items()}
-        return json.dumps([parameters, shifts], sort_keys=True)
+        gains = {c: {o: [v.hex() for v in g] for o, g in own.items()} for c, own in self.gains.items()}
+        return json.dumps([parameters, shifts, gains] if gains else [parameters, shifts], sort_keys=True)
 
 
 @dataclass(frozen=True)
@@ -147,6 +151,10 @@ def changed(scenario: Scenario, changes: Changes) -> Scenario:
     for name, moved in changes.shifts.items():
         own = components[name]
         outputs = {o: _shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
+        components[name] = own.model_copy(update={"outputs": outputs})
+    for name, intervals in changes.gains.items():
+        own = components[name]
+        outputs = {o: with_gain(g, intervals[o], scenario) if o in intervals else g for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
     return scenario.model_copy(update={"components": components})
 

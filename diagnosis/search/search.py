@@ -22,6 +22,8 @@ from diagnosis.search.structure import Structure, structure
 FEWEST, WIDEST = 6, 2.5
 #: Stated deviations beyond which a clock or a lag may be a wrong minimum.
 LATE = 1.5
+#: Faults with begin and end that a model may have beside its laws.
+MOST_FAULTS = 3
 #: Share of the best's gain from which the best of names alone is gone on from too.
 NAMED = 0.8
 
@@ -132,7 +134,9 @@ def search(
     named: Explanation | None = None
     margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
-    for level in range(settings.most_terms):
+    for level in range(settings.most_terms + MOST_FAULTS):
+        if level >= settings.most_terms + sum(t.recording is not None for t in best.terms):
+            break  # faults of a day leave as much room for laws as there was
         on_progress(f"looking for effect {level + 1}")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
