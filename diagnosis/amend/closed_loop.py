@@ -28,8 +28,7 @@ def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, 
     Returns:
         The file that `cosim run` takes.
     """
-    point = point.lasting
-    given = model.model.changes_at(point, 0)
+    given = model.model.changes_at(point.lasting, 0)
     daily = {(f.component, f.name) for f in model.model.free if f.recording is not None}
     lasting = Changes(
         {c: {n: v for n, v in own.items() if (c, n) not in daily} for c, own in given.parameters.items()},

@@ -115,7 +115,9 @@ def best_constant(
     misfit = np.where(size > HUBER, 2.0 * HUBER * size - HUBER**2, size**2)
     cuts = np.unique(np.linspace(0, len(residuals), min(pieces, len(residuals)) + 1).astype(int))
     first, last = np.triu_indices(len(cuts), 1)
-    sums = [np.concatenate([[0.0], np.cumsum(v * weight)])[cuts] for v in (misfit, level**2, level, np.ones(len(level)))]
+    sums = [
+        np.concatenate([[0.0], np.cumsum(v * weight)])[cuts] for v in (misfit, level**2, level, np.ones(len(level)))
+    ]
     lost, square, total, count = (s[last] - s[first] for s in sums)
     seen = (count >= fewest) & (count < sums[3][-1])
     if not seen.any():

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.faults.law import INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, Span, fault_term
+from diagnosis.faults.law import INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.search.fit import Fit
@@ -170,7 +171,7 @@ class FaultyModel(WrappedModel):
 
         def slopes(term: Term, edges: Array) -> Array:
             step = term.parameters[0].starts[0]
-            tasks = [(term, (step, float(a), float(b))) for a, b in zip(edges[:-1], edges[1:])]
+            tasks = [(term, (step, float(a), float(b))) for a, b in itertools.pairwise(edges)]
             return strength_slopes(self, base.point, None, tasks)
 
         own = {r: self._residuals_of(r) for r in {t.recording for t in terms}}

@@ -135,8 +135,6 @@ def search(
     margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
     for level in range(settings.most_terms + MOST_FAULTS):
-        if level >= settings.most_terms + sum(t.recording is not None for t in best.terms):
-            break  # faults of a day leave as much room for laws as there was
         on_progress(f"looking for effect {level + 1}")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
@@ -163,12 +161,19 @@ def search(
         current, named = _gone_on_from(grown, settings.beam, best.cost)
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
-        if settings.stops_at_noise and not is_left and level + 1 >= settings.most_terms - 1:
+        if _is_enough(best, level + 1, is_left, settings):
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
+
+
+def _is_enough(best: Explanation, terms: int, is_left: bool, settings: Settings) -> bool:
+    """Whether no further term is looked for: faults of a day leave as much room for laws as there was without them."""
+    faults = sum(t.recording is not None for t in best.terms)
+    is_done = settings.stops_at_noise and not is_left and terms >= settings.most_terms - 1
+    return is_done or terms >= settings.most_terms + faults
 
 
 def _gone_on_from(
