@@ -32,7 +32,7 @@ def _candidate(identifier: str, hook: str, lines: str) -> CandidateTerm:
     return CandidateTerm(
         identifier=identifier, name=INPUT.name, unit="measurement", law=INPUT.law,
         source="definition: the input times a factor within an interval", parameters=(strength, *instants),
-        places=("supply",), lines={hook: lines}, 
+        places=("supply",), lines={hook: lines},
         signature="Everything that the input drives departs within an interval.",
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ import numpy as np
 from cosim.components import ProgrammeComponent, ProgrammeOutput, nanoseconds
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 from diagnosis.faults.bank_inputs import gain
 from diagnosis.faults.law import INPUT, Span, fault_term, occasion
 from diagnosis.recording.recording import Recording
@@ -73,7 +73,7 @@ def _values(given: ProgrammeOutput) -> Array:
     return np.array([[x.to(given.unit) for x in v] if isinstance(v, list) else v.to(given.unit) for v in values if v])
 
 
-def _at(given: ProgrammeOutput, own: Sequence[int], times: Array) -> Array:
+def _at(given: ProgrammeOutput, own: Sequence[int], times: AnyArray) -> Array:
     """Values at instants [ns]; before the first and after the last point their values hold."""
     values = _values(given)
     if given.points is None:
