@@ -35,6 +35,8 @@ INSTANTS = 40
 LATE = (-3.0, -2.0, -1.4, -1.0, -0.7, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0)
 #: Faults with begin and end that are fitted beside the laws, the best scores first, and how often an interval moves.
 FAULTS, MOVED_INTERVALS = 3, 4
+#: Fall of -2 log posterior for which an interval is moved: less is told by no reading.
+WORTH = 1.0
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96
 #: Most steps of a trial, whose derivatives by the model's own parameters are those at hand, and of what goes on.
@@ -102,7 +104,7 @@ def _with_faults(
         if candidate.gain > HOPEFUL * margin:
             start = explanation.fit.point.plus(candidate.term, candidate.values)
             trial = fit(model, start, TRIAL, explanation.fit, refreshes=0)
-            found = Explanation(_settled(model, fit(model, trial.point, STEPS, trial)))
+            found = Explanation(_with_intervals_set(model, fit(model, trial.point, STEPS, trial)))
             if not found.is_negligible:  # smaller than what one reading scatters by
                 grown[frozenset(found.terms)] = found
     return grown
@@ -138,7 +140,6 @@ def _continued(
 
 def _settled(model: Model, found: Fit) -> Fit:
     """A fit that has gone down the valleys of its laws, where these have any, or tried instants near its own."""
-    found = _with_intervals_set(model, found)
     return down_valley(model, found) if has_valleys(model) else _with_instants_set(model, found)
 
 
@@ -151,7 +152,7 @@ def _with_intervals_set(model: Model, found: Fit) -> Fit:
     for _ in range(MOVED_INTERVALS):
         points = [] if near is None else list(near(found.point))
         costs = costs_at(model, found, points) if points else []
-        if not costs or min(costs) >= found.cost:
+        if not costs or min(costs) >= found.cost - WORTH:
             break
         found = min(found, fit(model, points[int(np.argmin(costs))], STEPS, found), key=lambda f: f.cost)
     return found
@@ -182,7 +183,8 @@ def polished(model: Model, grown: Sequence[Explanation], before: float, margin: 
     gained = before - ranked[0].demerit if ranked else 0.0
     most = MOST_POLISHED if gained > margin else 1
     near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
-    done = [Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths))) for e in near]
+    whole = [_settled(model, fit(model, e.fit.point, widths=e.fit.widths)) for e in near]
+    done = [Explanation(_with_intervals_set(model, f)) for f in whole]
     return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 

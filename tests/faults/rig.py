@@ -1,4 +1,4 @@
-"""Two heaters whose recordings are simulated by the coil bank, with noise, wrong parameters and faults of our choice."""
+"""Two heaters whose recordings the coil bank simulates, with noise, wrong parameters and faults of our choice."""
 
 from __future__ import annotations
 
@@ -93,9 +93,7 @@ def recorded(
     empty = [blank(made, "first"), blank(made, "second")]
     model = BankModel(made, empty, laws())
     known = {str(t): t for t in (*model.terms(), *model.input_terms())}
-    point = Point(
-        0.5 * random.standard_normal(len(model.parameters)), {known[name]: values for name, values in terms}
-    )
+    point = Point(0.5 * random.standard_normal(len(model.parameters)), {known[name]: values for name, values in terms})
     found = []
     for number, recording in enumerate(empty):
         channels = {

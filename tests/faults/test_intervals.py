@@ -31,10 +31,13 @@ def test_the_best_interval_is_the_best_of_all_least_squares_fits():
             if 3 <= b - a < COUNT:
                 box = np.zeros(COUNT)
                 box[a:b] = 1.0
-                costs = [np.linalg.lstsq(m, column, rcond=None)[1] for m in (nuisance, np.column_stack([nuisance, box]))]
+                costs = [
+                    np.linalg.lstsq(m, column, rcond=None)[1] for m in (nuisance, np.column_stack([nuisance, box]))
+                ]
                 best = max(best, float(costs[0][0] - costs[1][0]))
         assert gain == pytest.approx(best, rel=1e-6)
-    assert (found.first, found.last) == (12, 22) and found.amount == pytest.approx(2.0, abs=0.6)
+    assert (found.first, found.last) == (12, 22)
+    assert found.amount == pytest.approx(2.0, abs=0.6)
 
 
 def test_no_more_than_one_scan_of_noise_in_twenty_passes_its_price_and_the_level():
@@ -51,4 +54,5 @@ def test_readings_that_stand_still_are_found_where_they_do():
     readings = truth + random.standard_normal(COUNT)
     readings[15:25] = readings[15]
     first, last, gain = best_constant(readings - truth, readings, 3, np.ones(COUNT, dtype=bool), COUNT)
-    assert (first, last) == (15, 25) and gain > 200.0
+    assert (first, last) == (15, 25)
+    assert gain > 200.0
