@@ -182,7 +182,7 @@ def _statement(word: Verdict, found: Sequence[object]) -> str:
         Verdict.CONSISTENT: "The model as it is agrees with the recordings within the noise of the sensors.",
         Verdict.RECALIBRATED: "The model agrees with the recordings once its own parameters are recalibrated.",
         Verdict.RECORDING_FAULT: "The recording and the scenario are not of the same experiment.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor is at fault: {effects}.",
+        Verdict.MEASUREMENT_FAULT: f"The measurement, or what is recorded of an input, is at fault: {effects}.",
         Verdict.MISSING_PHYSICS: f"The model leaves out: {effects}.",
         Verdict.UNNAMED_PHYSICS: f"The model leaves out something that the catalogue has no name for: {effects}.",
         Verdict.CANNOT_TELL: "Something is left that no effect of the catalogue explains.",
