@@ -28,7 +28,7 @@ _LAWS = {law.identifier: law for law in (OFFSET, STUCK, INPUT)}
 #: Samples by which begin and end are moved to look for a better interval near the one found.
 _MOVES = (-8, -5, -3, -2, -1, 1, 2, 3, 5, 8)
 #: Pieces of a recording in which a change of an input is simulated: by the coil bank, and where a run takes seconds.
-PIECES, FEW_PIECES = 32, 12
+PIECES, FEW_PIECES = 16, 12
 
 
 class FaultyModel(WrappedModel):
@@ -166,7 +166,7 @@ class FaultyModel(WrappedModel):
     def _input_scores(self, base: Fit, projection: Projection, scaled: Scaled) -> Scoring:
         terms = [t for t in self.input_terms if t not in base.point.terms]
         draws = projection.draws
-        if not terms or (not self._is_fast and structure(base.residuals, self.layout).is_noise):
+        if not terms or structure(base.residuals, self.layout).is_noise:
             return Scoring([], 0, np.zeros(draws), (None,) * draws)
 
         def slopes(term: Term, edges: Array) -> Array:

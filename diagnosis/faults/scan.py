@@ -16,7 +16,7 @@ from diagnosis.search.score import Projection, Score, Scoring
 from diagnosis.simulator.wrapped import Scaled
 
 #: Pieces of a channel whose ends are tried as begin and end of a fault; around the best of them every sample is tried.
-PIECES = 48
+PIECES = 24
 #: Pieces of which a sensor that is stuck is tried to hold.
 STUCK_PIECES = 192
 
