@@ -83,8 +83,8 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     """What a fitted point changes in a scenario.
 
     The scenario becomes the rig after the last recording: what has set in is there from the start, and what every day
-    has of its ambient and its first temperature is in. What belongs to a day alone is left as the scenario has it, or
-    stands there with the strength 0 (its draught); `Changes.terms_in` knows it.
+    has of its ambient and its first temperature is in. What belongs to a day alone is left as the scenario has it (also
+    a fault with begin and end), or stands there with the strength 0 (its draught); `Changes.terms_in` knows it.
 
     Raises:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
@@ -93,7 +93,7 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
     fitted = model.bank_parameters(Point(lasting), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
-    known = model.bank.terms
+    known, point = model.bank.terms, point.lasting
     every = known_terms(known, [model.terms_at(point, s) for s in (*model.seats, model.timeline.afterwards)])
 
     def terms_in(recording: Recording) -> list[FittedTerm]:

@@ -222,6 +222,11 @@ class CandidateTerm:
         return HOOK_AXES[next(iter(self.lines))]
 
     @property
+    def is_of_a_day(self) -> bool:
+        """Whether it may belong to one day, which other days do not show."""
+        return self.scope == "day"
+
+    @property
     def amplitude(self) -> Parameter:
         """The parameter that switches it off where it is 0."""
         return self.parameters[0]

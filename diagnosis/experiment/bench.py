@@ -78,12 +78,15 @@ class Belief:
     def of(fit: Fit, parameters: int) -> Belief:
         """From a fit; parameters beyond the first so many (zeros of sensors) are left out, as uncertain as they are.
 
+        Faults of one recording are left out too: another experiment does not have them.
+
         Args:
             fit: Of the recordings.
             parameters: Of the coil bank.
         """
-        kept = np.r_[0:parameters, len(fit.point.base) : len(fit.covariance)]
-        return Belief(Point(fit.point.base[:parameters], fit.point.terms), fit.covariance[np.ix_(kept, kept)])
+        lasts = [t.recording is None for t in fit.point.terms for _ in t.parameters]
+        kept = np.r_[0:parameters, len(fit.point.base) + np.flatnonzero(lasts)]
+        return Belief(Point(fit.point.base[:parameters], fit.point.lasting.terms), fit.covariance[np.ix_(kept, kept)])
 
 
 class Bench:

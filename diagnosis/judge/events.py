@@ -51,7 +51,7 @@ def event_of(term: Term, values: Sequence[float], model: DiagnosisModel) -> Even
         values: Of its parameters, as fitted: the instant on the joint axis.
         model: Model of the recordings that were fitted, wrapped or not.
     """
-    timeline = timeline_of(model)
+    timeline = None if term.recording is not None else timeline_of(model)  # a fault has begin and end instead
     joint = next((v for p, v in zip(term.parameters, values) if p.is_instant), None)
     if timeline is None or joint is None:
         return None
@@ -88,7 +88,7 @@ def instant_interval(term: Term, fit: Fit, model: DiagnosisModel, doubt: float =
     """
     values = fit.point.terms[term]
     number = next((i for i, p in enumerate(term.parameters) if p.is_instant), None)
-    if number is None:
+    if number is None or term.recording is not None:
         return None
     parameter, now = term.parameters[number], values[number]
     most = RISE * doubt**2

@@ -188,7 +188,10 @@ def _finding(
         doubts = (*doubts, _much_left(accepted))
     standing = standing_of(term, doubts, likely, is_trusted(outcome))
     recording, intervals = _intervals(model, effect)
-    if event is not None:
+    if term.recording is not None:
+        begin, end = (v for p, v in zip(term.parameters, fit.point.terms[term]) if p.is_instant)
+        recording, intervals = term.recording, ((begin, end),)
+    elif event is not None:
         recording, intervals = event.number, ((event.seconds, event.end),)
     return Finding(
         unit=term.unit,

@@ -88,6 +88,8 @@ class Term:
         parameters: The first is the strength: at 0 the term is absent.
         is_named: Whether it is an effect with a name.
         law: Formula.
+        recording: Number of the recording that it belongs to alone (a fault of a day); None: it holds on any.
+        price: -2 log of its prior odds against a law: it was chosen from so many intervals of time.
     """
 
     identifier: str
@@ -96,6 +98,8 @@ class Term:
     parameters: tuple[TermParameter, ...]
     is_named: bool = True
     law: str = ""
+    recording: int | None = None
+    price: float = 0.0
 
     def __str__(self) -> str:
         return f"{self.identifier} at {self.place}"
@@ -120,6 +124,11 @@ class Point:
     def without(self, term: Term) -> Point:
         """The same with one term less."""
         return Point(self.base, {t: v for t, v in self.terms.items() if t != term})
+
+    @property
+    def lasting(self) -> Point:
+        """The same without what belongs to one recording alone: the faults of a day."""
+        return Point(self.base, {t: v for t, v in self.terms.items() if t.recording is None})
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,8 @@ from diagnosis.bank.places import Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.faults import bank_inputs
+from diagnosis.faults.law import INPUT, Span, fault_term, occasion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
@@ -61,8 +63,10 @@ class BankModel:
         for recording in recordings:  # what it cannot compare is said before it is compiled
             for channel in recording.channels.values():
                 bank_quantity(channel.target, translations[0].layout, recording)
-        self.bank = Bank(translations[0].layout, catalogue)
+        self.bank = Bank(translations[0].layout, [*bank_inputs.CANDIDATES, *catalogue])
         self._candidates = {t.identifier: t for t in catalogue}
+        self._titles = labels(recordings)
+        self._inputs: dict[Term, tuple[CandidateTerm, Place]] = {}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
         spans = [(run.translation.start, max(float(t[-1]) for t in run.times.values())) for run in self.runs]
         self.timeline = Timeline.of(recordings, spans) if timeline is None else timeline
@@ -133,9 +137,21 @@ class BankModel:
             return [place]
         return [place, *(replace(place, label=f"{place.label} {day.label}", day=day) for day in days)]
 
+    def input_terms(self) -> list[Term]:
+        """Every input of every recording, as it may have been another within an interval."""
+        if not self._inputs:
+            for number, run in enumerate(self.runs):
+                times = np.unique(np.concatenate([s.times for s in run.series]))
+                span = Span(float(run.inputs.time[0]), float(times[-1]), len(times))
+                for candidate, place in bank_inputs.driven_places(self.coils, run.inputs):
+                    label = occasion(place.label, self._titles, number)
+                    term = fault_term(INPUT, label, bank_inputs.gain(), span, number)
+                    self._inputs[term] = (candidate, replace(place, label=label))
+        return list(self._inputs)
+
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:
         """Candidate and place of a term."""
-        return self._places[term]
+        return self._inputs[term] if term in self._inputs else self._places[term]
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
@@ -170,7 +186,7 @@ class BankModel:
     def _arrays(self, there: Mapping[Term, tuple[float, ...]]) -> dict[str, Mapping[str, float | Array]]:
         terms: dict[str, Mapping[str, float | Array]] = {}
         for term, values in there.items():
-            candidate, place = self._places[term]
+            candidate, place = self.where(term)
             own = place.values(candidate, dict(zip((p.name for p in term.parameters), values)))
             if candidate.identifier in terms:
                 own = merge(candidate, terms[candidate.identifier], own)
@@ -186,8 +202,10 @@ class BankModel:
         """Values of a term with its instants on the clock of a recording [s].
 
         Returns:
-            None where the term is not there: it has not set in yet, or it belongs to another day.
+            None where the term is not there: it has not set in yet, or it belongs to another day or recording.
         """
+        if term.recording is not None:  # a fault, whose begin and end are on the clock of its own recording
+            return tuple(values) if seat == self.timeline.seats[term.recording] else None
         candidate, place = self._places[term]
         if place.day is not None and place.day != seat.day:
             return None
@@ -249,13 +267,14 @@ class BankModel:
             outputs = shared_outputs(self.bank, parameters, run.plan)
             absent, probes = self._probes(tasks, self.seats[number])
             own = slice(begin, begin + run.count)
+            begin += run.count
             found[absent, own] = 0.0
-            for (identifier, values), at_places in probes.items():
+            for (_, values), at_places in probes.items():
                 members = list(at_places.values())
                 term = tasks[members[0][0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
-                at = [self._places[tasks[same[0]][0]][1] for same in members]
-                probe = Probe(self._candidates[identifier], shape, at, values[0])
+                at = [self.where(tasks[same[0]][0])[1] for same in members]
+                probe = Probe(self.where(term)[0], shape, at, values[0])
                 self.simulations += len(members)
                 try:
                     slopes = flat_probe_sensitivities(
@@ -265,7 +284,6 @@ class BankModel:
                     continue
                 for same, slope in zip(members, run.slopes(slopes)):
                     found[same, own] = slope
-            begin += run.count
         return found
 
     def _probes(
@@ -282,7 +300,7 @@ class BankModel:
             if local is None:
                 absent.append(i)
             else:
-                probes.setdefault((term.identifier, local), {}).setdefault(id(term), []).append(i)
+                probes.setdefault((self.where(term)[0].identifier, local), {}).setdefault(id(term), []).append(i)
         return absent, probes
 
     def _simulate(self, run: Run, parameters: Sequence[BankParameters]) -> list[Array | None]:
