@@ -27,8 +27,21 @@ def gain() -> TermParameter:
 
 
 def _candidate(identifier: str, hook: str, lines: str) -> CandidateTerm:
-    instants = tuple(Parameter(n, "s", -1e9, 1e9, "within the recording", (0.0,)) for n in ("begin", "end"))
-    strength = Parameter("gain", "1", -1.0, 1.0, "off to twice as much", (0.02,), is_amplitude=True)
+    instants = tuple(
+        Parameter(n, "s", -1e9, 1e9, "within the recording", (0.0,), plausible=1e9, plausible_reason="any instant")
+        for n in ("begin", "end")
+    )
+    strength = Parameter(
+        "gain",
+        "1",
+        -1.0,
+        1.0,
+        "off to twice as much",
+        (0.02,),
+        is_amplitude=True,
+        plausible=1.0,
+        plausible_reason="off altogether, or twice as much",
+    )
     return CandidateTerm(
         identifier=identifier, name=INPUT.name, unit="measurement", law=INPUT.law,
         source="definition: the input times a factor within an interval", parameters=(strength, *instants),

@@ -52,7 +52,7 @@ def is_shown_there_alone(
 
 
 def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
-    """Why a fault with begin and end is not accepted: what the model leaves is left elsewhere is as large; empty if it stands out.
+    """Why a fault with begin and end does not stand out from what the model leaves elsewhere; empty if it does.
 
     A box within a recording fills any gap of a wrong model. So a fault has to change a channel by at least `STANDS_OUT`
     times the root mean square of what is left of that channel outside its interval. Of an input, which several channels
