@@ -187,7 +187,8 @@ def _answer(case: Case) -> dict[str, Any]:
 
 def _sabotage(case: Case) -> dict[str, Any] | None:
     names = recording_names(len(case.training), len(case.held_out))
-    return case.sabotage.answer(names, case.setup.stop) if case.sabotage.kind else None
+    titles = [title_of(case.setup.name, n) for n in names]
+    return case.sabotage.answer(names, titles, case.setup.stop) if case.sabotage.kind else None
 
 
 def recording_names(training: int, held_out: int) -> list[str]:

@@ -31,7 +31,19 @@ KINDS = {
 #: Share of the sabotaged cases that lack physics besides.
 BESIDES_SHARE = 0.2
 #: Rigs of composed cases, as often as they stand here, and equations that a law is composed for.
-_COMPOSED_RIGS = ("network", "network", "small", "small", "zones", "bath", "bath", "heaters", "heaters", "pendulum", "pendulum")
+_COMPOSED_RIGS = (
+    "network",
+    "network",
+    "small",
+    "small",
+    "zones",
+    "bath",
+    "bath",
+    "heaters",
+    "heaters",
+    "pendulum",
+    "pendulum",
+)
 _COMPOSED_TARGETS = {
     "bath": ("shift", "force", "length", "reading", "heat"),
     "heaters": ("heat", "heat", "heat", "reading"),
@@ -226,7 +238,8 @@ def _drawn_sabotaged(identifier: str, dealer: Dealer, rng: np.random.Generator, 
         case = drawn_pendulum(identifier, "sabotaged", wanted, VERDICTS["sabotaged"], rng)
         return replace(case, sabotage=sabotage.drawn_for_arm(len(case.starts) - 1, STOP, rng))
     setup = SETUPS[rig_name]
-    effects, strengths = [], {}
+    effects: list[Effect] = []
+    strengths: dict[str, str] = {}
     rig, chain = drawn_rig(setup.sheet, rng), drawn_chain(setup, rng)
     if is_besides:
         effect, strength = dealer.deal("sabotaged")

@@ -1,7 +1,7 @@
 """How strong a composed law must be: what a recalibration leaves of it in readings that it was not fitted to.
 
-Many copies of a rig stand side by side and run as one: a plain one, one for each parameter that a recalibration may move, and
-one for each strength. Strings on a stiff supply do not know of each other, so the copies stay apart. The parameters are
+Many copies of a rig stand side by side and run as one: a plain one, one for each parameter that a recalibration may
+move, and one for each strength. Strings on a stiff supply do not know of each other, so the copies stay apart. The parameters are
 moved by a straight line (finite differences), with the scatter of `drawn_rig` as their priors.
 """
 
@@ -77,9 +77,7 @@ class Gauge:
         programmes: Two to learn from and one to judge by.
     """
 
-    def __init__(
-        self, setup: Setup, rig: Rig, sensors: Mapping[str, Sensors], programmes: Sequence[Programme]
-    ) -> None:
+    def __init__(self, setup: Setup, rig: Rig, sensors: Mapping[str, Sensors], programmes: Sequence[Programme]) -> None:
         self.setup, self.rig, self.sensors, self.programmes = setup, rig, dict(sensors), tuple(programmes)
         self._moments = [_moments(p, self.sensors) for p in self.programmes]
         self._plain: list[Trace] = []
@@ -151,7 +149,9 @@ class Gauge:
 
     def _readings(self, trace: Trace, moments: Mapping[str, Array], late: float = 0.0) -> dict[str, Array]:
         """By kind, in units of the noise, shape (moments, channels)."""
-        return {k: _at(*trace.signal(k), np.maximum(times - late, 0.0)) / self._noise(k) for k, times in moments.items()}
+        return {
+            k: _at(*trace.signal(k), np.maximum(times - late, 0.0)) / self._noise(k) for k, times in moments.items()
+        }
 
     def _side_by_side(
         self,
@@ -182,7 +182,9 @@ class Gauge:
             changed.append(replace(rig, shift=rig.shift + _STEP["shift"]))
         changed.append(replace(rig, room=rig.room + _STEP["room"]))
         depths = range(max(sheet.strings)) if is_electric else ()
-        changed += [replace(rig, resistance=rig.resistance * (1.0 + _STEP["resistance"] * (place == d))) for d in depths]
+        changed += [
+            replace(rig, resistance=rig.resistance * (1.0 + _STEP["resistance"] * (place == d))) for d in depths
+        ]
         traces = self._side_by_side(programme, (), [0.0] * (1 + len(changed)), COARSE, [rig, *changed])
         self._plain.append(traces[0])
         plain = self._readings(traces[0], moments)
@@ -251,7 +253,14 @@ def _stacked(rigs: Sequence[Rig]) -> Rig:
         for n in ("resistance", "conductance", "capacity", "weight", "stiffness", "shift", "end", "thermometer")
     }
     room = np.concatenate([np.broadcast_to(np.asarray(r.room, dtype=np.float64), sheet.coils) for r in rigs])
-    return replace(rigs[0], sheet=together, room=room, **arrays)
+    return Rig(
+        sheet=together,
+        room=room,
+        slew=rigs[0].slew,
+        duhem=rigs[0].duhem,
+        spread=rigs[0].spread,
+        **arrays,  # type: ignore[arg-type]  # arrays all of them
+    )
 
 
 def _repeated(programme: Programme, copies: int) -> Programme:
@@ -286,5 +295,3 @@ def _courses(trace: Trace) -> dict[str, Array]:
     found["extension"] = trace.states["extension"]
     found["phase"] = np.clip((trace.states["stiffness"] - 157.1) / 230.5, 0.0, 1.0)
     return found
-
-

@@ -126,8 +126,8 @@ def left(
 ) -> list[Left]:
     """What recalibrations leave of a law times each of these amounts.
 
-    Fitted are the ratio of weight moment to inertia and every start, by Gauss and Newton; the held-out recording has the
-    ratio of training and a start of its own.
+    Fitted are the ratio of weight moment to inertia and every start, by Gauss and Newton; the held-out recording has
+    the ratio of training and a start of its own.
 
     Args:
         arm: Without the law.

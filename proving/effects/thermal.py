@@ -53,7 +53,7 @@ class LossySecondMass(SecondMass):
     law = "heat = -g * (T - mass); C2 * d(mass) = g * (T - mass) - loss * (mass - T_ambient)"
     same_parameters = ("g", "C2", "loss")
     # Its equation is that of a mass without loss beside an h A that is greater by g * loss / (g + loss): by 6 to 11 %
-    # (weak), up to 22 % and up to 43 % here, of which a calibration takes 5 % for granted. The weak one is a second mass.
+    # (weak), up to 22 % and up to 43 %, of which a calibration takes 5 % for granted. The weak one is a second mass.
     strengths = {"g": (0.001, 0.006), "C2": (0.02, 0.1), "loss": (0.001, 0.01)}
 
 

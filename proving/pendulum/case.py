@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import yaml
 
-from proving.effects.effect import Strength, drawn_values
 from proving.composed.torque import ComposedTorque, drawn_torque
+from proving.effects.effect import Strength, drawn_values
 from proving.pendulum.arm import GRAVITY, Arm, ArmEffect, Torque
 from proving.pendulum.engines import ENGINES
 from proving.rig import Array
@@ -75,17 +75,17 @@ class PendulumCase:
         folder = cases / self.identifier
         names = [*(f"training_{n + 1}" for n in range(len(self.starts) - 1)), "held_out_1"]
         clean: Array = np.zeros(0)
-        stamps = INTERVAL * np.arange(round(STOP / INTERVAL) + 1)
+        stamps: Array = INTERVAL * np.arange(round(STOP / INTERVAL) + 1, dtype=np.float64)
         for number, (name, start) in enumerate(zip(names, self.starts), start=1):
             off = rng.normal(0.0, 0.005), rng.normal(0.0, 0.02)  # let go by hand
             angle, speed = self.sabotage.real_start(number, start)
             arm = replace(self.arm, extra=self._extra(number))
             swing = ENGINES[self.engine](arm, angle + off[0], speed + off[1], STOP, INTERVAL)
             clean = behind_play(swing, self.arm.of("backlash"))
-            read = QUANTUM * np.round((clean + self.noise * rng.standard_normal(clean.size)) / QUANTUM)
+            read: Array = QUANTUM * np.round((clean + self.noise * rng.standard_normal(clean.size)) / QUANTUM)
             course = self.sabotage.spoil_swing(number, stamps, read)
             stated = self.sabotage.stated_start(number, self.starts)
-            _write_recording(folder / name, f"arm, {name.replace('_', ' ')}", stated, course, (self.noise, number))
+            _write_recording(folder / name, _title(name), stated, course, (self.noise, number))
         (folder / "scenario.yaml").write_text(_SCENARIO.read_text())
         task = {
             "scenario": "scenario.yaml", "training": names[:-1], "held_out": names[-1:], "hidden": list(self.hidden)
@@ -116,7 +116,8 @@ class PendulumCase:
         return {
             "case": self.identifier, "kind": self.kind, "setup": "pendulum", "engine": self.engine,
             "verdicts": [*self.verdicts, *self.sabotage.verdicts], "hidden": list(self.hidden), "findings": findings,
-            "sabotage": self.sabotage.answer(names, STOP) if self.sabotage.kind else None, "rig": arm,
+            "sabotage": self.sabotage.answer(names, [_title(n) for n in names], STOP) if self.sabotage.kind else None,
+            "rig": arm,
             "noise": {"angle": self.noise},
         }  # fmt: skip
 
@@ -150,6 +151,10 @@ def drawn_pendulum(
         identifier, kind, arm, tuple(chosen), str(rng.choice(engines)), float(rng.uniform(5e-4, 2e-3)), starts,
         tuple(verdicts), tuple(e.identifier for e, _ in wanted) if kind == "leave_one_out" else (),
     )  # fmt: skip
+
+
+def _title(name: str) -> str:
+    return f"arm, {name.replace('_', ' ')}"
 
 
 def behind_play(angle: Array, play: float) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from proving.programme import Programme, delayed, offset
 from proving.sabotage.sabotage import OF_INPUT, OF_STRUCTURE, Bench, Sabotage
 
-_BENCHES = ("network", "small", "zones", "bath", "heaters")
+_BENCHES: tuple[str, ...] = ("network", "small", "zones", "bath", "heaters")
 #: Readings of a recorded input per second: every switch of a programme is on that grid.
 _INPUT_RATE = 10.0
 
@@ -160,6 +160,7 @@ class OtherSupply(Sabotage):
     """Two strings are wired to each other's supply, two heaters to each other's driver."""
 
     kind = "other_supply"
+    units = ("electrical", "thermal")
     law = "applied of one is what is stated of the other"
     verdicts = OF_STRUCTURE
     setups = ("zones", "heaters")
@@ -181,6 +182,7 @@ class DelayLine(Sabotage):
     """What is set reaches the rig after a dead time: a heat carrier flows there through a hose."""
 
     kind = "delay_line"
+    units = ("thermal",)
     law = "applied(t) = stated(t - dead_time)"
     verdicts = OF_STRUCTURE
     setups = ("bath", "heaters")

@@ -117,8 +117,8 @@ class WrongUnit(ArmSabotage):
         factor = self.parameters["factor"]
         return (factor * stamps, read) if self._mode == "ms as s" else (stamps, factor * read)
 
-    def answer(self, names: Sequence[str], stop: float) -> dict[str, Any]:
-        return super().answer(names, stop) | {"units": self._mode}
+    def answer(self, names: Sequence[str], titles: Sequence[str], stop: float) -> dict[str, Any]:
+        return super().answer(names, titles, stop) | {"mistake": self._mode}
 
 
 class ShiftedClock(ArmSabotage):
@@ -222,6 +222,7 @@ class HiddenMass(ArmSabotage):
     """A mass on a spring rides on the arm: two bodies where the model has one."""
 
     kind = "hidden_mass"
+    units = ("mechanical",)
     law = "torque = -coupling * z; d(d(z)) = d(w) - 2 * damping * rate * d(z) - rate**2 * z"
     verdicts = OF_STRUCTURE
 
@@ -263,12 +264,16 @@ class Escapement(ArmSabotage):
     """A clockwork gives the arm a kick whenever it passes its lowest point from one side."""
 
     kind = "escapement"
+    units = ("mechanical",)
     law = "torque = kick for abs(angle - pi) < reach and w > 0"
     verdicts = OF_STRUCTURE
 
     @classmethod
     def drawn_for_arm(cls, training: int, stop: float, rng: np.random.Generator) -> ArmSabotage:
-        numbers = {"kick": float(np.exp(rng.uniform(np.log(3e-3), np.log(1.5e-2)))), "reach": float(rng.uniform(0.05, 0.2))}
+        numbers = {
+            "kick": float(np.exp(rng.uniform(np.log(3e-3), np.log(1.5e-2)))),
+            "reach": float(rng.uniform(0.05, 0.2)),
+        }
         return cls(_all(training), numbers)
 
     def torque(self, number: int) -> Torque | None:

@@ -11,7 +11,7 @@ import numpy as np
 from proving.sabotage.sabotage import OF_READINGS, Bank, Bench, Sabotage, within
 from proving.sensors import Readings, Sensors
 
-_BENCHES = ("network", "small", "zones", "bath", "heaters")
+_BENCHES: tuple[str, ...] = ("network", "small", "zones", "bath", "heaters")
 #: Kelvin at which the scale of Fahrenheit has the same number as that of Celsius has at 0.
 _ICE = 273.15
 
@@ -95,11 +95,6 @@ class WrongUnit(Sabotage):
 
     _mode = ""
 
-    @property
-    def units(self) -> str:
-        """`mA as A` and the like."""
-        return self._mode
-
     def spoil(self, number: int, banks: Sequence[Bank]) -> list[Bank]:
         if self._mode == "degF as degC":
             return [_on(b, "temperature", lambda t: 1.8 * (t - _ICE) + 32.0 + _ICE) for b in banks]
@@ -114,8 +109,8 @@ class WrongUnit(Sabotage):
                 sidecar["channels"][name]["unit"] = stated
         return {}
 
-    def answer(self, names: Sequence[str], stop: float) -> dict[str, Any]:
-        return super().answer(names, stop) | {"units": self._mode}
+    def answer(self, names: Sequence[str], titles: Sequence[str], stop: float) -> dict[str, Any]:
+        return super().answer(names, titles, stop) | {"mistake": self._mode}
 
 
 #: Mistake: kind of sensors, unit stated where the sidecar is what is wrong, and reading over truth.
@@ -195,7 +190,9 @@ class SensorOff(Sabotage):
     def drawn(cls, bench: Bench, rng: np.random.Generator) -> Sabotage:
         sensors = bench.sensors[str(rng.choice(list(bench.sensors)))]
         bias = float(rng.choice([-1.0, 1.0])) * _off_by(sensors, rng)
-        return cls((bench.drawn_training(rng),), {"bias": bias}, (str(rng.choice(list(sensors.names))),), bench.span(rng))
+        return cls(
+            (bench.drawn_training(rng),), {"bias": bias}, (str(rng.choice(list(sensors.names))),), bench.span(rng)
+        )
 
     def spoil(self, number: int, banks: Sequence[Bank]) -> list[Bank]:
         return [self._spoiled(b) if self.concerns(number) and self.channels[0] in b[0].names else b for b in banks]

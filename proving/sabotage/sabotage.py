@@ -71,6 +71,7 @@ class Sabotage:
         verdicts: That are right.
         setups: Rigs that it can be done to.
         same_as: Effects of a catalogue that say the same in other words.
+        units: To which something without a name may be put down, where the model is wrong and not the recording.
     """
 
     kind: ClassVar[str] = ""
@@ -78,6 +79,7 @@ class Sabotage:
     verdicts: ClassVar[tuple[str, ...]] = ()
     setups: ClassVar[tuple[str, ...]] = ()
     same_as: ClassVar[tuple[str, ...]] = ()
+    units: ClassVar[tuple[str, ...]] = ()
 
     def __init__(
         self,
@@ -128,11 +130,12 @@ class Sabotage:
         """Changes what recording.yaml says; returns more tables, name to content."""
         return {}
 
-    def answer(self, names: Sequence[str], stop: float) -> dict[str, Any]:
+    def answer(self, names: Sequence[str], titles: Sequence[str], stop: float) -> dict[str, Any]:
         """What is written into the answer.
 
         Args:
             names: Of all recordings of the case.
+            titles: Of these.
             stop: End of a recording [s].
         """
         begin, end = self.span or (0.0, stop)
@@ -140,11 +143,13 @@ class Sabotage:
             "kind": self.kind,
             "law": self.law,
             "recordings": [names[n - 1] for n in self.recordings],
+            "titles": [titles[n - 1] for n in self.recordings],
             "channels": list(self.channels),
             "begin": begin,
             "end": end,
             "parameters": self.parameters,
             "same_as": list(self.same_as),
+            "units": list(self.units),
         }
 
 

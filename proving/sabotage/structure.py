@@ -43,6 +43,7 @@ class SingleBranch(_OfRig):
     """The coils have no hysteresis."""
 
     kind = "single_branch"
+    units = ("stiffness", "mechanical")
     law = OneCurve.law
     setups = ("network", "small", "zones", "bath")
 
@@ -76,6 +77,7 @@ class HiddenThermostat(_OfRig):
     """Strings have thermostats of which the model knows nothing."""
 
     kind = "thermostat"
+    units = ("electrical",)
     law = Thermostat.law
     setups = ("network", "small", "zones")
 
@@ -87,4 +89,3 @@ class HiddenThermostat(_OfRig):
 
 
 SABOTAGES: tuple[type[Sabotage], ...] = (SingleBranch, HiddenThermostat)
-
