@@ -118,7 +118,12 @@ def drawn_law(scales: Mapping[str, Scale], stop: float, rng: np.random.Generator
 
 
 def _drawn_product(scales: Mapping[str, Scale], stop: float, rng: np.random.Generator) -> list[Chain]:
-    names = [str(n) for n in rng.permutation(list(scales))][: 1 + int(rng.random() < 0.5)]
+    names = [str(n) for n in rng.permutation(list(scales))]
+    if names[0] == "time":  # alone it would be the same course in every recording, whatever is done to the rig
+        names = [names[1], names[0]]
+    elif rng.random() < 0.5:
+        names = names[:1]
+    names = names[:2]
     first = names[0]
     stages = [drawn_hysteresis(rng) if rng.random() < 0.2 else drawn_function(rng, scales[first].is_signed)]
     if rng.random() < 0.55:

@@ -259,7 +259,7 @@ def _stacked(rigs: Sequence[Rig]) -> Rig:
         slew=rigs[0].slew,
         duhem=rigs[0].duhem,
         spread=rigs[0].spread,
-        **arrays,  # type: ignore[arg-type]  # arrays all of them
+        **arrays,
     )
 
 

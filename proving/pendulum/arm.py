@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from proving.effects.effect import value_at
+
 GRAVITY = 9.80665  # [m/s^2]
 #: Time [s], angle [rad] and angular velocity [rad/s] to a torque [N m]; asked for at rising times, and at 0 to begin.
 Torque = Callable[[float, float, float], float]
@@ -72,6 +74,11 @@ EFFECTS: tuple[ArmEffect, ...] = (
         ranges={"rhythm": (5.5, 14.0)},
     ),
 )  # fmt: skip
+
+
+def middle(effect: ArmEffect) -> dict[str, float]:
+    """Parameters of an effect in the middle of their ranges, on a logarithmic scale."""
+    return {n: value_at(span, 0.5) for n, span in {**effect.strengths, **effect.ranges}.items()}
 
 
 @dataclass(frozen=True)
