@@ -48,6 +48,8 @@ def amount_of(amounts: Sequence[float], left: Sequence[Left], wanted: Wanted) ->
         return None
     high = int(above[0])
     low = high - 1
+    if not np.isfinite(rests[high]):
+        return None
     share = np.log(goal / rests[low]) / np.log(rests[high] / rests[low])
     training = [max(one.training - 1.0, 1e-12) for one in (left[low], left[high])]
     if np.exp((1.0 - share) * np.log(training[0]) + share * np.log(training[1])) < LEAST_IN_TRAINING - 1.0:

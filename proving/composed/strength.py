@@ -137,6 +137,7 @@ class Gauge:
         rests = [d - j @ moved for j, d in zip(self._columns, changes)]
         training = np.mean(np.concatenate(rests[:-1]) ** 2, axis=0)
         held_out = np.mean(rests[-1] ** 2, axis=0)
+        training, held_out = (np.where(np.isfinite(v), v, np.inf) for v in (training, held_out))
         return [Left(1.0 + float(t), 1.0 + float(h)) for t, h in zip(training, held_out)]
 
     def _noise(self, kind: str) -> float:
@@ -165,9 +166,10 @@ class Gauge:
         copies = list(rigs) or [self.rig] * len(amounts)
         stacked = _stacked(copies)
         every = [_spread(e, amounts) for e in effects]
-        trace = Truth(stacked, every, fineness.cells).run(
-            _repeated(programme, len(copies)), fineness.step * self.setup.step
-        )
+        with np.errstate(over="ignore", invalid="ignore"):  # of amounts that are far too large
+            trace = Truth(stacked, every, fineness.cells).run(
+                _repeated(programme, len(copies)), fineness.step * self.setup.step
+            )
         return [_part(trace, self.rig, n) for n in range(len(copies))]
 
     def _jacobian(self, programme: Programme, moments: Mapping[str, Array]) -> Array:
