@@ -1,8 +1,9 @@
 """What a composed law is made of: functions of one dimensionless variable, and memories of what they gave.
 
-A variable is of the order of 1. Functions: power, exponential, saturation, threshold, smooth step, bell. Memories: relay
-and play (hysteresis), dead time, first-order lag, accumulation, change, resonance, and a relaxation that is not linear.
-Numbers are drawn from ranges, so that no composition is the same as another, nor as a law of a library but by chance.
+A variable is of the order of 1. Functions: power, exponential, saturation, threshold, smooth step, bell. Memories:
+relay and play (hysteresis), dead time, first-order lag, accumulation, change, resonance, and a relaxation that is not
+linear. Numbers are drawn from ranges, so that no composition is the same as another, nor as a law of a library but by
+chance.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """How strong a composed law must be: what a recalibration leaves of it in readings that it was not fitted to.
 
 Many copies of a rig stand side by side and run as one: a plain one, one for each parameter that a recalibration may
-move, and one for each strength. Strings on a stiff supply do not know of each other, so the copies stay apart. The parameters are
-moved by a straight line (finite differences), with the scatter of `drawn_rig` as their priors.
+move, and one for each strength. Strings on a stiff supply do not know of each other, so the copies stay apart. The
+parameters are moved by a straight line (finite differences), with the scatter of `drawn_rig` as their priors.
 """
 
 from __future__ import annotations

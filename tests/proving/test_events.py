@@ -24,10 +24,9 @@ def case_with(effect, recording):
     rng = np.random.default_rng(4)
     programmes = [SETUP.shapes["soak"](rng, SETUP.top, 30.0) for _ in range(3)]
     effect.recording = recording
-    return Case(
-        "case", "single", SETUP, drawn_rig(SETUP.sheet, rng), [effect], [], {effect.identifier: "strong"}, programmes[:2],
-        programmes[2:], (), drawn_chain(SETUP, rng),
-    )  # fmt: skip
+    rig, chain = drawn_rig(SETUP.sheet, rng), drawn_chain(SETUP, rng)
+    strengths = {effect.identifier: "strong"}
+    return Case("case", "single", SETUP, rig, [effect], [], strengths, programmes[:2], programmes[2:], (), chain)
 
 
 def first_difference(case, number):
