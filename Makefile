@@ -21,8 +21,8 @@ run: setup fmus  ## the paper's experiment: all runs, figures and the scorecard,
 	$(BIN)/cosim reproduce --out runs/reproduce
 
 PROOF ?= runs/prove
-prove: dev fmus  ## the diagnosis on 360 cases with concealed effects (two hours); what is done is kept in runs/prove
-	$(BIN)/cosim prove --cases 360 --seed 1 --out $(PROOF) --jobs $(JOBS)
+prove: dev fmus  ## the diagnosis on 480 cases with concealed effects (three hours); what is done is kept in runs/prove
+	$(BIN)/cosim prove --cases 480 --seed 1 --out $(PROOF) --jobs $(JOBS)
 	$(BIN)/cosim prove --table $(PROOF) --page docs/proving-results.md
 
 REAL ?= runs/real

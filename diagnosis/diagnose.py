@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,6 +18,7 @@ from diagnosis.compute.batch import Batches
 from diagnosis.experiment.design import next_experiment
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.search import search_fabric
+from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
@@ -27,6 +29,7 @@ from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict, why_open
+from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.searched import searched
@@ -36,11 +39,11 @@ from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
 from diagnosis.simulator.biased import with_biases
-from diagnosis.simulator.models import DiagnosisModel, model_of
+from diagnosis.simulator.models import DiagnosisModel, model_of, timeline_of
 from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
 
@@ -120,7 +123,10 @@ def diagnose(
     both = distinct([*training, *held_out])
     training, held_out = both[: len(training)], both[len(training) :]
     model = model_of(scenario, training, known, means.threads, means.without, means.batches)
-    judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches) if held_out else None
+    judge = None
+    if held_out:
+        placed = timeline_of(model)
+        judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches, placed)
     on_progress("checking that recordings and scenario are of the same experiment")
     doubts = check_recordings(scenario, both)
     if means.is_checked and any(is_of_another_experiment(d) for d in doubts):
@@ -231,7 +237,7 @@ def _searched(
         if isinstance(judge, FabricModel):
             judge.take_scatter(model)
         return outcome, model, judge
-    outcome, found = search_with_model_error(with_biases(model), settings, on_progress)
+    outcome, found = search_with_model_error(with_faults(with_biases(model)), settings, on_progress)
     return outcome, found, with_biases(judge) if judge is not None else None
 
 
@@ -243,8 +249,14 @@ def _accepted(
     titles = [r.title for r in training]
     fitted = left_out_stretches(model, titles, on_progress)
     unfitted = fitted if judge is None else HeldOutReadings(judge, model, held_out)
+    known = {t: v for e in (*outcome.rivals, outcome.best) for t, v in e.fit.point.terms.items()}
+
+    @functools.cache
+    def is_local(term: Term) -> bool:
+        return is_shown_there_alone(term, known[term], model, judge)
+
     accepted = accept(
-        model, outcome, unfitted, fitted, lambda t: bool(getattr(model.where(t)[0], "is_of_a_day", False)),
+        model, outcome, unfitted, fitted, is_local,
         lambda: left_out_readings(model, titles), not isinstance(judge, FabricModel), on_progress,
     )  # fmt: skip
     return accepted, unfitted.readings

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial, reduce
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.compute.steps import counted
+from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -32,8 +33,6 @@ MANY = 1_000_000
 WEIGHED = 4
 #: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
 EXCHANGED = 4
-#: Parameters of laws that belong to one recording: another day has another draught and another drift.
-OF_A_DAY = ("instant", "drift")
 
 
 def search_with_model_error(
@@ -58,6 +57,12 @@ def search_with_model_error(
     if factor.max() <= BELIEVED:
         return outcome, model
     on_progress("searching again: no model meets the readings within their noise")
+    faults = _earned_faults(TemperedModel(LawsOnly(model), factor), outcome)
+    if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for
+        outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
+        factor = _pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+    model = GivenFaults(model, faults)
+    outcome = _laws_alone(outcome)
     found = TemperedModel(model, factor)
     if len(model.layout.time) * len(model.parameters) < MANY:
         outcome = _validated(found, settings, on_progress)
@@ -68,7 +73,42 @@ def search_with_model_error(
     if np.any(larger >= FAR * factor):
         found = TemperedModel(model, np.maximum(factor, larger))
         outcome = _reckoned(found, outcome)
-    return outcome, found
+    return _with_faults(found, outcome, faults) if faults else (outcome, found)
+
+
+def _earned_faults(model: TemperedModel, outcome: Outcome) -> dict[Term, tuple[float, ...]]:
+    """Faults of a first search that are worth their price even where the model errs as it does, with their values."""
+    faults = faults_of(outcome.best.fit.point)
+    if not faults:
+        return {}
+    alone = fit(model, Point(recalibrate(model).point.base, faults))
+    return faults_of(shrink(model, Explanation(alone), outcome.margin).fit.point)
+
+
+def _laws_alone(outcome: Outcome) -> Outcome:
+    """The outcome with the laws of its explanations as the points that another search may begin at."""
+
+    def laws(one: Explanation) -> Explanation:
+        return Explanation(replace(one.fit, point=one.fit.point.lasting))
+
+    return replace(outcome, best=laws(outcome.best), rivals=tuple(laws(e) for e in outcome.rivals))
+
+
+def _with_faults(
+    model: TemperedModel, outcome: Outcome, faults: Mapping[Term, tuple[float, ...]]
+) -> tuple[Outcome, TemperedModel]:
+    """Laws and faults fitted together, and the model that looks for neither."""
+    inner = model.inner
+    assert isinstance(inner, GivenFaults)
+    whole = TemperedModel(LawsOnly(inner.inner), model.inflation)
+
+    def beside(one: Explanation) -> Explanation:
+        point = one.fit.point
+        return Explanation(fit(whole, Point(point.base, {**point.terms, **faults}), widths=one.fit.widths))
+
+    best = shrink(whole, beside(outcome.best), outcome.margin)
+    near = [beside(e) for e in outcome.rivals if len(e.terms) == len(outcome.best.terms)][:WEIGHED]
+    return _settled(whole, outcome, recalibrate(whole), best, near), whole
 
 
 def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
@@ -162,16 +202,16 @@ def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
     for term in terms:
         spot = model.where(term)[1]
         mask = getattr(spot, "mask", None)
-        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes())
+        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes(), getattr(spot, "day", None))
         found.setdefault(key, term)
     return list(found.values())
 
 
 def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
-    """Laws with a name that hold on any day, and faults of sensors that a recording itself says may be there.
+    """Laws with a name that hold at any time, and faults of sensors that a recording itself says may be there.
 
-    Where much is left unexplained, an event at some instant, a drift, a term without a name or a sensor under suspicion
-    without a reason fills any gap; none of them says anything about another recording.
+    Where much is left unexplained, an event at some instant, what belongs to one day (a drift), a term without a name
+    or a sensor under suspicion without a reason fills any gap; none of them says anything about another recording.
     """
     channels = [s.channel for run in model.runs for s in run.series]
     stated = {
@@ -183,7 +223,8 @@ def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
         t
         for t in terms
         if t.is_named
-        and all(p.name not in OF_A_DAY for p in t.parameters)
+        and not any(p.is_instant for p in t.parameters)
+        and getattr(model.where(t)[0], "scope", "rig") == "rig"
         and (t.unit != "measurement" or stated.get(t.identifier, False))
     ]
 

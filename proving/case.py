@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from proving.effects.measurement import Clipping, SensorFault
 from proving.programme import Programme
 from proving.recording import Banks, write_clean, write_recording
 from proving.rig import Rig
+from proving.sabotage.sabotage import Sabotage
 from proving.sensors import Sensors, drawn_sensors, read
 from proving.setups import Setup
 from proving.truth import Trace, Truth
@@ -29,7 +31,7 @@ class Case:
 
     Args:
         identifier: Says nothing about the answer.
-        kind: `single`, `null`, `parameters`, `sensor`, `two`, `outside` or `leave_one_out`.
+        kind: One of `VERDICTS`.
         setup: The kind of rig.
         rig: The rig.
         effects: On the rig, in order.
@@ -40,6 +42,7 @@ class Case:
         hidden: Identifiers to be taken out of the catalogue.
         sensors: By kind.
         engine: `own`, or `mujoco` for the loads.
+        sabotage: What makes recordings and scenario be of different experiments; by default nothing.
     """
 
     identifier: str
@@ -54,6 +57,7 @@ class Case:
     hidden: tuple[str, ...] = ()
     sensors: dict[str, Sensors] = field(default_factory=dict)
     engine: str = "own"
+    sabotage: Sabotage = field(default_factory=Sabotage)
 
     def write(self, cases: Path, answers: Path, rng: np.random.Generator) -> None:
         """Runs the case and writes its recordings and its answer; its faults spoil its sensors.
@@ -70,7 +74,7 @@ class Case:
         folder.mkdir(parents=True, exist_ok=True)
         is_noise_told = bool(rng.random() < 0.6)
         # Before sensors are spoiled and numbers are drawn.
-        second = (twin(self), deepcopy(rng)) if self.kind == "outside" else None
+        second = (twin(self), deepcopy(rng)) if self.kind in ("outside", "composed") else None
         written = _record(self, folder, rng, is_noise_told)
         if second is not None:
             other, same = second
@@ -100,28 +104,39 @@ def twin(case: Case) -> Case:
 
 def _record(case: Case, folder: Path, rng: np.random.Generator, is_noise_told: bool) -> dict[str, Banks]:
     """Runs and writes every recording of a case; its faults spoil its sensors."""
-    names = [f"training_{n + 1}" for n in range(len(case.training))]
-    names += [f"held_out_{n + 1}" for n in range(len(case.held_out))]
+    names = recording_names(len(case.training), len(case.held_out))
     written: dict[str, Banks] = {}
-    for name, programme in zip(names, [*case.training, *case.held_out]):
-        trace = _run(case, programme)
+    sabotage = case.sabotage
+    for number, (name, programme) in enumerate(zip(names, [*case.training, *case.held_out]), start=1):
+        trace = run_truth(case, programme, number)
         if not written:
             _spoil(case, trace.signal)
-        banks = [(s, read(s, trace, programme.stop, rng)) for s in case.sensors.values()]
-        title = f"{case.setup.name}, {name.replace('_', ' ')}"
-        write_recording(folder / name, title, case.setup.overrides(programme), banks, is_noise_told)
+        banks = sabotage.spoil(number, [(s, read(s, trace, programme.stop, rng)) for s in case.sensors.values()])
+        overrides = case.setup.overrides(sabotage.stated(number, programme))
+        change = partial(sabotage.tell, number)
+        write_recording(folder / name, title_of(case.setup.name, name), overrides, banks, is_noise_told, number, change)
         written[name] = banks
     return written
 
 
-def _run(case: Case, programme: Programme) -> Trace:
-    """The truth over a programme; loads swing in MuJoCo where that is the engine."""
-    instants = tuple(e.parameters["instant"] for e in case.effects if "instant" in e.parameters)
-    trace = Truth(case.rig, case.effects).run(programme, case.setup.step, instants)
+def title_of(setup: str, recording: str) -> str:
+    """Title of a recording: `small, training 1`."""
+    return f"{setup}, {recording.replace('_', ' ')}"
+
+
+def run_truth(case: Case, programme: Programme, number: int) -> Trace:
+    """The truth over the programme of a recording, counted from 1; loads swing in MuJoCo where that is the engine."""
+    sabotage = case.sabotage
+    effects = [e.in_recording(number) for e in (*sabotage.effects(), *case.effects)]
+    given = (e.parameters["instant"] for e in effects if "instant" in e.parameters)
+    instants = tuple(i for i in given if np.isfinite(i))
+    rig = replace(case.rig, room=case.rig.room + sabotage.room(number))
+    applied = sabotage.applied(number, programme)
+    trace = Truth(rig, effects).run(applied, case.setup.step, instants, sabotage.start(number))
     if case.engine == "mujoco":
         from proving.mujoco_load import hang  # only cases of this engine need MuJoCo
 
-        loads = [e for e in case.effects if e.unit == "mechanical"]
+        loads = [e for e in effects if e.unit == "mechanical"]
         trace = replace(trace, states=trace.states | {"extension": hang(trace, case.rig, loads)})
     return trace
 
@@ -146,11 +161,12 @@ def _spoil(case: Case, signal: Any) -> None:
         fault.spoil(bank)
 
 
-#: Kind of case to the verdicts that are right.
+#: Kind of case to the verdicts that are right; those of a sabotaged one are its sabotage's.
 VERDICTS = {
     "single": ["missing physics"], "two": ["missing physics"], "null": ["consistent", "recalibrated"],
     "parameters": ["recalibrated"], "sensor": ["measurement fault"], "outside": ["unnamed physics"],
-    "leave_one_out": ["unnamed physics", "cannot tell"],
+    "leave_one_out": ["unnamed physics", "cannot tell"], "composed": ["unnamed physics", "cannot tell"],
+    "sabotaged": [],
 }  # fmt: skip
 
 
@@ -159,8 +175,8 @@ def _answer(case: Case) -> dict[str, Any]:
     numbers = ("resistance", "conductance", "capacity", "weight", "stiffness", "shift", "end", "thermometer")
     return {
         "case": case.identifier, "kind": case.kind, "setup": case.setup.name, "engine": case.engine,
-        "verdicts": VERDICTS[case.kind], "hidden": list(case.hidden),
-        "findings": [_finding(case, e) for e in _all(case)],
+        "verdicts": [*VERDICTS[case.kind], *case.sabotage.verdicts], "hidden": list(case.hidden),
+        "findings": [_finding(case, e) for e in _all(case)], "sabotage": _sabotage(case),
         "rig": {n: np.asarray(getattr(rig, n)).tolist() for n in numbers}
         | {"room": rig.room, "slew": rig.slew, "duhem": rig.duhem, "spread": rig.spread},
         "noise": {name: s.noise for name, s in case.sensors.items()},
@@ -169,9 +185,34 @@ def _answer(case: Case) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _sabotage(case: Case) -> dict[str, Any] | None:
+    names = recording_names(len(case.training), len(case.held_out))
+    titles = [title_of(case.setup.name, n) for n in names]
+    return case.sabotage.answer(names, titles, case.setup.stop) if case.sabotage.kind else None
+
+
+def recording_names(training: int, held_out: int) -> list[str]:
+    """Folders of the recordings of a case, in the order in which they were made."""
+    return [*(f"training_{n + 1}" for n in range(training)), *(f"held_out_{n + 1}" for n in range(held_out))]
+
+
+def _intervals(case: Case, effect: Effect | SensorFault) -> list[dict[str, Any]] | None:
+    """Recordings in which a sudden effect is there, and from when to when; None: everywhere and always."""
+    instant = effect.parameters.get("instant")
+    if instant is None or not isinstance(effect, Effect):
+        return None
+    names = recording_names(len(case.training), len(case.held_out))
+    found = []
+    for number, name in enumerate(names, start=1):
+        begin = max(effect.in_recording(number).parameters["instant"], 0.0)
+        if begin < case.setup.stop:
+            title = title_of(case.setup.name, name)
+            found.append({"recording": name, "title": title, "order": number, "begin": begin, "end": case.setup.stop})
+    return found
+
+
 def _finding(case: Case, effect: Effect | SensorFault) -> dict[str, Any]:
     kind = effect.place.kind
-    instant = effect.parameters.get("instant")
     element = {"coil": "coil", "string": "string"}.get(kind, "")
     is_numbered = case.setup.sheet.is_bath or case.setup.sheet.is_driven_by_power
     numbers = [n[:1] if is_numbered else n for n in effect.place.numbers]
@@ -181,7 +222,7 @@ def _finding(case: Case, effect: Effect | SensorFault) -> dict[str, Any]:
         "place": kind, "elements": [f"{element}[{','.join(map(str, n))}]" for n in numbers],
         "channels": list(effect.place.channels), "law": effect.law, "parameters": effect.parameters,
         "comparable_parameters": list(effect.same_parameters),
-        "intervals": None if instant is None else [[instant, case.setup.stop]],
+        "intervals": _intervals(case, effect),
     }  # fmt: skip
 
 

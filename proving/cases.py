@@ -3,25 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from proving.case import VERDICTS, Case, drawn_chain
+from proving.composed.case import ComposedCase
 from proving.draw import drawn_effect, fits, in_order
 from proving.effects import measurement
 from proving.effects.effect import STRENGTHS, Effect, Strength
 from proving.effects.measurement import SensorFault, drawn_fault
 from proving.pendulum import arm
-from proving.pendulum.case import PendulumCase, drawn_pendulum
+from proving.pendulum.case import STOP, PendulumCase, drawn_pendulum
 from proving.programme import Programme
 from proving.rig import drawn_rig
+from proving.sabotage.deal import PAIRS
+from proving.sabotage.pendulum import ArmSabotage
+from proving.sabotage.sabotage import Bench, Sabotage
 from proving.setups import EFFECTS, SETUPS, SHARES, Setup
 
 #: Kind of case to its share.
 KINDS = {
-    "single": 0.35, "null": 0.2, "parameters": 0.08, "sensor": 0.09, "two": 0.1, "outside": 0.1, "leave_one_out": 0.08
+    "single": 0.25, "null": 0.15, "parameters": 0.065, "sensor": 0.065, "two": 0.075, "outside": 0.06,
+    "leave_one_out": 0.06, "sabotaged": 0.14, "composed": 0.135,
 }  # fmt: skip
+#: Share of the sabotaged cases that lack physics besides.
+BESIDES_SHARE = 0.2
+#: Rigs of composed cases, as often as they stand here, and equations that a law is composed for.
+_COMPOSED_RIGS = (
+    "network",
+    "network",
+    "small",
+    "small",
+    "zones",
+    "bath",
+    "bath",
+    "heaters",
+    "heaters",
+    "pendulum",
+    "pendulum",
+)
+_COMPOSED_TARGETS = {
+    "bath": ("shift", "force", "length", "reading", "heat"),
+    "heaters": ("heat", "heat", "heat", "reading"),
+    "pendulum": ("torque",),
+}
+_ALL_TARGETS = ("heat", "heat", "resistance", "series", "shift", "force", "length", "reading")
 #: Share of the cases (but sensor faults) that are a pendulum, and of the loads that MuJoCo swings where it can.
 PENDULUM_SHARE, MUJOCO_SHARE = 0.12, 0.7
 _OF_MUJOCO = {"slide_friction", "supply_wire_stiffness", "thermal_contraction", "tilt", "viscous_damping"}
@@ -43,6 +71,10 @@ def hidden_with(identifier: str) -> tuple[str, ...]:
     """An effect and the laws that are the same equation, the effect first."""
     equal = next((group for group in EQUAL if identifier in group), frozenset[str]())
     return identifier, *sorted(equal - {identifier})
+
+
+#: A case before it is run.
+AnyCase = Case | PendulumCase | ComposedCase
 
 
 class Deck:
@@ -74,12 +106,30 @@ class Dealer:
         on_arm = [e for e in arm.EFFECTS if e.is_named]
         self.arm_decks = {
             "single": deck(on_arm), "two": deck(on_arm), "leave_one_out": deck(on_arm),
-            "outside": deck([e for e in arm.EFFECTS if not e.is_named]),
+            "outside": deck([e for e in arm.EFFECTS if not e.is_named]), "sabotaged": deck(on_arm),
         }  # fmt: skip
         self.decks = {
             "single": deck(named), "two": deck(named), "leave_one_out": deck(named), "sensor": deck(faults),
-            "outside": deck(both),
+            "outside": deck(both), "sabotaged": deck(named),
         }  # fmt: skip
+        self._rng = rng
+        self._sabotages: Deck | None = None
+        self._rigs: Deck | None = None
+        self._targets: dict[str, Deck] = {}
+
+    def deal_sabotage(self, setups: Sequence[str]) -> tuple[type[Sabotage], str]:
+        """A sabotage and the rig that it is done to, of some rigs; empty: of all."""
+        if self._sabotages is None:
+            self._sabotages = Deck([p for p in PAIRS if p[1] in (setups or p[1])], self._rng)
+        return self._sabotages.deal()  # type: ignore[return-value]  # as put in
+
+    def deal_composed(self, setups: Sequence[str]) -> tuple[str, str]:
+        """A rig, of some rigs (empty: of all), and the equation that a law is composed for."""
+        if self._rigs is None:
+            self._rigs = Deck([s for s in _COMPOSED_RIGS if s in (setups or s)], self._rng)
+        rig = str(self._rigs.deal())
+        targets = self._targets.setdefault(rig, Deck(_COMPOSED_TARGETS.get(rig, _ALL_TARGETS), self._rng))
+        return rig, str(targets.deal())
 
     def deal(self, kind: str) -> tuple[type[Effect] | type[SensorFault], Strength]:
         """An effect or fault and its strength, for a kind of case."""
@@ -87,7 +137,7 @@ class Dealer:
 
     def deal_for_arm(self, kind: str) -> list[tuple[arm.ArmEffect, Strength]]:
         """Effects on the pendulum's arm, for a kind of case."""
-        if kind in ("null", "parameters"):
+        if kind in ("null", "parameters", "composed"):
             return []
         dealt = [self.arm_decks[kind].deal()]
         while kind == "two" and len(dealt) < 2:
@@ -98,7 +148,7 @@ class Dealer:
 
 def drawn_cases(
     count: int, seed: int, kinds: Sequence[str] = (), setups: Sequence[str] = ()
-) -> list[tuple[Case | PendulumCase, np.random.Generator]]:
+) -> list[tuple[AnyCase, np.random.Generator]]:
     """Cases, each with the source of its noise; the same seed draws the same.
 
     Args:
@@ -116,9 +166,13 @@ def drawn_cases(
     shares = {k: KINDS[k] for k in kinds or KINDS}
     plan = _plan(shares, count, rng)
     sources = [np.random.default_rng(np.random.SeedSequence([seed, 1, n])) for n in range(count)]
-    drawn: list[tuple[Case | PendulumCase, np.random.Generator]] = []
+    drawn: list[tuple[AnyCase, np.random.Generator]] = []
     for n, (kind, source) in enumerate(zip(plan, sources)):
         identifier = f"case_{n + 1:04d}"
+        if kind in ("sabotaged", "composed"):
+            make = _drawn_sabotaged if kind == "sabotaged" else _drawn_composed
+            drawn.append((make(identifier, dealer, source, setups), source))
+            continue
         is_arm = source.random() < PENDULUM_SHARE if kind != "sensor" else False
         if is_arm if not setups else "pendulum" in setups and (is_arm or set(setups) == {"pendulum"}):
             wanted = dealer.deal_for_arm(kind)
@@ -173,6 +227,43 @@ def _drawn_case(
         held_out, hidden_with(wanted[0][0].identifier) if kind == "leave_one_out" else (), chain,
         "mujoco" if is_mujoco else "own",
     )  # fmt: skip
+
+
+def _drawn_sabotaged(identifier: str, dealer: Dealer, rng: np.random.Generator, setups: Sequence[str]) -> AnyCase:
+    """A case whose recordings and scenario are not of one experiment; some of them lack physics besides."""
+    sabotage, rig_name = dealer.deal_sabotage(setups)
+    is_besides = bool(rng.random() < BESIDES_SHARE)
+    if issubclass(sabotage, ArmSabotage):
+        wanted = dealer.deal_for_arm("sabotaged") if is_besides else []
+        case = drawn_pendulum(identifier, "sabotaged", wanted, VERDICTS["sabotaged"], rng)
+        return replace(case, sabotage=sabotage.drawn_for_arm(len(case.starts) - 1, STOP, rng))
+    setup = SETUPS[rig_name]
+    effects: list[Effect] = []
+    strengths: dict[str, str] = {}
+    rig, chain = drawn_rig(setup.sheet, rng), drawn_chain(setup, rng)
+    if is_besides:
+        effect, strength = dealer.deal("sabotaged")
+        while not _can(effect, setup):
+            effect, strength = dealer.deal("sabotaged")
+        assert issubclass(effect, Effect), "the deck holds effects on the rig"
+        effects, strengths = [drawn_effect(effect, setup, rig, strength, rng)], {effect.identifier: strength}
+    training, held_out = _programmes(setup, [*strengths], rng)
+    bench = Bench(setup, chain, [*training, *held_out], len(training))
+    made = sabotage.drawn(bench, rng)
+    return Case(
+        identifier, "sabotaged", setup, rig, effects, [], strengths, training, held_out, (), chain, "own", made
+    )  # fmt: skip
+
+
+def _drawn_composed(identifier: str, dealer: Dealer, rng: np.random.Generator, setups: Sequence[str]) -> AnyCase:
+    """A case with a law that is composed at random; it is looked for when the case is written."""
+    rig_name, target = dealer.deal_composed(setups)
+    if rig_name == "pendulum":
+        return drawn_pendulum(identifier, "composed", [], VERDICTS["composed"], rng)
+    setup = SETUPS[rig_name]
+    rig, chain = drawn_rig(setup.sheet, rng), drawn_chain(setup, rng)
+    training, held_out = _programmes(setup, [], rng)
+    return ComposedCase(identifier, setup, rig, chain, [*training, *held_out], target)
 
 
 def _setup(
@@ -232,6 +323,7 @@ def write_cases(
     Raises:
         ValueError: A kind or a rig is not known, or no cases are wanted.
         WireError: A truth does not converge.
+        NoLaw: None of many compositions can be made strong enough on a rig.
     """
     folder = Path(folder)
     for case, rng in drawn_cases(count, seed, kinds, setups):

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from proving.effects.effect import STRENGTHS, Effect, Strength, drawn_place
+from proving.effects.effect import Effect, Place, Strength, drawn_place, drawn_values
 from proving.effects.electrical import SupplyCurrentLimit
 from proving.effects.thermal import NeighbourHeat, TemperatureDependentConvection
 from proving.rig import Rig
 from proving.setups import EFFECTS, Setup
 
+#: Recordings to learn from: what is sudden sets in during one of them.
+TRAINING = 2
 #: Share that no strength may pass, whatever the draw.
 _MOST = {"openness": 1.0, "bridged": 1.0, "duhem_share": 1.0}
-#: Temperatures, which are drawn within 2 K.
-_ABSOLUTE = {"T_onset"}
 #: Parameters that grow with the conductance, or with the capacity, of the element that they act on.
 _LIKE_CONDUCTANCE, _LIKE_CAPACITY = ("g", "loss", "emissivity_area"), ("C2", "C_chassis")
 
@@ -23,12 +23,9 @@ _LIKE_CONDUCTANCE, _LIKE_CAPACITY = ("g", "loss", "emissivity_area"), ("C2", "C_
 def drawn_effect(
     effect: type[Effect], setup: Setup, rig: Rig, strength: Strength, rng: np.random.Generator
 ) -> Effect:  # fmt: skip
-    """An effect on a rig: values within 10 % of those of its strength, sign, place and instant drawn."""
-    places = [p for p in effect.places if _is_place(p, setup)]
-    place = drawn_place(str(rng.choice(places)), setup.sheet, rng)
-    level = STRENGTHS.index(strength)
-    parameters = {name: values[level] * float(rng.uniform(0.9, 1.1)) for name, values in effect.strengths.items()}
-    parameters |= {n: effect.strengths[n][level] + float(rng.uniform(-2.0, 2.0)) for n in _ABSOLUTE & set(parameters)}
+    """An effect on a rig: values within the range of its strength, sign, place, recording and instant drawn."""
+    place = drawn_place_on(effect.places, setup, rng)
+    parameters = drawn_values(effect.strengths, effect.ranges, strength, rng)
     parameters = {name: min(value, _MOST.get(name, np.inf)) for name, value in parameters.items()}
     if effect.signed and rng.random() < 0.5:
         parameters[effect.signed] *= -1.0
@@ -41,11 +38,19 @@ def drawn_effect(
         most = setup.top / setup.sheet.resistance * sum(1.0 / n for n in strings)
         parameters = {"limit": parameters["share"] * most}
     made = effect(place, parameters)
+    if effect.is_sudden:
+        made.recording = int(rng.integers(1, TRAINING + 1))
     if isinstance(made, TemperatureDependentConvection):
         made.conductance = rig.conductance
     if isinstance(made, NeighbourHeat):
         made.pairs = _pairs(setup)
     return made
+
+
+def drawn_place_on(kinds: Sequence[str], setup: Setup, rng: np.random.Generator) -> Place:
+    """A place of one of some kinds, those that tell themselves from `all` on this rig."""
+    places = [p for p in kinds if _is_place(p, setup)]
+    return drawn_place(str(rng.choice(places)), setup.sheet, rng)
 
 
 def _is_place(kind: str, setup: Setup) -> bool:

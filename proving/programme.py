@@ -88,3 +88,29 @@ def partial(rng: np.random.Generator, top: float, stop: float) -> Programme:
 
 
 SHAPES = (staircase, pulses, soak, partial)
+
+
+def offset(programme: Programme, span: tuple[float, float], factor: float, added: float) -> Programme:
+    """The same programme with its level times `factor` plus `added` within a stretch of time.
+
+    A ramped programme goes over within 0.1 s on both sides.
+    """
+    begin, end = span
+    knots = [begin, begin + 0.1, end, end + 0.1] if programme.is_ramped else [begin, end]
+    times = np.unique(np.round(np.concatenate([programme.times, knots]), 6))
+    times = times[times <= programme.stop]
+    levels = np.array([programme.at(t) for t in times.tolist()])
+    inside = (times >= begin + 0.05) & (times < end + 0.05) if programme.is_ramped else (times >= begin) & (times < end)
+    shape = (-1,) + (1,) * (levels.ndim - 1)
+    changed = np.where(inside.reshape(shape), factor * levels + added, levels)
+    return Programme(times, changed, programme.stop, programme.is_ramped)
+
+
+def delayed(programme: Programme, dead_time: float) -> Programme:
+    """The same programme later; until then its first level holds."""
+    times = np.concatenate([[0.0], programme.times + dead_time])
+    levels = np.concatenate([programme.levels[:1], programme.levels])
+    kept = times <= programme.stop
+    if programme.is_ramped:  # the last piece of a ramp ends beyond the stop
+        kept[np.argmin(kept)] = True
+    return Programme(times[kept], levels[kept], programme.stop, programme.is_ramped)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +18,19 @@ Bank = tuple[Sensors, Readings]
 Banks = Sequence[Bank]
 
 
+#: Changes what recording.yaml says; returns more tables, name to content.
+Change = Callable[[dict[str, Any]], Mapping[str, str]]
+
+
 def write_recording(
-    folder: Path, title: str, overrides: Mapping[str, Any], banks: Banks, is_noise_told: bool
-) -> None:  # fmt: skip
+    folder: Path,
+    title: str,
+    overrides: Mapping[str, Any],
+    banks: Banks,
+    is_noise_told: bool,
+    order: int,
+    change: Change = lambda sidecar: {},
+) -> None:
     """Writes one recording: recording.yaml and a CSV for each kind of sensor.
 
     Args:
@@ -29,6 +39,8 @@ def write_recording(
         overrides: Keys of the scenario with what was done.
         banks: Sensors with their readings.
         is_noise_told: Whether the sidecar gives the noise.
+        order: Place among the recordings of the case in time, from 1.
+        change: What a sabotage makes of the sidecar.
     """
     folder.mkdir(parents=True, exist_ok=True)
     channels: dict[str, Any] = {}
@@ -38,9 +50,16 @@ def write_recording(
         channels |= {name: _entry(sensors, table, c, is_noise_told) for name, c in columns.items()}
     first = f"{banks[0][0].kind.quantity}.csv"
     sidecar = {
-        "title": title, "table": first, "time": _CLOCK, "switch_margin": "0.3 s",
-        "overrides": dict(overrides), "channels": channels,
-    }  # fmt: skip
+        "title": title,
+        "table": first,
+        "time": dict(_CLOCK),
+        "order": order,
+        "switch_margin": "0.3 s",
+        "overrides": dict(overrides),
+        "channels": channels,
+    }
+    for name, content in change(sidecar).items():
+        (folder / name).write_text(content)
     (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False, width=120, default_flow_style=None))
 
 

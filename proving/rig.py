@@ -70,7 +70,7 @@ class Rig:
         shift: Of the transformation temperatures [K].
         end: Conductance from each end of the wire to its pin [W/K].
         thermometer: Where along the wire the thermocouple sits, 0 to 1.
-        room: How far the surroundings are off [K].
+        room: How far the surroundings are off [K]; of every coil, where rigs stand side by side.
         slew: Time in which the supply changes its voltage [s].
         duhem: Share of the loop that answers a reversal at once [1]; see `hysteresis`.
         spread: Scatter of the transformation temperatures within a wire [K].
@@ -85,7 +85,7 @@ class Rig:
     shift: Array
     end: Array
     thermometer: Array
-    room: float = 0.0
+    room: float | Array = 0.0
     slew: float = 0.0
     duhem: float = 0.0
     spread: float = 0.0

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
@@ -60,6 +61,13 @@ def channel_names(kind: Kind, sheet: DataSheet) -> tuple[str, ...]:
     return tuple(f"coil[{s + 1},{p + 1}].{kind.suffix}" for s, p in places)
 
 
+class Distortion(Protocol):
+    """What is added to the readings of sensors by a law of other quantities."""
+
+    def along(self, times: Array, variables: Mapping[str, Array]) -> Array:
+        """Added at every time [s], shape (times, channels)."""
+
+
 @dataclass
 class Sensors:
     """All sensors of one kind with their small and large faults; arrays have shape (channels,).
@@ -80,6 +88,7 @@ class Sensors:
         dropouts: Share of readings that are missing.
         outliers: Share of readings that are wild.
         jitter: Share of the sampling interval by which readings scatter in time.
+        distortion: What else they read, of sensors of temperatures and extensions; None: nothing.
     """
 
     kind: Kind
@@ -98,6 +107,7 @@ class Sensors:
     outliers: float = 0.0
     jitter: float = 0.0
     kept: tuple[int, ...] = field(default=())
+    distortion: Distortion | None = None
 
     def rows(self, channels: Sequence[str]) -> list[int]:
         """Numbers of channels."""
@@ -148,6 +158,8 @@ def read(sensors: Sensors, trace: Trace, stop: float, rng: np.random.Generator) 
     stamps = np.round(stamps, 4)
     times, course = trace.signal(kind.quantity)
     seen = _lagged(times, course[:, sensors.element], sensors.lag)
+    if sensors.distortion is not None:
+        seen = seen + sensors.distortion.along(times, variables_of(trace, kind.quantity))
     moments = np.clip(stamps[:, None] - sensors.delay, times[0], times[-1])
     columns = range(len(sensors.names))
     clean = np.stack([np.interp(moments[:, c], times, seen[:, c]) for c in columns], axis=1)
@@ -164,6 +176,13 @@ def read(sensors: Sensors, trace: Trace, stop: float, rng: np.random.Generator) 
     values, clean = np.minimum(values, sensors.ceiling), np.minimum(clean, sensors.ceiling)
     values[rng.random(clean.shape) < sensors.dropouts] = np.nan
     return Readings(stamps, values, clean)
+
+
+def variables_of(trace: Trace, quantity: str) -> dict[str, Array]:
+    """Variables of every coil at the ends of steps, shape (steps + 1, coils); `own` is the quantity itself."""
+    time = np.repeat(trace.time[:, None], trace.states[quantity].shape[1], axis=1)
+    flows = {n: np.concatenate([trace.flows[n][:1, 0], trace.flows[n][:, 1]]) for n in ("current", "power")}
+    return {"own": trace.states[quantity], "warmth": trace.states["mean_temperature"], "time": time, **flows}
 
 
 def _lagged(times: Array, course: Array, lag: Array) -> Array:

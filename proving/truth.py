@@ -70,19 +70,22 @@ class Truth:
         self._has_resistivity = any(type(e).resistivity is not Effect.resistivity for e in self.effects)
         self._heaters = [e for e in self.effects if type(e).heat is not Effect.heat]
 
-    def run(self, programme: Programme, step: float = 0.1, instants: tuple[float, ...] = ()) -> Trace:
+    def run(
+        self, programme: Programme, step: float = 0.1, instants: tuple[float, ...] = (), excess: float = 0.0
+    ) -> Trace:
         """The truth over a programme.
 
         Args:
             programme: What is done.
             step: Longest step [s].
             instants: Times at which effects set in: ends of steps.
+            excess: How much warmer than their surroundings the coils start [K].
 
         Raises:
             WireError: The temperatures do not converge.
         """
         grid = programme.grid(step, 0.0 if programme.is_ramped else self.rig.slew, instants)
-        now = self._start(programme)
+        now = self._start(programme, excess)
         record = _Record(grid)
         record.keep_state(now, self._thermometer(now))
         for begin, end in zip(grid[:-1].tolist(), grid[1:].tolist()):
@@ -93,14 +96,15 @@ class Truth:
     def _thermometer(self, now: Now) -> Array:
         return self.wires.at(self.rig.thermometer, now.wire)
 
-    def _start(self, programme: Programme) -> Now:
+    def _start(self, programme: Programme, excess: float) -> Now:
         coils, cells = self.wires.shape
         zero = np.zeros(coils)
         room = ROOM if not self.rig.sheet.is_bath else float(programme.at(0.0))
         ambient = np.full(coils, room + self.rig.room)
-        wire = np.repeat(ambient[:, None], cells, axis=1)
+        begin = ambient + excess
+        wire = np.repeat(begin[:, None], cells, axis=1)
         now = Now(
-            self.wires.weight, 0.0, 0.0, 0.0, 0.0, wire, ambient.copy(), ambient, zero, zero.copy(), zero.copy(),
+            self.wires.weight, 0.0, 0.0, 0.0, 0.0, wire, begin, ambient, zero, zero.copy(), zero.copy(),
             np.zeros((coils, cells)), zero.copy(), zero.copy(), zero.copy(), self.rig.weight.copy(),
         )  # fmt: skip
         for effect in self.effects:
@@ -109,7 +113,7 @@ class Truth:
         for effect in self.effects:
             effect.begin(now)
             effect.loop(now, self._change)
-        self._loop = Loop(self.rig, cells, ambient - self.rig.shift - self._change.shift, self._duhem)
+        self._loop = Loop(self.rig, cells, begin - self.rig.shift - self._change.shift, self._duhem)
         self._accept(now)
         now.extension = now.tension / now.stiffness
         for effect in self.effects:
@@ -213,7 +217,10 @@ class Truth:
 
     def _accept(self, now: Now) -> None:
         """Stiffness at the temperatures reached."""
-        piece = self._loop.accept(now.wire - CELSIUS - (self.rig.shift + self._change.shift)[:, None])
+        celsius = now.wire - CELSIUS - (self.rig.shift + self._change.shift)[:, None]
+        piece = self._loop.accept(celsius)
+        for effect in self.effects:
+            piece = effect.curve(now, celsius, piece)
         now.phase = phase(piece)
         piece = SOFTEST + self._change.fraction[:, None] * (piece - SOFTEST)
         now.stiffness = self.rig.stiffness / self.wires.mean(1.0 / piece)

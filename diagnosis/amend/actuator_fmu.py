@@ -24,7 +24,7 @@ _DIRECT = {
     "reference_resistance": "POSITIVE", "resistance_temperature_coefficient": "ANY",
     "reference_temperature": "POSITIVE", "power_gain": "NON_NEGATIVE", "cooling_rate": "NON_NEGATIVE",
     "off_power": "NON_NEGATIVE", "initial_temperature": "POSITIVE",
-    "initial_loop_position": "NON_NEGATIVE",
+    "initial_loop_position": "NON_NEGATIVE", "cycles_before": "NON_NEGATIVE",
     **{f"{branch}_{letter}": "POSITIVE" for branch in ("heating", "cooling") for letter in "abcd"},
 }  # fmt: skip
 #: Inputs that terms may need beside power and ambient temperature: array of the step to unit and meaning.

@@ -166,4 +166,6 @@ def _comment(scenario: Scenario, changes: Changes) -> str:
             lines.append(
                 f"#   {parameter.name} [{parameter.unit}]: {' to '.join(values[:1] + values[-1:][len(values) == 1 :])}"
             )
+        if not fitted.values[fitted.term.amplitude.name].any():
+            lines.append("#   it belongs to one day alone: here its strength is 0")
     return "\n".join(lines) + "\n"

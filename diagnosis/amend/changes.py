@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,6 +12,8 @@ from diagnosis.amend.parts import Part, part_of
 from diagnosis.bank.layout import QUANTITY_FIELDS, Array
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.shares import is_own
 from diagnosis.simulator.bank_model import BankModel
@@ -55,6 +57,8 @@ class Changes:
         terms: Terms in the order of the catalogue.
         sensors: Base parameters of the sensors (how late the clock of every quantity is) with their values.
         offsets: Those of `OFFSETS` that all recordings share, and by how much they are moved [K].
+        cycles_before: Full cycles of the rig before a run of the scenario.
+        terms_in: From a recording to the terms as they are in it, in the order of `terms`; None: as in `terms`.
     """
 
     translation: Translation
@@ -62,6 +66,8 @@ class Changes:
     terms: Sequence[FittedTerm]
     sensors: Mapping[str, Array]
     offsets: Mapping[str, float] = field(default_factory=dict)
+    cycles_before: float = 0.0
+    terms_in: Callable[[Recording], Sequence[FittedTerm]] | None = None
 
     def of(self, part: Part) -> list[FittedTerm]:
         """The terms of a part."""
@@ -76,18 +82,34 @@ class Changes:
 def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     """What a fitted point changes in a scenario.
 
-    What belongs to a day alone (its ambient, its first temperature) is left as the scenario has it; what every day has
-    of it is in.
+    The scenario becomes the rig after the last recording: what has set in is there from the start, and what every day
+    has of its ambient and its first temperature is in. What belongs to a day alone is left as the scenario has it (also
+    a fault with begin and end), or stands there with the strength 0 (its draught); `Changes.terms_in` knows it.
 
     Raises:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
     """
     lasting = np.array([0.0 if is_own(p.name) else z for p, z in zip(model.parameters, point.base)], dtype=np.float64)
     nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
-    fitted = model.bank_parameters(Point(lasting, point.terms), 0)
+    fitted = model.bank_parameters(Point(lasting), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
-    terms = fitted_terms(model.bank.terms, fitted)
-    return Changes(translate(scenario), _factors(nominal, fitted), terms, sensors, _offsets(nominal, fitted))
+    known, point = model.bank.terms, point.lasting
+    every = known_terms(known, [model.terms_at(point, s) for s in (*model.seats, model.timeline.afterwards)])
+
+    def terms_in(recording: Recording) -> list[FittedTerm]:
+        span = translate(scenario_of(scenario, recording)).start, recording.end
+        return as_in(every, known, model.terms_at(point, model.timeline.seat_of(recording, span)))
+
+    afterwards = model.timeline.afterwards
+    return Changes(
+        translate(scenario),
+        _factors(nominal, fitted),
+        as_in(every, known, model.terms_at(point, afterwards)),
+        sensors,
+        _offsets(nominal, fitted),
+        afterwards.cycles_before,
+        terms_in,
+    )
 
 
 def _offsets(nominal: BankParameters, fitted: BankParameters) -> dict[str, float]:
@@ -97,6 +119,35 @@ def _offsets(nominal: BankParameters, fitted: BankParameters) -> dict[str, float
         amount = np.asarray(fitted.base.get(name, 0.0)) - np.asarray(nominal.base.get(name, 0.0))
         if np.any(amount):
             found[name] = float(np.mean(amount))
+    return found
+
+
+def known_terms(
+    catalogue: Sequence[CandidateTerm], seen: Sequence[Mapping[str, Mapping[str, float | Array]]]
+) -> list[FittedTerm]:
+    """Terms that are there at some time, with the values that they have first.
+
+    Args:
+        catalogue: All terms.
+        seen: Terms as the bank takes them, at several times.
+    """
+    found: dict[str, FittedTerm] = {}
+    for terms in seen:
+        for fitted in fitted_terms(catalogue, BankParameters({}, terms)):
+            found.setdefault(fitted.term.identifier, fitted)
+    return [found[t.identifier] for t in catalogue if t.identifier in found]
+
+
+def as_in(
+    every: Sequence[FittedTerm], catalogue: Sequence[CandidateTerm], there: Mapping[str, Mapping[str, float | Array]]
+) -> list[FittedTerm]:
+    """All of the terms, those that are there with their values, the others with the strength 0."""
+    known = {f.term.identifier: f for f in fitted_terms(catalogue, BankParameters({}, there))}
+    found = []
+    for one in every:
+        name = one.term.amplitude.name
+        off = FittedTerm(one.term, {**one.values, name: np.zeros_like(one.values[name])})
+        found.append(known.get(one.term.identifier, off))
     return found
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from diagnosis.amend.changes import CannotAmend, FittedTerm
 
 Values = Mapping[str, float]
@@ -20,7 +22,9 @@ def _contact(n: int, v: Values) -> dict[str, Any]:
 
 
 def _loose(n: int, v: Values) -> dict[str, Any]:
-    return {**_contact(n, v), "instant": quantity(v["instant"], "s")}
+    """From an instant on; what was there before the run begins has none."""
+    since = {"instant": quantity(v["instant"], "s")} if np.isfinite(v["instant"]) else {}
+    return {**_contact(n, v), **since}
 
 
 def _lead(n: int, v: Values) -> dict[str, Any]:
@@ -60,8 +64,12 @@ _ELEMENTS: Mapping[str, Callable[[int, Values], dict[str, Any]]] = {
 }
 
 
-def circuit_elements(terms: Sequence[FittedTerm]) -> list[dict[str, Any]]:
+def circuit_elements(terms: Sequence[FittedTerm], start: float = 0.0) -> list[dict[str, Any]]:
     """Elements of `components.<circuit>.elements`.
+
+    Args:
+        terms: Of the circuit.
+        start: First instant of the run [s]: what has set in before it is there from the start.
 
     Raises:
         CannotAmend: A term of the circuit has no element.
@@ -74,5 +82,8 @@ def circuit_elements(terms: Sequence[FittedTerm]) -> list[dict[str, Any]]:
         amplitude = fitted.values[fitted.term.amplitude.name]
         for n, strength in enumerate(amplitude):
             if strength != 0.0:
-                found.append(make(n + 1, {name: float(values[n]) for name, values in fitted.values.items()}))
+                values = {name: float(v[n]) for name, v in fitted.values.items()}
+                if values.get("instant", start) < start:
+                    values["instant"] = -np.inf
+                found.append(make(n + 1, values))
     return found

@@ -28,7 +28,7 @@ def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, 
     Returns:
         The file that `cosim run` takes.
     """
-    lasting = model.model.changes_at(point, None)
+    lasting = model.model.changes_at(point.lasting, None)
     folder.mkdir(parents=True, exist_ok=True)
     data = yaml.safe_load(changed(scenario, lasting).to_yaml())
     take_along(scenario, data, folder)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,12 @@ from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario
 from cosim.unit import Array
+from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.amend.amend import AmendedModel
-from diagnosis.amend.changes import Changes
+from diagnosis.amend.changes import Changes, FittedTerm
+from diagnosis.amend.circuit_elements import circuit_elements
 from diagnosis.amend.parts import Part
+from diagnosis.amend.scenario_file import term_parameters
 from diagnosis.bank.bank import Bank
 from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES
@@ -130,6 +133,18 @@ def _quantities(values: Array, unit: str) -> PhysicalValue | list[PhysicalValue]
     return found[0] if len(found) == 1 else found
 
 
+def _own_terms(recording: Recording, amended: AmendedModel) -> Sequence[FittedTerm]:
+    """Terms as they are in a recording, where they are not as in the scenario: nothing else has to be said of them."""
+    changes = amended.changes
+    terms = changes.terms if changes.terms_in is None else changes.terms_in(recording)
+    same = all(
+        np.array_equal(own.values[name], value)
+        for own, one in zip(terms, changes.terms)
+        for name, value in one.values.items()
+    )
+    return () if same else terms
+
+
 def read_run(
     results: xr.Dataset, translation: Translation, times: Mapping[str, Array], changes: Changes | None = None
 ) -> dict[str, Array]:  # fmt: skip
@@ -199,13 +214,46 @@ def _made(results: xr.Dataset, translation: Translation, quantity: str) -> Array
 
 
 def carried(recording: Recording, amended: AmendedModel) -> Recording:
-    """The recording with what it overrides of recalibrated parameters moved by the factors that the fit found."""
+    """The recording with what it overrides of recalibrated parameters moved by the factors that the fit found.
+
+    What sets in during it, or is not there on its day, is said for it alone.
+    """
     translation = amended.changes.translation
     components: dict[str, Any] = dict(recording.overrides.get("components", {}))
     for name in (translation.actuator, translation.load):
         if name is not None and name in components:
             components[name] = _carried_component(components[name], name == translation.load, amended)
+    terms = _own_terms(recording, amended)
+    own: dict[str | None, dict[str, Any]] = {
+        translation.actuator: term_parameters([t for t in terms if t.part is Part.ACTUATOR]),
+        translation.load: term_parameters([t for t in terms if t.part is Part.LOAD]),
+    }
+    if amended.files.actuator is not None and recording.cycles_before != amended.changes.cycles_before:
+        own[translation.actuator]["cycles_before"] = f"{recording.cycles_before:.10g}"
+    for name, parameters in own.items():
+        if name is not None and parameters:
+            given = components.get(name, {})
+            components[name] = {**given, "parameters": {**given.get("parameters", {}), **parameters}}
+    if any(t.part is Part.CIRCUIT for t in terms):
+        assert translation.circuit is not None
+        components[translation.circuit] = _own_circuit(
+            recording, components.get(translation.circuit, {}), terms, amended
+        )
     return replace(recording, overrides={**recording.overrides, "components": components})
+
+
+def _own_circuit(
+    recording: Recording, given: Mapping[str, Any], terms: Sequence[FittedTerm], amended: AmendedModel
+) -> dict[str, Any]:  # fmt: skip
+    """The circuit of a recording, with the elements of its own terms in place of those of the scenario's."""
+    original = amended.original
+    assert original.path is not None, "the scenario was read from a file"
+    data = parse_yaml(read_text(original.path), original.path)
+    circuit = data["components"][amended.changes.translation.circuit]
+    first = given.get("elements", circuit.get("elements", []))
+    start = translate(scenario_of(original, recording)).start
+    elements = circuit_elements([t for t in terms if t.part is Part.CIRCUIT], start)
+    return {**given, "elements": [*first, *elements]}
 
 
 def _carried_component(given: Mapping[str, Any], is_load: bool, amended: AmendedModel) -> dict[str, Any]:

@@ -113,7 +113,8 @@ def _move_room(data: dict[str, Any], changes: Changes) -> None:
     data["components"][component]["outputs"][output] = moved.model_dump(mode="json", exclude_defaults=True)
 
 
-def _term_parameters(terms: list[FittedTerm]) -> dict[str, Any]:
+def term_parameters(terms: list[FittedTerm]) -> dict[str, Any]:
+    """Parameters of terms by their names in the generated FMUs."""
     return {
         parameter_name(t.term, p.name): write_number(t.values[p.name], p.unit) for t in terms for p in t.term.parameters
     }
@@ -134,7 +135,9 @@ def _actuator(scenario: Scenario, given: dict[str, Any], changes: Changes, files
         result["structure"] = {"coils": changes.translation.layout.coils}
         for key in ("integrator", "tolerance", "fmi"):
             result.pop(key, None)
-        own |= _term_parameters(changes.of(Part.ACTUATOR))
+        own |= term_parameters(changes.of(Part.ACTUATOR))
+        if changes.cycles_before:
+            own["cycles_before"] = write_number(np.asarray(changes.cycles_before), "1")
         if "power_gain" in changes.factors:
             own["power_gain"] = write_number(changes.factors["power_gain"], "1")
     if own:
@@ -177,7 +180,7 @@ def _circuit(given: dict[str, Any], changes: Changes) -> dict[str, Any]:
             if isinstance(value, list):
                 raise CannotAmend(f"{field} differs from string to string")
             result[field] = value
-    elements = circuit_elements(changes.of(Part.CIRCUIT))
+    elements = circuit_elements(changes.of(Part.CIRCUIT), changes.translation.start)
     if elements:
         result["elements"] = [*given.get("elements", []), *elements]
     return result
@@ -199,7 +202,7 @@ def _load(given: dict[str, Any], changes: Changes, files: Files) -> dict[str, An
         "kind": "fmu",
         "fmu": files.load,
         "structure": {"coils": changes.translation.layout.coils},
-        "parameters": {"mass": mass, "gravity": quantity(GRAVITY, "m/s^2"), **fields, **_term_parameters(terms)},
+        "parameters": {"mass": mass, "gravity": quantity(GRAVITY, "m/s^2"), **fields, **term_parameters(terms)},
     }
 
 

@@ -38,5 +38,6 @@ def comment_of(page: str, terms: Mapping[Term, Iterable[float]]) -> str:
     lines = [f"# Amended scenario, written by `cosim diagnose` ({page})."]
     for term, values in terms.items():
         numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
-        lines.append(f"# {term.place}: {term.law}; {numbers}")
+        left_out = "" if term.recording is None else "left out, a fault of one recording: "
+        lines.append(f"# {left_out}{term.place}: {term.law}; {numbers}")
     return "\n".join(lines) + "\n"

@@ -39,6 +39,7 @@ COIL_FIELDS: Mapping[str, tuple[float, str]] = {
     "cooling_d": (157.9, "N/m"),
     "rest_length": (0.0094, "m"),
     "load": (0.0, "N"),
+    "cycles_before": (0.0, "1"),
 }
 STRING_FIELDS: Mapping[str, tuple[float, str]] = {"string_resistance": (0.0, "ohm")}
 SOURCE_FIELDS: Mapping[str, tuple[float, str]] = {"supply_resistance": (0.0, "ohm")}

@@ -34,12 +34,14 @@ class Place:
         label: For people, counting from 1: `coil[2,5]` is the fifth coil of string 2.
         mask: Weight of the amplitude at every element of the candidate's axis.
         fixed: Values of the candidate's fixed parameters here.
+        day: The day on which it acts alone; None: every one.
     """
 
     kind: PlaceKind
     label: str
     mask: Array
     fixed: Mapping[str, float | Array] = field(default_factory=dict)
+    day: object = None
 
     def values(self, term: CandidateTerm, numbers: Mapping[str, float]) -> dict[str, float | Array]:
         """Parameters of `term` at this place for `BankParameters.terms`, from one number for each that is fitted."""

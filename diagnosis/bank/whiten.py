@@ -33,6 +33,8 @@ class Whitening:
     def __init__(
         self, pick: npt.NDArray[np.int64], weight: Array, shares: Array, lengths: npt.NDArray[np.int64]
     ) -> None:
+        #: Share of the sum of each series that is taken away, shape (series,).
+        self.shares = shares
         self._pick = np.ascontiguousarray(pick, dtype=np.int64)
         self._weight, self._shares = np.ascontiguousarray(weight), np.ascontiguousarray(shares)
         self._lengths = lengths

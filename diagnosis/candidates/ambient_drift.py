@@ -30,4 +30,6 @@ CANDIDATE = CandidateTerm(
         "second_mass": "a long soak decides",
         "sensor_drift": "an unpowered coil at known temperature, or stiffness, decides",
     },
+    scope="day",
+    scope_reason="a room drifts by its weather and its heating, of which another day has others",
 )

@@ -23,7 +23,7 @@ CANDIDATE = CandidateTerm(
             is_amplitude=True,
             negligible=0.1,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("all", "string"),
     lines={
@@ -33,4 +33,6 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "draught": "coils at different temperatures decide: a draught scales with T - T_ambient",
     },
+    scope="day",
+    scope_reason="the room of another day does not know of it",
 )

@@ -17,6 +17,8 @@ PlaceKind = Literal[
 ]
 Axis = Literal["coil", "string", "source", "channel"]
 StateKind = Literal["continuous", "memory", "shared"]
+#: `rig`: what sets in lasts, in later recordings too. `day`: it belongs to one day, and other days do not have it.
+Scope = Literal["rig", "day"]
 
 #: Hooks over one axis each, in the order in which a step comes to them.
 HOOK_AXES: Mapping[str, Axis] = {
@@ -84,7 +86,7 @@ class Parameter:
 
     @property
     def is_instant(self) -> bool:
-        """Whether it is an instant, for which start values are to be spread over the recording."""
+        """Whether it is an instant, for which start values are to be spread over the recordings."""
         return self.name == "instant"
 
     def limit(self, scales: Mapping[str, float] | None = None) -> float:
@@ -176,6 +178,9 @@ class CandidateTerm:
         needs: Quantities of which at least one must be measured (of any element) for the law to be told from one of
             another unit; None: those of its unit (`NEEDS`).
         fewest: Least number of elements of its axis (coils or heaters, strings, channels): with fewer it has no place.
+        scope: Whether what sets in at an instant lasts in later recordings, or belongs to the day in which it sets in;
+            of an effect without an instant, whether it may be there on one day alone.
+        scope_reason: Why; needed where it has an instant or belongs to a day.
     """
 
     identifier: str
@@ -195,6 +200,8 @@ class CandidateTerm:
     rank: int = 0
     needs: tuple[str, ...] | None = None
     fewest: int = 1
+    scope: Scope = "rig"
+    scope_reason: str = ""
 
     def __post_init__(self) -> None:
         if self.needs is None:
@@ -206,11 +213,18 @@ class CandidateTerm:
             raise ValueError(f"{self.identifier}: its hooks lie on different axes; make two candidates")
         if [p.is_amplitude for p in self.parameters] != [True] + [False] * (len(self.parameters) - 1):
             raise ValueError(f"{self.identifier}: its first parameter, and it alone, must be the amplitude")
+        if (self.scope == "day" or any(p.is_instant for p in self.parameters)) and not self.scope_reason:
+            raise ValueError(f"{self.identifier}: say why it lasts, or why it belongs to one day (scope_reason)")
 
     @property
     def axis(self) -> Axis:
         """What its parameters are arrays over."""
         return HOOK_AXES[next(iter(self.lines))]
+
+    @property
+    def is_of_a_day(self) -> bool:
+        """Whether it may belong to one day, which other days do not show."""
+        return self.scope == "day"
 
     @property
     def amplitude(self) -> Parameter:

@@ -26,7 +26,9 @@ What `cosim diagnose` can add to a model. Written from the files of `diagnosis/c
 Each file states the law, its source, unit and bounds of every parameter with the reason for them, where the effect can
 act, what it leaves in the residuals, what it is confused with, and the C lines that put it into the running model. The
 first parameter is the strength: 0 switches the effect off. `step(x)` is 0 before and 1 after 0; `d(x)` is the rate
-of x (or, where the law holds at any rate, its change). A parameter named `instant` is an instant of the recording.
+of x (or, where the law holds at any rate, its change). A parameter named `instant` is the instant of one recording at
+which it sets in: what lasts is there from the start in all later recordings, what belongs to one day in none of another
+day. An effect of a day without an instant is tried in all recordings at once, and on each day alone.
 
 Every rig has a little of everything, and enough readings show it. So a strength may have a size below which it is no
 finding: what coils of one lot differ by (2 K of transformation temperature), what a room does by itself (0.1 K, 2 % of
@@ -101,6 +103,8 @@ def _named(term: CandidateTerm) -> Iterator[str]:
         yield f"- needs at least {term.fewest} {'coils or heaters' if term.axis == 'coil' else f'{term.axis}s'}"
     if term.states:
         yield "- adds " + ", ".join(f"`{s.name}` [{s.unit}] ({s.kind})" for s in term.states)
+    if term.scope_reason:
+        yield f"- {'lasts' if term.scope == 'rig' else 'belongs to one day'}: {term.scope_reason}"
     yield f"- leaves: {term.signature}"
     for other, decision in term.confused_with.items():
         kind = f"the model's own `{other[5:]}`" if other.startswith("base:") else f"`{other}`"

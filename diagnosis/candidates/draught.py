@@ -26,7 +26,7 @@ CANDIDATE = CandidateTerm(
             is_amplitude=True,
             negligible=0.02,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("all", "string", "coil"),
     lines={
@@ -36,4 +36,6 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "ambient_step": "coils at different temperatures decide",
     },
+    scope="day",
+    scope_reason="a fan or a window is of that day; the rig has nothing of it",
 )

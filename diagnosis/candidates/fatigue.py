@@ -39,5 +39,5 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "incomplete_transformation": "many cycles decide, never one pulse",
     },
-    states=(State("cycles", "1", "0.0", "memory"), State("phase_last", "1", "phase", "memory")),
+    states=(State("cycles", "1", "cycles_before", "memory"), State("phase_last", "1", "phase", "memory")),
 )

@@ -38,5 +38,5 @@ CANDIDATE = CandidateTerm(
         "fatigue": "the plateau when hot decides",
         "sensor_drift": "a soak decides",
     },
-    states=(State("cycles", "1", "0.0", "memory"), State("phase_last", "1", "phase", "memory")),
+    states=(State("cycles", "1", "cycles_before", "memory"), State("phase_last", "1", "phase", "memory")),
 )

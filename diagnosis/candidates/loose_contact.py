@@ -23,7 +23,7 @@ CANDIDATE = CandidateTerm(
             ),
             is_amplitude=True,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("string",),
     lines={
@@ -34,4 +34,5 @@ CANDIDATE = CandidateTerm(
         "open_coil": "a partly open coil: its own heat or resistance decides",
         "contact_resistance": "the part before the instant decides",
     },
+    scope_reason="a contact that came loose stays so until somebody tightens it",
 )

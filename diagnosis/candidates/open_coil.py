@@ -21,7 +21,7 @@ CANDIDATE = CandidateTerm(
             starts_reason="a clean break, ten times and twice the resistance: what is felt is 1 / (1 - openness)",
             is_amplitude=True,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("coil",),
     lines={
@@ -32,4 +32,5 @@ CANDIDATE = CandidateTerm(
         "loose_contact": "voltage across the coil, or its heat where the break is partial, decides",
         "open_coil": "another coil of the same string: never from currents and temperatures after a clean break",
     },
+    scope_reason="a wire that broke does not mend by itself",
 )

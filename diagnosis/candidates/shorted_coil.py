@@ -21,7 +21,7 @@ CANDIDATE = CandidateTerm(
             starts_reason="whole, half and a quarter: bridges are short, so that a whole coil comes first",
             is_amplitude=True,
         ),
-        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,)),
+        Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,)),
     ),
     places=("coil",),
     lines={
@@ -31,4 +31,5 @@ CANDIDATE = CandidateTerm(
     confused_with={
         "base:reference_resistance": "the part before the instant decides",
     },
+    scope_reason="turns or crimps that touch stay so until somebody parts them",
 )

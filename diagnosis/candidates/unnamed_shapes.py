@@ -28,7 +28,9 @@ _THIRD = "what changes a coil by more than about a third is no correction of its
 _HALF = "what holds more than half of the load lets nothing move"
 _SERIES = "a contact that takes the heat of three coils on its small surface burns or opens"
 _SLOW = "what lags by more than 20 s is seen by eye"
-_INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recording", (10.0,))
+_INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,))
+#: What changes a heat balance at once comes from outside (a fan, the sun); what changes in a circuit is a fault.
+_OF_DAY, _OF_RIG = "heat from the surroundings is of that day", "a fault of a circuit stays until somebody mends it"
 
 
 #: Generic terms whose law is that of a named candidate.
@@ -80,6 +82,7 @@ def _term(
     states: tuple[State, ...] = (),
 ) -> CandidateTerm:
     unit, name, words = identity
+    reason = "" if _INSTANT not in parameters else _OF_DAY if unit == "thermal" else _OF_RIG
     equation = name.split("_", 1)[0]
     return CandidateTerm(
         identifier=f"unnamed_{name}",
@@ -94,6 +97,8 @@ def _term(
         states=states,
         is_named=False,
         same_as=_SAME.get(name, ""),
+        scope="day" if reason == _OF_DAY else "rig",
+        scope_reason=reason,
     )
 
 

@@ -78,12 +78,15 @@ class Belief:
     def of(fit: Fit, parameters: int) -> Belief:
         """From a fit; parameters beyond the first so many (zeros of sensors) are left out, as uncertain as they are.
 
+        Faults of one recording are left out too: another experiment does not have them.
+
         Args:
             fit: Of the recordings.
             parameters: Of the coil bank.
         """
-        kept = np.r_[0:parameters, len(fit.point.base) : len(fit.covariance)]
-        return Belief(Point(fit.point.base[:parameters], fit.point.terms), fit.covariance[np.ix_(kept, kept)])
+        lasts = [t.recording is None for t in fit.point.terms for _ in t.parameters]
+        kept = np.r_[0:parameters, len(fit.point.base) + np.flatnonzero(lasts)]
+        return Belief(Point(fit.point.base[:parameters], fit.point.lasting.terms), fit.covariance[np.ix_(kept, kept)])
 
 
 class Bench:
@@ -185,6 +188,7 @@ class Bench:
         """A model of other runs; candidates, parameters and the compiled bank are shared."""
         other = copy.copy(self.model)
         other.runs = runs
+        other.seats = (self.model.timeline.afterwards,) * len(runs)
         series = [s for run in runs for s in run.series]
         channel = np.concatenate([np.full(len(s.samples), n) for n, s in enumerate(series)])
         time = np.concatenate([s.times for s in series])
@@ -192,11 +196,8 @@ class Bench:
         return other
 
     def _restarted(self, point: Point) -> Point:
-        """The same on another day: its own ambient, and what broke once stays broken."""
-        begin = self.model.runs[0].translation.start
-        terms = {t: tuple(begin if p.name == "instant" else v for p, v in zip(t.parameters, values))
-                 for t, values in point.terms.items()}  # fmt: skip
-        return Point(np.where(self._daily, 0.0, point.base), terms)
+        """The same on another day: its own ambient. What broke once stays broken (`Timeline.afterwards`)."""
+        return Point(np.where(self._daily, 0.0, point.base), point.terms)
 
     def _spread(self, belief: Belief) -> Array:
         """Covariance of the parameters before another experiment: those of a day are as uncertain as ever."""

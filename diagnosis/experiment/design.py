@@ -78,7 +78,8 @@ def open_explanations(outcome: Outcome) -> Open | None:
     if not outcome.best.terms:
         return _unearned(outcome)
     size = len(outcome.best.terms)
-    others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(outcome.best.terms)]
+    laws = set(outcome.best.fit.point.lasting.terms)
+    others = [e for e in outcome.rivals if len(e.terms) == size and set(e.fit.point.lasting.terms) != laws]
     chances = probabilities([e.demerit for e in (outcome.best, *others)])
     # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
     gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
@@ -106,7 +107,7 @@ def judged(outcome: Outcome, accepted: Accepted) -> Outcome:
 
 def _unearned(outcome: Outcome) -> Open | None:
     """The model as it is against what came nearest: with a gain of just the margin an effect would be a toss-up."""
-    with_term = [e for e in outcome.rivals if e.terms]
+    with_term = [e for e in outcome.rivals if e.fit.point.lasting.terms]
     gains = np.array([outcome.base.cost - e.fit.cost for e in with_term])
     kept = [i for i in np.argsort(-gains) if gains[i] > outcome.margin - UNSEPARATED][: MOST - 1]
     if not kept:
@@ -196,7 +197,7 @@ def design(
 
 
 def _words(explanation: Explanation) -> tuple[str, ...]:
-    return tuple(map(str, explanation.terms)) or ("the model as it is",)
+    return tuple(map(str, explanation.fit.point.lasting.terms)) or ("the model as it is",)
 
 
 def _weighed(contrasts: Sequence[Contrast], question: Open) -> tuple[float, float]:

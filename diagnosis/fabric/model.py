@@ -26,6 +26,7 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ComparedRun, ComparedSeries, Component
+from diagnosis.simulator.timeline import Timeline
 from diagnosis.simulator.translate import NoBank, translate
 
 #: Speed of random starts where the scenario gives none [m/s]: within milliseconds it moves links by micrometres.
@@ -44,6 +45,7 @@ class FabricModel:
         catalogue: Candidates of the coil bank.
         batches: Makes the simulations of the fabric.
         without: Laws of the fabric that the model must not know.
+        timeline: Recordings that were fitted, where these are others.
 
     Raises:
         InputError: A scenario is wrong, a recording does not fit it, or it has no mechanical channel.
@@ -51,7 +53,7 @@ class FabricModel:
 
     def __init__(
         self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm],
-        batches: Batches | None = None, without: Sequence[str] = (),
+        batches: Batches | None = None, without: Sequence[str] = (), timeline: Timeline | None = None,
     ) -> None:  # fmt: skip
         name = fabric_of(scenario)
         assert name is not None, "the scenario has one fabric"
@@ -62,7 +64,7 @@ class FabricModel:
             if not own.channels:
                 raise InputError(whole.path / "recording.yaml", "channels", "no channel measures the fabric",
                                  "diagnose circuit and coils with a scenario that has no fabric")  # fmt: skip
-        self.bank = _bank(scenario, [p[0] for p in parts], catalogue)
+        self.bank = _bank(scenario, [p[0] for p in parts], catalogue, timeline)
         self.fabric_runs = self._simulations(scenario)
         self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
         self._laws = {u.place.term: u for u in fabric_laws(name) if u.place.term.identifier not in without}
@@ -81,6 +83,11 @@ class FabricModel:
         if self.bank is None:
             return ClosedRuns(scenario, self.component, self.mechanical_recordings, self.batches)
         return BulletRuns(scenario, self.component, self.mechanical_recordings, self.bank, self.batches)
+
+    @property
+    def timeline(self) -> Timeline | None:
+        """The recordings laid end to end; None where it has no coil bank."""
+        return self.bank.timeline if self.bank else None
 
     @property
     def banked(self) -> int:
@@ -256,7 +263,7 @@ class FabricModel:
 
 
 def _bank(
-    scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm]
+    scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], timeline: Timeline | None
 ) -> BankModel | None:  # fmt: skip
     """The coil bank of the other channels; None where there are none, or where no bank simulates them.
 
@@ -281,4 +288,4 @@ def _bank(
             "give channels of the fabric alone, or use thermal_stiffness as actuator",
         ) from reason  # fmt: skip
     # The bank has no load here: what moves coils is the fabric's.
-    return BankModel(scenario, recordings, [c for c in catalogue if c.unit != "mechanical"])
+    return BankModel(scenario, recordings, [c for c in catalogue if c.unit != "mechanical"], timeline=timeline)

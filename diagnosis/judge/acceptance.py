@@ -13,10 +13,12 @@ import numpy as np
 
 from diagnosis.judge.agreement import Agreement, agreement
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
+from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.search import Explanation, Outcome, shrink
+from diagnosis.simulator.models import DiagnosisModel
 
 #: Rivals that are compared on unfitted readings, and how far behind in training they may lie [-2 log posterior].
 RIVALS, BEHIND = 5, 30.0
@@ -65,7 +67,7 @@ class Accepted:
 class _Judge:
     """Predictions of explanations, each made once."""
 
-    def __init__(self, model: Model, unfitted: Unfitted, local: Unfitted | None) -> None:
+    def __init__(self, model: DiagnosisModel, unfitted: Unfitted, local: Unfitted | None) -> None:
         self.model, self.unfitted, self.local = model, unfitted, local
         self._known: dict[tuple[int, bool], Predicted] = {}
         self._kept: list[Point] = []
@@ -85,7 +87,7 @@ class _Judge:
 
 
 def accept(
-    model: Model, outcome: Outcome, unfitted: Unfitted, training: Unfitted, is_local: Callable[[Term], bool],
+    model: DiagnosisModel, outcome: Outcome, unfitted: Unfitted, training: Unfitted, is_local: Callable[[Term], bool],
     local: Callable[[], Unfitted] | None = None, can_compare: bool = True,
     on_progress: Callable[[str], None] = lambda text: None,
 ) -> Accepted:  # fmt: skip
@@ -96,7 +98,8 @@ def accept(
         outcome: Of the search.
         unfitted: Readings that judge.
         training: The training readings.
-        is_local: Whether a term belongs to one stretch of one recording, which no other recording shows.
+        is_local: Whether a term belongs to the training recordings alone, so that no other recording shows it; see
+            `diagnosis.judge.of_a_day`.
         local: Makes the readings that judge such terms.
         can_compare: Whether rivals are compared on unfitted readings too (not where each prediction takes minutes).
         on_progress: Told what is being done.
@@ -208,6 +211,9 @@ def _judged(
         )
     if found.worse:
         reasons.append(_worse(found.worse))
+    hidden = hidden_fault(judge.model, current.fit.point, term)
+    if hidden:
+        reasons.append(hidden)
     return found, tuple(reasons)
 
 

@@ -21,6 +21,7 @@ from diagnosis.judge.diagnosis import (
     Verdict,
 )
 from diagnosis.judge.doubts import faults
+from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.standing import standing_of, unidentified
@@ -175,7 +176,10 @@ def _finding(
     alternatives, probability = _alternatives(outcome, accepted, term)
     likely = _open_rivals(alternatives, term, accepted)
     effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
-    told = estimates(fit, term, _doubt(outcome), model.unseen(term))
+    doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
+    when = since(term, fit, model, doubt)
+    found = estimates(fit, term, doubt, model.unseen(term))
+    told = local_estimates(found, term, fit, model, doubt)
     doubts = (*unidentified(term, fit, told), *implausible(term, fit.point.terms[term]))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
@@ -183,7 +187,12 @@ def _finding(
     if not is_small(accepted):
         doubts = (*doubts, _much_left(accepted))
     standing = standing_of(term, doubts, likely, is_trusted(outcome))
-    recording, intervals = _intervals(model, term, fit, effect)
+    recording, intervals = _intervals(model, effect)
+    if term.recording is not None:
+        begin, end = (v for p, v in zip(term.parameters, fit.point.terms[term]) if p.is_instant)
+        recording, intervals = term.recording, ((begin, end),)
+    elif event is not None:
+        recording, intervals = event.number, ((event.seconds, event.end),)
     return Finding(
         unit=term.unit,
         place=place.label,
@@ -192,7 +201,7 @@ def _finding(
         channels=_channels(model, effect),
         effect=term.identifier,
         is_named=standing is not Standing.UNNAMED,
-        statement=statement(candidate.name, place.label, standing, likely),
+        statement=statement(candidate.name, place.label, standing, likely) + (f", {when}" if when else ""),
         law=candidate.law,
         parameters=told,
         gain=explanation.gains.get(term, 0.0),
@@ -302,12 +311,10 @@ def _elements(model: DiagnosisModel, term: Term) -> tuple[str, ...]:
     return tuple(dict.fromkeys(model.layout.names[c].split(".")[0] for c in local[0])) or (term.place,)
 
 
-def _intervals(
-    model: DiagnosisModel, term: Term, fit: Fit, effect: Array
-) -> tuple[int, tuple[tuple[float, float], ...]]:  # fmt: skip
+def _intervals(model: DiagnosisModel, effect: Array) -> tuple[int, tuple[tuple[float, float], ...]]:
     """Recording in which an effect shows most, and the times in which it is there, pieces with gaps of a tenth of it.
 
-    It is there where it is a tenth of its peak or more; what sets in at an instant is not there before.
+    It is there where it is a tenth of its peak or more.
     """
     layout, first = model.layout, 0
     owners = np.concatenate([np.full(len(run.series), n) for n, run in enumerate(model.runs)])

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from diagnosis.proof.headline import VISIBLE
 from diagnosis.proof.result import CaseResult
 from diagnosis.proof.scoring import EffectScore
 from diagnosis.proof.wilson import Share
 
-#: Fall of -2 log posterior by the true terms from which an effect counts as visible in the training recordings.
-VISIBLE = 20.0
+#: Cases of a kind that a share of wrong ones must be of.
+FEWEST_NULLS, FEWEST_SABOTAGED = 100, 60
 
 
 @dataclass(frozen=True)
@@ -66,24 +67,32 @@ def aims(results: Sequence[CaseResult]) -> list[Aim]:
     named = [r for r in cases if r.kind in ("single", "sensor")]
     nulls = [r for r in cases if r.kind in ("null", "parameters")]
     two = [r for r in cases if r.kind == "two"]
-    unnamed = [r for r in cases if r.kind == "outside"]
-    left_out = [r for r in cases if r.kind == "leave_one_out"]
+    sabotaged = [r for r in results if r.kind == "sabotaged"]
     found = [
         _of_effects("unit right", 0.95, named, lambda e: e.is_unit_right),
         _of_effects("element right", 0.9, named, lambda e: e.is_place_right),
         _of_effects("time right", 0.9, named, lambda e: e.is_time_right),
         _of_effects("named first", 0.85, named, lambda e: e.is_named),
         _of_effects("within the ambiguity class", 0.95, named, lambda e: e.is_in_class),
-        Aim("false alarms", 0.0, 0.05, Share.of(r.score.is_false_alarm for r in nulls), fewest=100),
+        Aim("false alarms", 0.0, 0.05, Share.of(r.score.is_false_alarm for r in nulls), fewest=FEWEST_NULLS),
+        # A refusal in words claims nothing.
+        Aim("false claims on sabotaged recordings", 0.0, 0.02,
+            Share.of(r.score.is_false_claim and not r.is_refused for r in sabotaged), fewest=FEWEST_SABOTAGED),
+        Aim("headline true, all kinds", 0.95, 1.0, Share.of(r.score.is_headline_true for r in cases)),
         _of_cases("held-out chi-square within 1.1 times of the model that knows the effect", 0.9, [*named, *two],
                   lambda r: r.score.held_out.is_as_good),
         _of_cases("both of two effects", 0.7, two, lambda r: all(bool(e.is_named) for e in r.score.effects)),
     ]  # fmt: skip
-    for word, part in (("outside the catalogue", unnamed), ("left out of the catalogue", left_out)):
+    for kind, word, gain in (
+        ("outside", "outside the catalogue", 0.8),
+        ("composed", "composed laws", 0.8),
+        ("leave_one_out", "left out of the catalogue", 0.9),
+    ):
+        part = [r for r in cases if r.kind == kind]
         found += [
             _of_effects(f"{word}: unit right", 0.9, part, lambda e: e.is_unit_right),
             _of_effects(f"{word}: not misnamed", 0.9, part, _is_not_misnamed),
-            _of_cases(f"{word}: 80 % of the possible held-out gain", 0.9, part,
+            _of_cases(f"{word}: 80 % of the possible held-out gain", gain, part,
                       lambda r: r.score.held_out.is_share_enough),
         ]  # fmt: skip
     covered = [c for r in cases for e in r.score.effects for c in e.covered]

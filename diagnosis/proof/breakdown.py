@@ -76,14 +76,39 @@ def confusions(results: Sequence[CaseResult]) -> list[tuple[object, ...]]:
 
 
 def by_kind(results: Sequence[CaseResult]) -> list[tuple[object, ...]]:
-    """Kind, cases, verdicts that are right, all verdicts, and findings that stand for nothing."""
+    """Kind, cases, verdicts that are right, headlines that are true, all verdicts, findings that stand for nothing."""
     rows: list[tuple[object, ...]] = []
     for kind in dict.fromkeys(r.kind for r in results):
         cases = [r for r in counted(results) if r.kind == kind]
         verdicts = Counter(r.score.verdict or r.outcome for r in cases)
         told = ", ".join(f"{n} {v}" for v, n in verdicts.most_common())
         share = Share.of(r.score.is_verdict_right for r in cases)
-        rows.append((kind, len(cases), share, told, sum(r.score.spare for r in cases)))
+        true = Share.of(r.score.is_headline_true for r in cases)
+        rows.append((kind, len(cases), share, true, told, sum(r.score.spare for r in cases)))
+    return rows
+
+
+def by_verdict(results: Sequence[CaseResult]) -> list[tuple[object, ...]]:
+    """Verdict, cases that got it, and headlines of it that are true."""
+    rows: list[tuple[object, ...]] = []
+    told = [r for r in counted(results) if r.score.verdict]
+    for verdict in sorted({r.score.verdict for r in told}):
+        cases = [r for r in told if r.score.verdict == verdict]
+        rows.append((verdict, len(cases), Share.of(r.score.is_headline_true for r in cases)))
+    return rows
+
+
+def by_sabotage(results: Sequence[CaseResult]) -> list[tuple[object, ...]]:
+    """Sabotage, cases, those refused in words, verdicts that are right, false claims, and all verdicts."""
+    rows: list[tuple[object, ...]] = []
+    for kind in sorted({r.score.sabotage for r in results if r.score.sabotage}):
+        cases = [r for r in results if r.score.sabotage == kind]
+        diagnosed = [r for r in cases if not r.is_refused]
+        told = Counter(r.score.verdict or r.outcome for r in cases).most_common()
+        right = Share.of(r.score.is_verdict_right for r in diagnosed)
+        false = sum(bool(r.score.is_false_claim) for r in diagnosed)
+        verdicts = ", ".join(f"{n} {v}" for v, n in told)
+        rows.append((kind, len(cases), len(cases) - len(diagnosed), right if right.total else "", false, verdicts))
     return rows
 
 

@@ -23,7 +23,7 @@ def _names(text: str) -> tuple[str, ...]:
 
 
 def prove(
-    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 360,
+    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 480,
     seed: Annotated[int, typer.Option(min=0, help="Of all draws.")] = 1,
     kinds: Annotated[str, typer.Option(help="Only these kinds of cases, separated by commas.")] = "",
     setups: Annotated[str, typer.Option(help="Only these rigs, separated by commas.")] = "",
@@ -53,7 +53,7 @@ def prove(
         return
     if resume and not (out / "ground" / "draw.yaml").is_file():
         raise InputError(out, "", "there is no proof to go on with here", "leave `--resume` away")
-    from diagnosis.proof.ground import Draw
+    from diagnosis.proof.ground import Draw, drawn_with, library_commit
     from diagnosis.proof.proof import Effort, Folder
     from diagnosis.proof.proof import prove as run
     from diagnosis.proof.workers import workers
@@ -68,7 +68,8 @@ def prove(
         print(f"interrupted; what is done is kept: go on with the same command, `--out {out}`", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
     about = {"cases": cases, "scored": len(results), "seed": seed, "kinds": kinds, "setups": setups,
-             "date": date.today().isoformat()}  # fmt: skip
+             "date": date.today().isoformat(), "library": drawn_with(out / "ground"),
+             "library_now": library_commit()}  # fmt: skip
     write_all(results, about, out, page)
 
 

@@ -11,6 +11,9 @@ import yaml
 
 from cosim.errors import InputError
 
+#: File that says which library there was when cases were drawn.
+_LIBRARY = "library.txt"
+
 
 @dataclass(frozen=True)
 class Draw:
@@ -62,9 +65,33 @@ def make_cases(folder: Path, draw: Draw) -> list[str]:
                              "give another folder with `--out`, or ask for the same cases again")  # fmt: skip
     else:
         folder.mkdir(parents=True, exist_ok=True)
+        (folder / _LIBRARY).write_text(library_commit() + "\n", encoding="utf-8")
         _prove(folder, draw)
         note.write_text(yaml.safe_dump(wanted, sort_keys=False))
     return sorted(p.name for p in (folder / "cases").iterdir())
+
+
+def library_commit() -> str:
+    """Commit of this program, with `and local changes` where its files differ from it; `unknown` outside a clone."""
+    root = Path(__file__).resolve().parents[2]
+
+    def told(*arguments: str) -> str | None:
+        try:
+            made = subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=False)
+        except OSError:
+            return None
+        return None if made.returncode else made.stdout.strip()
+
+    commit = told("rev-parse", "HEAD") if (root / ".git").exists() else None
+    if not commit:
+        return "unknown"
+    return f"{commit} and local changes" if told("status", "--porcelain", "-uno", "--", "diagnosis") else commit
+
+
+def drawn_with(folder: Path) -> str:
+    """Commit of the library when the cases in a folder were drawn; `unknown` where nobody wrote it down."""
+    note = folder / _LIBRARY
+    return note.read_text(encoding="utf-8").strip() if note.is_file() else "unknown"
 
 
 def _prove(folder: Path, draw: Draw) -> None:

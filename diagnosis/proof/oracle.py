@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +59,7 @@ def read_data(case: Path) -> Data:
     training = tuple(load_recording(case / n) for n in task.training)
     held_out = tuple(load_recording(case / n) for n in task.held_out)
     model = BankModel(scenario, training, catalogue(), threads=1)
-    judge = BankModel(scenario, held_out, catalogue(), threads=1)
+    judge = BankModel(scenario, held_out, catalogue(), threads=1, timeline=model.timeline)
     return Data(case, model, judge, training, held_out, read_rig(case))
 
 
@@ -78,11 +78,21 @@ def oracle_fit(data: Data, answer: Answer, base: Fit) -> Fit | None:
     terms = [_term(data, e) for e in answer.effects]
     if any(t is None for t in terms):
         return None
-    points = _starts([t for t in terms if t is not None], answer.effects, base)
+    truths = [_on_joint_axis(e, data.model) for e in answer.effects]
+    points = _starts([t for t in terms if t is not None], truths, base)
     costs = [_cost(data.model, p) for p in points]
     tried = [fit(data.model, points[i], iterations=TRIAL_ITERATIONS) for i in np.argsort(costs)[:TRIED]]
     best = sorted(tried, key=lambda f: f.cost)[:FINISHED]
     return min((fit(data.model, f.point, iterations=100) for f in best), key=lambda f: f.cost)
+
+
+def _on_joint_axis(truth: Concealed, model: BankModel) -> Concealed:
+    """The truth with its instant on the axis on which a model lays its recordings end to end, if it does so."""
+    timeline = getattr(model, "timeline", None)
+    if timeline is None or truth.instant is None or not 1 <= truth.order <= len(timeline.seats):
+        return truth
+    seat = timeline.seats[truth.order - 1]
+    return replace(truth, parameters={**truth.parameters, "instant": truth.instant - seat.begin + seat.position})
 
 
 def _cost(model: BankModel, point: Point) -> float:

@@ -18,6 +18,8 @@ _GRADIENTS = {
 }  # fmt: skip
 _STRING = re.compile(r"string\[(\d+)\]$")
 _COIL = re.compile(r"coil\[([\d,]+)\]$")
+#: On which day alone an effect acts says nothing about where.
+_DAY = re.compile(r" (in recording \d+|on day .*)$")
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,7 @@ def found_place(label: str, rig: Rig) -> frozenset[str]:
 
     A string is the set of its coils, so that the only coil of a string, and all coils of a rig of one, are the same.
     """
-    label = label.strip()
+    label = _DAY.sub("", label.strip())
     if label in _GRADIENTS:
         return frozenset({_GRADIENTS[label]})
     if label in ("all coils", "all strings"):

@@ -32,6 +32,8 @@ def make_reference(case: str, files: Files, answer: Files, has_baselines: bool) 
     with tempfile.TemporaryDirectory(prefix="cosim_prove_") as name:
         write_files(files, Path(name) / case)
         write_files(answer, Path(name) / "answers")
+        if read_answer(Path(name) / "answers" / f"{case}.json").sabotage is not None:
+            return Reference(case, failure="no reference: the recordings are not of the scenario's experiment")
         try:
             found = _reference(Path(name) / case, Path(name) / "answers", has_baselines)
             return _with_twin(found, Path(name) / case, Path(name) / "answers" / f"{case}_twin")

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from diagnosis.judge.diagnosis import Diagnosis, Estimate, Finding
+from diagnosis.judge.diagnosis import Diagnosis, Estimate, Finding, Verdict
 from diagnosis.proof.answer import Answer, Concealed
+from diagnosis.proof.headline import (
+    LEAST_GAIN,
+    accepted,
+    ambiguity_class,
+    has_name,
+    held_out_chi_square,
+    is_false_claim,
+    is_headline_true,
+    names_recording,
+    stated_class,
+)
 from diagnosis.proof.place import Rig, found_place, true_place
 from diagnosis.proof.reference import Reference
 
@@ -17,14 +28,12 @@ from diagnosis.proof.reference import Reference
 TIME_SHARE = 0.05
 #: An interval of an instant that is longer than this share of the recording says nothing.
 VAGUE_SHARE = 0.2
-#: Alternatives at least as probable as this belong to the ambiguity class that a diagnosis states.
-LEAST_PROBABLE = 0.01
 #: Held-out chi-square may be this much above that of the model that knows the effect.
 AS_GOOD_AS = 1.1
 #: Share of the possible held-out gain that counts as reached.
 ENOUGH_GAIN = 0.8
-#: -2 log likelihood that there must be to gain: less than the search's own floor is nothing.
-LEAST_GAIN = 12.0
+#: Kinds of cases of which a share of the held-out gain is asked for.
+_SHARED = ("outside", "composed", "leave_one_out")
 
 
 @dataclass(frozen=True)
@@ -43,9 +52,9 @@ class EffectScore:
         is_unit_right: Whether the finding has its unit.
         is_place_right: Whether the finding has its elements.
         is_time_right: Whether the finding sets in when it does.
-        is_named: Whether the finding has its name.
+        is_named: Whether the finding calls it by its name, alone or at the head of a class.
         is_in_class: Whether its name is in the finding's ambiguity class.
-        is_misnamed: Whether the finding has the name of another effect.
+        is_misnamed: Whether the finding has the name of another effect, or of a class without it.
         covered: For each true parameter that can be compared, whether the 95 % interval holds it.
     """
 
@@ -94,8 +103,12 @@ class Score:
         is_verdict_right: Whether it is one of the right ones.
         is_false_alarm: Whether something was found where nothing is; None where something is.
         effects: One per concealed effect.
-        spare: Findings that no concealed effect was matched with.
+        spare: Accepted findings that no concealed effect was matched with.
         held_out: See there.
+        suggestions: Findings that are not accepted.
+        is_false_claim: Whether physics is named that is not there; of sabotaged cases alone.
+        is_headline_true: Whether the verdict, with what it stands on, is true; None: there is no diagnosis.
+        sabotage: Its kind; empty: none.
     """
 
     verdict: str
@@ -104,6 +117,10 @@ class Score:
     effects: tuple[EffectScore, ...]
     spare: int
     held_out: HeldOut
+    suggestions: int = 0
+    is_false_claim: bool | None = None
+    is_headline_true: bool | None = None
+    sabotage: str = ""
 
 
 def score(diagnosis: Diagnosis | None, answer: Answer, rig: Rig, reference: Reference, duration: float) -> Score:
@@ -116,17 +133,38 @@ def score(diagnosis: Diagnosis | None, answer: Answer, rig: Rig, reference: Refe
         reference: What the data allow.
         duration: Of a recording [s].
     """
-    findings = diagnosis.findings if diagnosis else ()
+    findings = accepted(diagnosis)
     matched = _matched(answer.effects, findings, rig)
+    titles = tuple(r.title for r in diagnosis.recordings) if diagnosis else ()
     verdict = diagnosis.verdict.value if diagnosis else ""
     return Score(
         verdict=verdict,
         is_verdict_right=verdict in answer.verdicts,
-        is_false_alarm=None if answer.effects else bool(findings) or diagnosis is None,
-        effects=tuple(_effect(t, f, rig, duration) for t, f in zip(answer.effects, matched)),
+        is_false_alarm=_is_false_alarm(diagnosis, answer, findings),
+        effects=tuple(_effect(t, f, rig, duration, titles) for t, f in zip(answer.effects, matched)),
         spare=len(findings) - sum(f is not None for f in matched),
         held_out=_held_out(diagnosis, answer, reference),
+        suggestions=len(diagnosis.findings) - len(findings) if diagnosis else 0,
+        is_false_claim=_is_false(diagnosis, answer, rig, findings),
+        is_headline_true=is_headline_true(diagnosis, answer, rig, reference) if diagnosis else None,
+        sabotage=answer.sabotage.kind if answer.sabotage else "",
     )
+
+
+def _is_false_alarm(diagnosis: Diagnosis | None, answer: Answer, findings: Sequence[Finding]) -> bool | None:
+    """Of cases in which nothing is concealed: whether something is found, or the recording blamed."""
+    if answer.effects or answer.sabotage is not None:
+        return None
+    return diagnosis is None or bool(findings) or diagnosis.verdict is Verdict.RECORDING_FAULT
+
+
+def _is_false(
+    diagnosis: Diagnosis | None, answer: Answer, rig: Rig, findings: Sequence[Finding]
+) -> bool | None:  # fmt: skip
+    """Of sabotaged cases: whether physics is named that is not there. What failed or took too long counts as wrong."""
+    if answer.sabotage is None:
+        return None
+    return diagnosis is None or any(is_false_claim(f, answer, rig) for f in findings)
 
 
 def _matched(truths: Sequence[Concealed], findings: Sequence[Finding], rig: Rig) -> list[Finding | None]:
@@ -146,7 +184,9 @@ def _likeness(truth: Concealed, finding: Finding, rig: Rig) -> float:
     return 4.0 * (truth.effect == finding.effect) + 2.0 * (truth.unit == finding.unit) + 1.0 * is_place
 
 
-def _effect(truth: Concealed, finding: Finding | None, rig: Rig, duration: float) -> EffectScore:
+def _effect(
+    truth: Concealed, finding: Finding | None, rig: Rig, duration: float, titles: Sequence[str]
+) -> EffectScore:  # fmt: skip
     known = truth.is_known
     if finding is None:
         return EffectScore(
@@ -154,29 +194,31 @@ def _effect(truth: Concealed, finding: Finding | None, rig: Rig, duration: float
             is_named=False if known else None, is_in_class=False if known else None,
             is_misnamed=None if known else False,
         )  # fmt: skip
-    is_named = finding.effect == truth.effect
+    is_named = finding.effect == truth.effect and has_name(finding)
     is_place = found_place(finding.place, rig) == true_place(truth, rig)
     return EffectScore(
         truth.effect, truth.unit, truth.strength, known,
         found=finding.effect, found_unit=finding.unit, found_place=finding.place, gain=finding.gain,
         is_unit_right=finding.unit == truth.unit,
         is_place_right=is_place,
-        is_time_right=None if truth.instant is None else _is_time_right(truth.instant, finding, duration),
+        is_time_right=None if truth.instant is None else _is_time_right(truth, finding, duration, titles),
         is_named=is_named if known else None,
         is_in_class=truth.effect in ambiguity_class(finding) if known else None,
-        is_misnamed=None if known else finding.is_named,
+        is_misnamed=None if known else has_name(finding) and truth.effect not in stated_class(finding),
         covered=_covered(truth, finding) if is_named and is_place else (),
     )  # fmt: skip
 
 
-def ambiguity_class(finding: Finding) -> set[str]:
-    """Effects that a finding says it may be."""
-    likely = {a.effect for a in finding.alternatives if a.probability >= LEAST_PROBABLE}
-    return {finding.effect, *finding.ambiguous_with} | likely
+def _is_time_right(truth: Concealed, finding: Finding, duration: float, titles: Sequence[str]) -> bool:
+    """Whether the stated instant, or else the begin of the time in which it shows, is the true one.
 
-
-def _is_time_right(instant: float, finding: Finding, duration: float) -> bool:
-    """Whether the stated instant, or else the begin of the time in which it shows, is the true one."""
+    A finding that says in which recording it sets in must say the right one.
+    """
+    instant = truth.instant
+    assert instant is not None, "asked of what sets in"
+    recordings = names_recording(finding, titles)
+    if truth.recording and recordings and recordings != {truth.recording}:
+        return False
     stated = next((p for p in finding.parameters if p.name == "instant"), None)
     if stated is not None:
         is_near = abs(stated.value - instant) <= TIME_SHARE * duration
@@ -195,28 +237,27 @@ def _holds(estimate: Estimate, value: float) -> bool:
     return estimate.lower <= value <= estimate.upper
 
 
-def held_out_chi_square(diagnosis: Diagnosis, samples: dict[str, int], stage: str = "after") -> float | None:
-    """Mean over all held-out samples; None where a channel has no finite figure."""
-    fits = [f for f in diagnosis.fit if f.is_held_out]
-    counts = np.array([f.samples or samples.get(f.channel, 0) for f in fits], dtype=np.float64)
-    values = np.array([f.chi_square.get(stage, np.nan) for f in fits], dtype=np.float64)
-    if not counts.sum() or not np.isfinite(values).all():
-        return None
-    return float(counts @ values / counts.sum())
-
-
 def _held_out(diagnosis: Diagnosis | None, answer: Answer, reference: Reference) -> HeldOut:
     after = held_out_chi_square(diagnosis, dict(reference.samples)) if diagnosis else None
     is_asked = reference.oracle is not None
     ratio = after / reference.oracle if after is not None and reference.oracle else None
     is_as_good = (ratio is not None and ratio <= AS_GOOD_AS) if is_asked else None
-    share, is_enough = _share(after, answer, reference)
+    share, is_enough = _share(after, answer, _with_own(reference, diagnosis, answer))
     return HeldOut(after, ratio, is_as_good, share, is_enough)
+
+
+def _with_own(reference: Reference, diagnosis: Diagnosis | None, answer: Answer) -> Reference:
+    """Composed laws on what is no coil bank have no reference: the diagnosis's own recalibration, and noise."""
+    if answer.kind != "composed" or reference.recalibrated is not None or diagnosis is None:
+        return reference
+    samples = {f"{f.recording}/{f.channel}": f.samples for f in diagnosis.fit if f.is_held_out}
+    own = held_out_chi_square(diagnosis, {}, "recalibrated")
+    return replace(reference, recalibrated=own, floor=1.0, samples=samples)
 
 
 def _share(after: float | None, answer: Answer, reference: Reference) -> tuple[float | None, bool | None]:
     """Share of the possible gain; only for effects without a name, and where there is something to gain."""
-    if answer.kind not in ("outside", "leave_one_out") or reference.recalibrated is None:
+    if answer.kind not in _SHARED or reference.recalibrated is None:
         return None, None
     # Noise alone, which no model of the effect can reach, serves where nothing better is known: proofs without twins.
     best = next((v for v in (reference.oracle, reference.twin, reference.floor) if v is not None), None)

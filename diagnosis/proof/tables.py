@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from diagnosis.proof import breakdown
-from diagnosis.proof.aims import VISIBLE, Aim, aims, counted
+from diagnosis.proof.aims import Aim, aims, counted
+from diagnosis.proof.headline import VISIBLE
 from diagnosis.proof.result import CaseResult
 
 _HEAD = """# What the diagnosis reaches on concealed effects
@@ -22,6 +23,11 @@ _ON_AIMS = f"""Units, elements, times, names and classes are of cases with one e
 _ON_EFFECTS = """Named first, by strength; the weakest first. *Gain* is the median of what the true terms explain.
 """
 _ON_CONFUSIONS = """Every truth with what was found in its place, but those that were named; `-`: nothing was found.
+"""
+_ON_SABOTAGE = """Right is the fault, or that nothing can be told; *false claims* name physics that is not there. A
+scenario or recording that is *refused* in words has no verdict and makes no claim.
+"""
+_ON_VERDICTS = """What makes a headline true stands in [proving.md](proving.md).
 """
 _ON_RIGS = """*All right*: verdict, units, elements, times and names. Time is that of the whole process, one thread.
 """
@@ -48,7 +54,7 @@ def page_of(about: Sequence[dict[str, Any]], results: Sequence[CaseResult]) -> s
     """
     sections = [
         _HEAD, _about(about, results), _aims(results), _effects(results), _units(results), _confusions(results),
-        _kinds(results), _rigs(results), _methods(results), _missing(results),
+        _kinds(results), _verdicts(results), _sabotages(results), _rigs(results), _methods(results), _missing(results),
     ]  # fmt: skip
     return "\n".join(s for s in sections if s)
 
@@ -79,10 +85,22 @@ def _about(about: Sequence[dict[str, Any]], results: Sequence[CaseResult]) -> st
         command = f"`cosim prove --cases {given['cases']} --seed {given['seed']}`"
         if given.get("scored", given["cases"]) < given["cases"]:
             command += f", the {given['scored']} of them that were done"
-        lines.append(f"- {'; '.join([command, *only, *([given['date']] if 'date' in given else [])])}")
+        lines.append(
+            f"- {'; '.join([command, *only, *([given['date']] if 'date' in given else []), *_library(given)])}"
+        )
     refused = len(results) - len(counted(results))
     apart = f" {refused} of them were refused in words and are counted apart." if refused else ""
     return "\n".join([*lines, "", f"{len(results)} cases.{apart}", ""])
+
+
+def _library(given: dict[str, Any]) -> list[str]:
+    """Which library the cases were drawn for, and which one diagnosed them if it is another."""
+    if "library" not in given:
+        return []
+    found = [f"library frozen before the draw: {given['library']}"]
+    if given.get("library_now", given["library"]) != given["library"]:
+        found.append(f"scored with another: {given['library_now']}")
+    return found
 
 
 def _section(title: str, note: str, header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
@@ -118,8 +136,19 @@ def _confusions(results: Sequence[CaseResult]) -> str:
 
 
 def _kinds(results: Sequence[CaseResult]) -> str:
-    header = ("kind", "cases", "verdict right", "verdicts", "findings to spare")
+    header = ("kind", "cases", "verdict right", "headline true", "verdicts", "findings to spare")
     return _section("Kinds of cases", "", header, breakdown.by_kind(results))
+
+
+def _verdicts(results: Sequence[CaseResult]) -> str:
+    return _section(
+        "Verdicts", _ON_VERDICTS, ("verdict", "cases", "headline true"), breakdown.by_verdict(results)
+    )  # fmt: skip
+
+
+def _sabotages(results: Sequence[CaseResult]) -> str:
+    header = ("sabotage", "cases", "refused", "verdict right", "false claims", "verdicts")
+    return _section("Sabotaged recordings", _ON_SABOTAGE, header, breakdown.by_sabotage(results))
 
 
 def _rigs(results: Sequence[CaseResult]) -> str:

@@ -54,7 +54,7 @@ def inferred(diagnosis: Diagnosis) -> Network:
 
 def concerned(finding: Finding, network: Network) -> Concerned:
     """Elements of the network that a finding is about: its place where that names one, else its elements."""
-    if finding.place == "all coils":
+    if finding.place.startswith("all coils"):  # also on one day alone
         every = ((s, c) for s, count in enumerate(network.strings, 1) for c in range(1, count + 1))
         return Concerned(frozenset(every))
     place = _marked([finding.place], network)

@@ -14,6 +14,7 @@ from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.compute.batch import Batches
 from diagnosis.compute.result import Task
+from diagnosis.faults.programme import programme_inputs
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Channel, Recording
@@ -68,6 +69,8 @@ class CosimModel:
         self._own, self._numbers_of = Numbers(scenario), [Numbers(s) for s in self.scenarios]
         self.parameters: Sequence[Parameter] = [f.parameter for f in free]
         self._terms = {t.term: t for t in terms}
+        #: Faults of outputs of programmes within an interval, with component and output.
+        self.inputs = programme_inputs(self.scenarios, recordings)
         self.layout = _layout(recordings)
         self._batches = batches or Batches()
         self._sizes = [sum(len(c.times) for c in r.channels.values()) for r in recordings]
@@ -98,11 +101,17 @@ class CosimModel:
                 lists.setdefault(component, {})[name] = tuple(PhysicalValue(v, found.unit) for v in found.values)
             else:
                 parameters.setdefault(component, {})[name] = PhysicalValue(found.values[0], found.unit)
+        gains: dict[str, dict[str, tuple[float, float, float]]] = {}
         for term, values in point.terms.items():
+            if term.recording is not None:
+                component, output = self.inputs[term]
+                if term.recording == number:
+                    gains.setdefault(component, {})[output] = (values[0], values[1], values[2])
+                continue
             law = self._terms[term]
             for name, parameter, value in zip(law.names, term.parameters, values):
                 parameters.setdefault(law.component, {})[name] = PhysicalValue(value, parameter.unit)
-        return Changes(parameters, shifts, lists)
+        return Changes(parameters, shifts, lists, gains)
 
     def scenario_at(self, point: Point, number: int) -> Scenario:
         """The scenario of one recording with the values of a point; it can be run as it is."""
@@ -110,13 +119,15 @@ class CosimModel:
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
-        tasks = []
+        different: dict[str, Task] = {}  # a fault of one recording changes no run of the others
+        keys = []
         for point, number in wanted:
             changes = self.changes_at(point, number)
-            tasks.append(Task(self.settings[number].task_key(changes), (number, changes)))
-        self.runs += len(tasks)
-        results = self._batches.results(simulate, self.settings, tasks)
-        return [list(r.arrays) if r.is_complete else None for r in results]
+            keys.append(self.settings[number].task_key(changes))
+            different.setdefault(keys[-1], Task(keys[-1], (number, changes)))
+        self.runs += len(different)
+        results = dict(zip(different, self._batches.results(simulate, self.settings, list(different.values()))))
+        return [list(results[k].arrays) if results[k].is_complete else None for k in keys]
 
     def predict(self, point: Point, number: int) -> list[Array] | None:
         """Values of every channel of a recording at its samples, SI; None where the run stopped."""

@@ -28,6 +28,7 @@ from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.compute.result import Result
+from diagnosis.faults.programme import with_gain
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import sample, series_of
@@ -41,11 +42,13 @@ class Changes:
         parameters: Component to its parameters that have other values.
         shifts: Programme to its outputs that are moved as a whole, and by how much, in the unit of the output.
         lists: Component to its parameters that are lists, each whole.
+        gains: Programme to its outputs that were another within an interval: gain, begin [s], end [s].
     """
 
     parameters: Mapping[str, Mapping[str, PhysicalValue]] = field(default_factory=dict)
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     lists: Mapping[str, Mapping[str, Sequence[PhysicalValue]]] = field(default_factory=dict)
+    gains: Mapping[str, Mapping[str, tuple[float, float, float]]] = field(default_factory=dict)
 
     def text(self) -> str:
         """Every number to its last bit, in an order that does not depend on how it was put together."""
@@ -55,7 +58,9 @@ class Changes:
             c: {n: [(v.number.hex(), v.unit) for v in values] for n, values in own.items()}
             for c, own in self.lists.items()
         }
-        return json.dumps([parameters, shifts, *([lists] if lists else [])], sort_keys=True)
+        gains = {c: {o: [v.hex() for v in g] for o, g in own.items()} for c, own in self.gains.items()}
+        more = [lists, gains] if gains else [lists] if lists else []
+        return json.dumps([parameters, shifts, *more], sort_keys=True)
 
 
 @dataclass(frozen=True)
@@ -157,6 +162,10 @@ def changed(scenario: Scenario, changes: Changes) -> Scenario:
     for name, moved in changes.shifts.items():
         own = components[name]
         outputs = {o: shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
+        components[name] = own.model_copy(update={"outputs": outputs})
+    for name, intervals in changes.gains.items():
+        own = components[name]
+        outputs = {o: with_gain(g, intervals[o], scenario) if o in intervals else g for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
     return scenario.model_copy(update={"components": components})
 

@@ -64,11 +64,22 @@ class Explanation:
 
     @property
     def cost(self) -> float:
-        """-2 log posterior of the fit, and what the odds are against laws without a name before any data."""
-        return self.fit.cost + UNNAMED * sum(not t.is_named for t in self.terms)
+        """-2 log posterior of the fit, and what the odds are against its terms before any data.
+
+        Laws without a name are many, and so are the intervals of time that a fault may have.
+        """
+        return self.fit.cost + UNNAMED * sum(not t.is_named for t in self.terms) + self.price
+
+    @property
+    def price(self) -> float:
+        """What its faults with begin and end cost before any data; see `Term.price`."""
+        return sum(t.price for t in self.terms)
 
     @property
     def demerit(self) -> float:
-        """What explanations are compared by: a free shape must pay for itself too (Laplace's approximation)."""
-        extra = sum(len(t.parameters) - 1 for t in self.terms)
+        """What explanations are compared by: a free shape must pay for itself too (Laplace's approximation).
+
+        The price of a fault is that of its begin and end.
+        """
+        extra = sum(len(t.parameters) - 1 for t in self.terms if not t.price)
         return self.cost + extra * float(np.log(max(len(self.fit.residuals), 2)))

@@ -30,10 +30,14 @@ ROUGH = 0.03
 OUTDONE = 1.6
 #: Equations of which a generic law is fitted all the same where what is best leaves structure.
 EQUATIONS = 3
-#: Instants from which a fit may begin.
+#: Instants from which a fit may begin where the model does not say which.
 INSTANTS = 40
 #: How far from where a fit ended its instants are tried [s].
 LATE = (-3.0, -2.0, -1.4, -1.0, -0.7, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0)
+#: Faults with begin and end that are fitted beside the laws, the best scores first, and how often an interval moves.
+FAULTS, MOVED_INTERVALS = 3, 4
+#: Fall of -2 log posterior for which an interval is moved: less is told by no reading.
+WORTH = 1.0
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96
 #: Most steps of a trial, whose derivatives by the model's own parameters are those at hand, and of what goes on.
@@ -54,8 +58,11 @@ def grow(
     grown: dict[frozenset[Term], Explanation] = {}
     scorings = []
     for explanation in current:
-        scoring = _scored(model, explanation.fit, terms, settings, DRAWS if not explanation.terms else 0)
-        scorings.append(scoring)
+        projection = Projection(explanation.fit)
+        projection.noise(DRAWS if not explanation.terms else 0, settings.seed)
+        scoring = _scored(model, explanation.fit, terms, projection)
+        faults = interval_scores(model, explanation.fit, projection)
+        scorings.append(scoring.joined(faults))
         hopeful = [s for s in scoring.ranked if s.gain > HOPEFUL * margin]
         tried: dict[frozenset[Term], Fit] = {}
         laws, most, kept = set[frozenset[Term]](), 0.0, 1.0
@@ -78,7 +85,30 @@ def grow(
             (there,) = min(tried, key=lambda k: tried[k].cost) - set(explanation.terms)
             laws |= {k for k in tried for t in k - set(explanation.terms) if t.is_named and t.place == there.place}
         grown |= _continued(model, explanation.fit.cost, tried, laws)
+        grown |= _with_faults(model, explanation, faults.ranked, margin)
     return list(grown.values()), scorings[0]
+
+
+def interval_scores(model: Model, base: Fit, projection: Projection) -> Scoring:
+    """Scores of faults with begin and end, where the model knows any; see `diagnosis.faults`."""
+    own = getattr(model, "interval_scores", None)
+    found = own(base, projection) if own is not None else None
+    return found or Scoring([], 0, np.zeros(projection.draws), (None,) * projection.draws)
+
+
+def _with_faults(
+    model: Model, explanation: Explanation, ranked: Sequence[Score], margin: float
+) -> dict[frozenset[Term], Explanation]:  # fmt: skip
+    """Explanations with a fault more: they are fitted beside the laws, so that none of those is crowded out."""
+    grown = {}
+    for candidate in ranked[:FAULTS]:
+        if candidate.gain > HOPEFUL * margin:
+            start = explanation.fit.point.plus(candidate.term, candidate.values)
+            trial = fit(model, start, TRIAL, explanation.fit, refreshes=0)
+            found = Explanation(_with_intervals_set(model, fit(model, trial.point, STEPS, trial)))
+            if not found.is_negligible:  # smaller than what one reading scatters by
+                grown[frozenset(found.terms)] = found
+    return grown
 
 
 def _unnamed_equations(left_out: Sequence[Score], best: Fit, model: Model) -> list[Score]:
@@ -114,6 +144,21 @@ def _settled(model: Model, found: Fit) -> Fit:
     return down_valley(model, found) if has_valleys(model) else _with_instants_set(model, found)
 
 
+def _with_intervals_set(model: Model, found: Fit) -> Fit:
+    """The fit, or a better one with the begin or end of a fault some samples elsewhere.
+
+    What else is fitted may have held them: between two samples they have no slope that would move them.
+    """
+    near = getattr(model, "near_intervals", None)
+    for _ in range(MOVED_INTERVALS):
+        points = [] if near is None else list(near(found.point))
+        costs = costs_at(model, found, points) if points else []
+        if not costs or min(costs) >= found.cost - WORTH:
+            break
+        found = min(found, fit(model, points[int(np.argmin(costs))], STEPS, found), key=lambda f: f.cost)
+    return found
+
+
 def _with_instants_set(model: Model, found: Fit) -> Fit:
     """The fit, or a better one with an instant nearby.
 
@@ -139,20 +184,18 @@ def polished(model: Model, grown: Sequence[Explanation], before: float, margin: 
     gained = before - ranked[0].demerit if ranked else 0.0
     most = MOST_POLISHED if gained > margin else 1
     near = [e for e in ranked if e.demerit < ranked[0].demerit + max(CLOSE, ROUGH * gained)][:most]
-    done = [
-        Explanation(_settled(model, fit(model, e.fit.point, widths=e.fit.widths)))
-        for e in counted(near, "best fits finished")
-    ]
+    whole = [_settled(model, fit(model, e.fit.point, widths=e.fit.widths)) for e in counted(near, "best fits finished")]
+    done = [Explanation(_with_intervals_set(model, f)) for f in whole]
     return sorted([*done, *ranked[len(near) :]], key=lambda e: e.demerit)
 
 
-def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings, draws: int) -> Scoring:
+def _scored(model: Model, base: Fit, terms: Sequence[Term], projection: Projection) -> Scoring:
     """Scores of all terms worth trying: unnamed ones at single elements where a named one scores well."""
     near = focus(model, base.residuals, terms)
-    first = score(model, base, near, draws, settings.seed)
+    first = score(model, base, near, projection=projection)
     places = list(dict.fromkeys(s.term.place for s in first.ranked[:40]))[:PLACES]
     more = unnamed_at(terms, places, near)
-    whole = first.joined(score(model, base, more, draws, settings.seed)) if more else first
+    whole = first.joined(score(model, base, more, projection=projection)) if more else first
     switched = switch_scores(model, base, [t for t in terms if t.is_named])
     known = {s.term for s in switched}
     ranked = sorted((*switched, *(s for s in whole.ranked if s.term not in known)), key=lambda s: -s.gain)
@@ -215,7 +258,9 @@ def _starts(before: Fit, candidate: Score) -> Iterator[Point]:
 
 
 def _instants(parameter: TermParameter, _: float = 0.0) -> list[float]:
-    """Instants within the bounds of one [s], evenly spread, wherever it is."""
+    """Instants to try for one [s], wherever it is: those that the model gives, else evenly spread within its bounds."""
+    if parameter.scan:
+        return list(parameter.scan)
     return [float(v) for v in np.linspace(parameter.lower, parameter.upper, INSTANTS + 2)[1:-1]]
 
 
@@ -228,7 +273,7 @@ def _other_instants(point: Point, instants: Callable[[TermParameter, float], Seq
     """The same with one of its instants elsewhere: where, a function of it and its value says."""
     for term, values in point.terms.items():
         for i, parameter in enumerate(term.parameters):
-            if parameter.is_instant:
+            if parameter.is_instant and term.recording is None:  # intervals of faults: `_with_intervals_set`
                 for value in instants(parameter, values[i]):
                     yield point.plus(term, (*values[:i], value, *values[i + 1 :]))
 

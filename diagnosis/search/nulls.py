@@ -68,7 +68,7 @@ def refitted(model: Model, base: Fit, scoring: Scoring, settings: Settings) -> A
         without = fit(null, base.point, STEPS, base, refreshes=0)
         term, values = lead
         found = fit(null, without.point.plus(term, values), STEPS, base, refreshes=0)
-        gains.append(max(without.cost - found.cost, 0.0))
+        gains.append(max(without.cost - found.cost - term.price, 0.0))
     return np.array(gains)
 
 

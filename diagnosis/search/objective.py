@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.search.posterior import cost
-from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.problem import Model, Point, Term, TermParameter
 
 #: Deviations beyond which residuals are all the same.
 RUNAWAY = 1e6
@@ -16,6 +16,8 @@ RUNAWAY = 1e6
 AT_BOUND = 1e-4
 #: Relative step of the differences by which a term's parameters are varied.
 STEP = 1e-3
+#: Scale of an instant in distances of those that are scanned: half of a recording.
+SCAN = 20.0
 
 
 class Objective:
@@ -31,7 +33,8 @@ class Objective:
         self.model, self.terms, self.widths = model, list(terms), widths
         self.count = len(model.parameters)
         free = [p for t in terms for p in t.parameters]
-        self.scale = np.array([_scale(p.starts, p.upper - p.lower) for p in free])
+        self.scale = np.array([_scale(p) for p in free])
+        self._is_instant = np.array([p.is_instant for p in free], dtype=bool)
         bound = np.array([p.bounds for p in model.parameters]) * widths
         least = [p.upper if p.is_switch else p.lower for p in free]
         self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
@@ -78,7 +81,8 @@ class Objective:
         """Derivatives by the terms' scaled parameters, shape (residuals, term parameters)."""
         steps, moved = [], []
         for i in range(self.count, len(x)):
-            step = STEP * max(abs(x[i]), 1.0)
+            # An instant has no size: a step of the axis is as good at its end as at its begin.
+            step = STEP * (1.0 if self._is_instant[i - self.count] else max(abs(x[i]), 1.0))
             step = step if x[i] + step < self.upper[i] else -step
             other = x.copy()
             other[i] += step
@@ -96,8 +100,11 @@ def bounded(residuals: Array) -> Array:
     return np.clip(np.where(np.isfinite(residuals), residuals, RUNAWAY), -RUNAWAY, RUNAWAY)
 
 
-def _scale(starts: Sequence[float], width: float) -> float:
-    sizes = [abs(s) for s in starts if s]
+def _scale(parameter: TermParameter) -> float:
+    width = parameter.upper - parameter.lower
+    sizes = [abs(s) for s in parameter.starts if s]
+    if parameter.is_instant and len(parameter.scan) > 1:  # of one recording, however many there are
+        return float(SCAN * np.median(np.diff(parameter.scan)))
     if sizes:
         return float(np.median(sizes))
     return width if np.isfinite(width) else 1.0

@@ -57,10 +57,11 @@ class TermParameter:
         starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
         is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
             along it.
-        is_instant: An instant of the recording.
+        is_instant: An instant of the recordings laid end to end (`diagnosis.simulator.timeline`).
         negligible: Size of a strength below which it is no finding.
         plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
         plausible_reason: Why.
+        scan: Instants from which a fit may begin; empty: evenly spread within the bounds.
     """
 
     name: str
@@ -73,6 +74,7 @@ class TermParameter:
     negligible: float = 0.0
     plausible: float = math.inf
     plausible_reason: str = ""
+    scan: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,8 @@ class Term:
         parameters: The first is the strength: at 0 the term is absent.
         is_named: Whether it is an effect with a name.
         law: Formula.
+        recording: Number of the recording that it belongs to alone (a fault of a day); None: it holds on any.
+        price: -2 log of its prior odds against a law: it was chosen from so many intervals of time.
     """
 
     identifier: str
@@ -94,6 +98,8 @@ class Term:
     parameters: tuple[TermParameter, ...]
     is_named: bool = True
     law: str = ""
+    recording: int | None = None
+    price: float = 0.0
 
     def __str__(self) -> str:
         return f"{self.identifier} at {self.place}"
@@ -118,6 +124,11 @@ class Point:
     def without(self, term: Term) -> Point:
         """The same with one term less."""
         return Point(self.base, {t: v for t, v in self.terms.items() if t != term})
+
+    @property
+    def lasting(self) -> Point:
+        """The same without what belongs to one recording alone: the faults of a day."""
+        return Point(self.base, {t: v for t, v in self.terms.items() if t.recording is None})
 
 
 @dataclass(frozen=True)

@@ -58,6 +58,8 @@ class Projection:
     """
 
     def __init__(self, base: Fit) -> None:
+        #: Nulls that were drawn.
+        self.draws = 0
         self.weights = huber_weights(base.residuals)
         self.residuals = self.weights * base.residuals
         free = np.ones(len(base.point.base), dtype=bool) if base.held is None else ~base.held
@@ -76,6 +78,7 @@ class Projection:
 
     def noise(self, draws: int, seed: int) -> None:
         """Draw nulls: noise of residuals and prior, against which `chance` is reckoned."""
+        self.draws = draws
         kind = self._jacobian.dtype
         noise, rng = null_noise(len(self.residuals), draws, seed)
         noise = noise.astype(kind)
@@ -99,6 +102,25 @@ class Projection:
         whole = np.einsum("ij,ij->i", weighted, weighted)
         left = np.maximum(whole - np.einsum("ij,ij->i", across, cho_solve(self._factor, across.T).T), 0.0)
         return Seen(whole, left, along - across @ self._pull, noise - across @ self._noise_pull, across)
+
+    def pieces(self, slopes: Array, own: slice) -> tuple[Array, Array, Array, Array]:
+        """Products of what is left of directions that are 0 outside some residuals.
+
+        Args:
+            slopes: Derivatives of those residuals, shape (k, residuals of `own`).
+            own: Which residuals.
+
+        Returns:
+            Products with each other and those before anything is taken away, both (k, k); with the residuals, shape
+            (k,); with each drawn null, shape (k, draws).
+        """
+        weighted = (slopes * self.weights[own]).astype(self._jacobian.dtype)
+        products = np.asarray(weighted @ self._sides[own], dtype=np.float64)
+        size = self._jacobian.shape[1]
+        across, along, noise = products[:, :size], products[:, size], products[:, size + 1 :]
+        whole = np.asarray(weighted @ weighted.T, dtype=np.float64)
+        left = whole - across @ cho_solve(self._factor, across.T)
+        return left, whole, along - across @ self._pull, noise - across @ self._noise_pull
 
     def gram(self, slopes: Array) -> tuple[Array, Array]:
         """Products of what is left of directions with each other, shape (k, k), and with the residuals, shape (k,)."""
@@ -206,7 +228,10 @@ class Scoring:
         return float(-np.expm1(-np.exp(min(-(gain - place) / scale, MOST_EXPONENT))))
 
 
-def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed: int = 0) -> Scoring:
+def score(
+    model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed: int = 0,
+    projection: Projection | None = None,
+) -> Scoring:  # fmt: skip
     """Predicted gains of terms, and what chance alone would give them.
 
     Args:
@@ -216,9 +241,12 @@ def score(model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed:
         draws: Nulls: noise of the residuals and of the prior, seen along the terms' directions; `nulls` refits the best
             terms of some of them.
         seed: Of the random numbers.
+        projection: Of that fit, with nulls drawn already; None: made here.
     """
-    projection = Projection(base)
-    projection.noise(draws, seed)
+    if projection is None:
+        projection = Projection(base)
+        projection.noise(draws, seed)
+    draws = projection.draws
     tasks = [(term, values) for term in terms if term not in base.point.terms for values in shapes(term)]
     chance, tried = np.zeros(draws), 0
     leads: list[tuple[Term, tuple[float, ...]] | None] = [None] * draws

@@ -23,6 +23,8 @@ from diagnosis.search.structure import Structure, structure
 FEWEST, WIDEST = 6, 2.5
 #: Stated deviations beyond which a clock or a lag may be a wrong minimum.
 LATE = 1.5
+#: Faults with begin and end that a model may have beside its laws.
+MOST_FAULTS = 3
 #: Share of the best's gain from which the best of names alone is gone on from too.
 NAMED = 0.8
 
@@ -139,7 +141,7 @@ def search(
     named: Explanation | None = None
     margin, rate, tried, nulls = settings.floor, 1.0, 0, 0
     first = Scoring([], 0, np.zeros(0))
-    for level in range(settings.most_terms):
+    for level in range(settings.most_terms + MOST_FAULTS):
         on_progress(f"looking for {_nth(level)} effect")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
@@ -159,14 +161,14 @@ def search(
                 rivals = (best, *grown)
             break
         if level == 0:
-            rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost)
+            rate = scoring.false_alarm_rate(base.cost - grown[0].fit.cost - grown[0].price)
         grown = list(select(current[0], grown))
         if not grown:
             break
         current, named = _gone_on_from(grown, settings.beam, best.cost)
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
-        if settings.stops_at_noise and not is_left and level + 1 >= settings.most_terms - 1:
+        if _is_enough(best, level + 1, is_left, settings):
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)
@@ -178,6 +180,13 @@ def _nth(level: int) -> str:
     """An effect by its number, from 0, in words."""
     words = ("a first", "a second", "a third", "a fourth", "a fifth", "a sixth")
     return words[level] if level < len(words) else f"effect {level + 1}, one more"
+
+
+def _is_enough(best: Explanation, terms: int, is_left: bool, settings: Settings) -> bool:
+    """Whether no further term is looked for: faults of a day leave as much room for laws as there was without them."""
+    faults = sum(t.recording is not None for t in best.terms)
+    is_done = settings.stops_at_noise and not is_left and terms >= settings.most_terms - 1
+    return is_done or terms >= settings.most_terms + faults
 
 
 def _gone_on_from(
@@ -210,7 +219,8 @@ def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation
             for t in counted(explanation.terms, "effects left out in turn")
         }
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
-        if not gains or min(gains.values()) > margin:
+        worth = {t: gain - t.price for t, gain in gains.items()}
+        if not worth or min(worth.values()) > margin:
             return replace(explanation, gains=gains)
-        point = without[min(gains, key=lambda t: gains[t])].point
+        point = without[min(worth, key=lambda t: worth[t])].point
         explanation = Explanation(fit(model, point, widths=explanation.fit.widths))

@@ -26,8 +26,12 @@ def is_strained(base: Fit) -> bool:
 
 def costs_at(model: Model, base: Fit, points: Sequence[Point]) -> list[float]:
     """-2 log posterior at points, with the prior's widths of a fit; infinite where a simulation failed."""
-    values = model.residuals(points)
-    return [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, points)]
+    found: list[float] = []
+    for begin in range(0, len(points), BATCH):  # many recordings have many instants, and residuals take memory
+        part = points[begin : begin + BATCH]
+        values = model.residuals(part)
+        found += [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, part)]
+    return found
 
 
 def nominal_of(base: Fit) -> Point:

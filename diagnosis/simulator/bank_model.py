@@ -16,6 +16,8 @@ from diagnosis.bank.places import Place, merge, places
 from diagnosis.bank.probes import Probe, flat_probe_sensitivities
 from diagnosis.bank.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.faults import bank_inputs
+from diagnosis.faults.law import INPUT, Span, fault_term, occasion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
@@ -24,6 +26,7 @@ from diagnosis.simulator.free import FreeSet, directions, free_parameters, senso
 from diagnosis.simulator.priors import daily_priors, own_priors, stated_priors
 from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
 from diagnosis.simulator.term_at import term_at
+from diagnosis.simulator.timeline import Seat, Timeline
 from diagnosis.simulator.translate import translate
 
 #: Unit (electrical, ...) whose output a quantity is.
@@ -43,24 +46,32 @@ class BankModel:
         recordings: Training recordings.
         catalogue: Candidate terms that are compiled in.
         threads: Threads that share simulations.
+        timeline: Recordings that were fitted, where these are others: terms have their instants on its axis.
 
     Raises:
         NoBank: The scenario is none for a bank.
-        InputError: A recording does not fit the scenario.
+        InputError: A recording does not fit the scenario, or the recordings do not say their order clearly.
     """
 
     def __init__(
-        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 1
-    ) -> None:
+        self, scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 1,
+        timeline: Timeline | None = None,
+    ) -> None:  # fmt: skip
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
         for recording in recordings:  # what it cannot compare is said before it is compiled
             for channel in recording.channels.values():
                 bank_quantity(channel.target, translations[0].layout, recording)
-        self.bank = Bank(translations[0].layout, catalogue)
+        self.bank = Bank(translations[0].layout, [*bank_inputs.CANDIDATES, *catalogue])
         self._candidates = {t.identifier: t for t in catalogue}
+        self._titles = labels(recordings)
+        self._inputs: dict[Term, tuple[CandidateTerm, Place]] = {}
         self.runs = [Run(t, r, self.bank) for t, r in zip(translations, recordings)]
+        spans = [(run.translation.start, max(float(t[-1]) for t in run.times.values())) for run in self.runs]
+        self.timeline = Timeline.of(recordings, spans) if timeline is None else timeline
+        #: Where each recording lies on the joint axis.
+        self.seats = self.timeline.seats if timeline is None else timeline.others(recordings, spans)
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
         nominal = translations[0].parameters.base
         first = translations[0]
@@ -110,13 +121,37 @@ class BankModel:
                     found = [replace(p, fixed={**p.fixed, "noise": self._noise}) for p in found]
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
-                        self._places[term_at(candidate, place, self.coils, self.runs)] = (candidate, place)
+                        for own in self._on_days(candidate, place):
+                            term = term_at(candidate, own, self.coils, self.runs, self.timeline)
+                            self._places[term] = (candidate, own)
                         known.add(place.mask.tobytes())
         return list(self._places)
 
+    def _on_days(self, candidate: CandidateTerm, place: Place) -> list[Place]:
+        """The place, and the same on each day alone for what may belong to a day and has no instant that tells which.
+
+        A room that drifts alike in every recording is a habit of the laboratory: it stays one effect.
+        """
+        days = self.timeline.days
+        if candidate.scope != "day" or len(days) < 2 or any(p.is_instant for p in candidate.parameters):
+            return [place]
+        return [place, *(replace(place, label=f"{place.label} {day.label}", day=day) for day in days)]
+
+    def input_terms(self) -> list[Term]:
+        """Every input of every recording, as it may have been another within an interval."""
+        if not self._inputs:
+            for number, run in enumerate(self.runs):
+                times = np.unique(np.concatenate([s.times for s in run.series]))
+                span = Span(float(run.inputs.time[0]), float(times[-1]), len(times))
+                for candidate, place in bank_inputs.driven_places(self.coils, run.inputs):
+                    label = occasion(place.label, self._titles, number)
+                    term = fault_term(INPUT, label, bank_inputs.gain(), span, number)
+                    self._inputs[term] = (candidate, replace(place, label=label))
+        return list(self._inputs)
+
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:
         """Candidate and place of a term."""
-        return self._places[term]
+        return self._inputs[term] if term in self._inputs else self._places[term]
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
@@ -139,16 +174,54 @@ class BankModel:
 
     def bank_parameters(self, point: Point, run: int) -> BankParameters:
         """Values of the bank's parameters at a point, for one recording."""
+        return self._parameters(point.base, self._there(point, self.seats[run]), run)
+
+    def _parameters(self, z: Array, there: Mapping[Term, tuple[float, ...]], run: int) -> BankParameters:
+        """Values of the bank's parameters with the terms that are there, instants on the clock of the recording."""
         base = {**self.runs[run].translation.parameters.base, **self._sensors}
-        self._sets[run].vary(base, point.base)
+        base["cycles_before"] = self.seats[run].cycles_before
+        self._sets[run].vary(base, z)
+        return BankParameters(base, self._arrays(there))
+
+    def _arrays(self, there: Mapping[Term, tuple[float, ...]]) -> dict[str, Mapping[str, float | Array]]:
         terms: dict[str, Mapping[str, float | Array]] = {}
-        for term, values in point.terms.items():
-            candidate, place = self._places[term]
+        for term, values in there.items():
+            candidate, place = self.where(term)
             own = place.values(candidate, dict(zip((p.name for p in term.parameters), values)))
             if candidate.identifier in terms:
                 own = merge(candidate, terms[candidate.identifier], own)
             terms[candidate.identifier] = own
-        return BankParameters(base, terms)
+        return terms
+
+    def _there(self, point: Point, seat: Seat) -> dict[Term, tuple[float, ...]]:
+        """Terms that are there in a recording, instants on its own clock."""
+        found = {term: self.local_values(term, values, seat) for term, values in point.terms.items()}
+        return {term: values for term, values in found.items() if values is not None}
+
+    def local_values(self, term: Term, values: Sequence[float], seat: Seat) -> tuple[float, ...] | None:
+        """Values of a term with its instants on the clock of a recording [s].
+
+        Returns:
+            None where the term is not there: it has not set in yet, or it belongs to another day or recording.
+        """
+        if term.recording is not None:  # a fault, whose begin and end are on the clock of its own recording
+            return tuple(values) if seat == self.timeline.seats[term.recording] else None
+        candidate, place = self._places[term]
+        if place.day is not None and place.day != seat.day:
+            return None
+        local = []
+        for parameter, value in zip(term.parameters, values):
+            own: float | None = value
+            if parameter.is_instant:
+                own = self.timeline.local(value, seat, candidate.scope == "rig")
+            if own is None:
+                return None
+            local.append(own)
+        return tuple(local)
+
+    def terms_at(self, point: Point, seat: Seat) -> dict[str, Mapping[str, float | Array]]:
+        """Terms of a point as the bank takes them in a recording, without those that are not there."""
+        return self._arrays(self._there(point, seat))
 
     def groups(self) -> dict[str, AnyArray]:
         """Channels that are looked at together: the same quantity in every string, and over all coils."""
@@ -169,12 +242,14 @@ class BankModel:
         found = np.full((len(points), len(self.layout.time)), np.inf)
         begin = 0
         for number, run in enumerate(self.runs):
-            for group in _by_terms(points):
-                parameters = [self.bank_parameters(points[i], number) for i in group]
-                for i, row in zip(group, self._simulate(run, parameters)):
+            there = [self._there(p, self.seats[number]) for p in points]
+            for group in _by_terms(there):
+                alike = _alike(points, there, group)
+                parameters = [self._parameters(points[i].base, there[i], number) for i, *_ in alike]
+                for members, row in zip(alike, self._simulate(run, parameters)):
                     own = None if row is None else run.residuals(row[None])[0]
                     if own is not None and np.isfinite(own).all():
-                        found[i, begin : begin + run.count] = own
+                        found[members, begin : begin + run.count] = own
             begin += run.count
         return found
 
@@ -186,18 +261,20 @@ class BankModel:
             tasks: Terms with the values of their parameters; the strength is the step of the difference.
         """
         found = np.full((len(tasks), len(self.layout.time)), np.inf)
-        probes: dict[tuple[str, tuple[float, ...]], list[int]] = {}
-        for i, (term, values) in enumerate(tasks):
-            probes.setdefault((term.identifier, values), []).append(i)
         begin = 0
         for number, run in enumerate(self.runs):
             parameters = self.bank_parameters(point, number)
             outputs = shared_outputs(self.bank, parameters, run.plan)
-            for (identifier, values), members in probes.items():
-                term = tasks[members[0]][0]
+            absent, probes = self._probes(tasks, self.seats[number])
+            own = slice(begin, begin + run.count)
+            begin += run.count
+            found[absent, own] = 0.0
+            for (_, values), at_places in probes.items():
+                members = list(at_places.values())
+                term = tasks[members[0][0]][0]
                 shape = dict(zip((p.name for p in term.parameters[1:]), values[1:]))
-                at = [self._places[tasks[i][0]][1] for i in members]
-                probe = Probe(self._candidates[identifier], shape, at, values[0])
+                at = [self.where(tasks[same[0]][0])[1] for same in members]
+                probe = Probe(self.where(term)[0], shape, at, values[0])
                 self.simulations += len(members)
                 try:
                     slopes = flat_probe_sensitivities(
@@ -205,9 +282,26 @@ class BankModel:
                     )
                 except BankError:
                     continue
-                found[members, begin : begin + run.count] = run.slopes(slopes)
-            begin += run.count
+                for same, slope in zip(members, run.slopes(slopes)):
+                    found[same, own] = slope
         return found
+
+    def _probes(
+        self, tasks: Sequence[tuple[Term, tuple[float, ...]]], seat: Seat
+    ) -> tuple[list[int], dict[tuple[str, tuple[float, ...]], dict[int, list[int]]]]:
+        """Tasks whose term is not there in a recording; the others by candidate and values, and by place.
+
+        On the clock of a recording all instants of earlier ones are one: it is there from the start.
+        """
+        absent: list[int] = []
+        probes: dict[tuple[str, tuple[float, ...]], dict[int, list[int]]] = {}
+        for i, (term, values) in enumerate(tasks):
+            local = self.local_values(term, values, seat)
+            if local is None:
+                absent.append(i)
+            else:
+                probes.setdefault((self.where(term)[0].identifier, local), {}).setdefault(id(term), []).append(i)
+        return absent, probes
 
     def _simulate(self, run: Run, parameters: Sequence[BankParameters]) -> list[Array | None]:
         """Outputs as the bank lays them out; None where a simulation failed."""
@@ -254,9 +348,20 @@ class BankModel:
         return jacobian.T
 
 
-def _by_terms(points: Sequence[Point]) -> list[list[int]]:
+def _by_terms(there: Sequence[Mapping[Term, tuple[float, ...]]]) -> list[list[int]]:
     """Points that switch on the same candidates are simulated together."""
     groups: dict[frozenset[str], list[int]] = {}
-    for i, point in enumerate(points):
-        groups.setdefault(frozenset(t.identifier for t in point.terms), []).append(i)
+    for i, terms in enumerate(there):
+        groups.setdefault(frozenset(t.identifier for t in terms), []).append(i)
     return list(groups.values())
+
+
+def _alike(
+    points: Sequence[Point], there: Sequence[Mapping[Term, tuple[float, ...]]], group: Sequence[int]
+) -> list[list[int]]:  # fmt: skip
+    """Points of a group that are one in a recording: an instant outside it does not matter to it."""
+    found: dict[tuple[object, ...], list[int]] = {}
+    for i in group:
+        key = (points[i].base.tobytes(), *((id(t), v) for t, v in there[i].items()))
+        found.setdefault(key, []).append(i)
+    return list(found.values())

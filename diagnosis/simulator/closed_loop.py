@@ -99,6 +99,10 @@ class ClosedLoopModel:
         """Every law that may be missing."""
         return list(self._laws)
 
+    def input_terms(self) -> list[Term]:
+        """Every output of a programme of every recording, as it may have been another within an interval."""
+        return list(self.model.inputs)
+
     def where(self, term: Term) -> tuple[UnitLaw, Component]:
         """Law and component of a term."""
         law = self._laws[term]

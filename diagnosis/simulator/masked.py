@@ -32,6 +32,10 @@ class MaskedModel(WrappedModel):
         """See `diagnosis.search.problem.Model`."""
         return np.where(self._seen[:, None], super().base_jacobian(point), 0.0)
 
+    def scaled(self, rows: Array, own: slice) -> Array:
+        """See `WrappedModel`."""
+        return np.where(self._seen[own], rows, 0.0)
+
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
         return np.where(self._seen, super().slopes(point, tasks), 0.0)

@@ -17,6 +17,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.timeline import Timeline
 from diagnosis.simulator.translate import NoBank
 
 
@@ -128,7 +129,7 @@ class DiagnosisModel(Protocol):
 
 def model_of(
     scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2,
-    without: Sequence[str] = (), batches: Batches | None = None,
+    without: Sequence[str] = (), batches: Batches | None = None, timeline: Timeline | None = None,
 ) -> DiagnosisModel:  # fmt: skip
     """The fastest model that simulates a scenario.
 
@@ -139,17 +140,26 @@ def model_of(
         threads: Simulations at the same time.
         without: Laws of units that the model must not know.
         batches: Makes the runs of the co-simulation, where there are any.
+        timeline: Recordings that were fitted, where these are held out; see `timeline_of`.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
     recordings = fitting(scenario, recordings)
     if fabric_of(scenario) is not None:
-        return FabricModel(scenario, recordings, catalogue, batches, without)
+        return FabricModel(scenario, recordings, catalogue, batches, without, timeline)
     try:
-        return BankModel(scenario, recordings, catalogue, threads)
+        return BankModel(scenario, recordings, catalogue, threads, timeline)
     except NoBank:  # also by what one of the recordings overrides
         return ClosedLoopModel(scenario, recordings, without, batches)
+
+
+def timeline_of(model: object) -> Timeline | None:
+    """The recordings of a model laid end to end; None where no law of it has an instant (`ClosedLoopModel`)."""
+    while hasattr(model, "inner"):
+        model = model.inner
+    found = getattr(model, "timeline", None)
+    return found if isinstance(found, Timeline) else None
 
 
 def strings_of(scenario: Scenario) -> tuple[int, ...]:

@@ -123,6 +123,11 @@ class Run:
             first += len(self.times.get(name, ())) * layout.elements(name)
         return np.asarray(first + series.samples * layout.elements(series.quantity) + series.element)
 
+    @property
+    def shares(self) -> Array:
+        """Share of the sum of each channel's residuals that is taken away; see `diagnosis.bank.whiten`."""
+        return self._whitening.shares
+
     def residuals(self, outputs: Array) -> Array:
         """(measured - simulated) / deviation, shape (sets, samples), from the bank's outputs (sets, out_size).
 

@@ -47,6 +47,10 @@ class TemperedModel(WrappedModel):
         """See `diagnosis.search.problem.Model`."""
         return np.asarray(super().base_jacobian(point) * self._factor[:, None])
 
+    def scaled(self, rows: Array, own: slice) -> Array:
+        """See `WrappedModel`."""
+        return np.asarray(rows * self._factor[own])
+
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
         return np.asarray(super().slopes(point, tasks) * self._factor)

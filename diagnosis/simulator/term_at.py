@@ -8,27 +8,32 @@ import numpy as np
 
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.places import SCALES, Place
-from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.candidates.candidate import CandidateTerm, Scope
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.simulator.rig_scales import believed, rig_scales
 from diagnosis.simulator.runs import LONGEST_LAG, Run, Series
+from diagnosis.simulator.timeline import Timeline
 
-#: Instants at which an effect that begins some time is tried first.
-INSTANTS = 9
+#: Instants of each recording at which an effect that begins some time is tried first, and those from which a fit may
+#: begin once it is worth one.
+INSTANTS, SCANNED = 9, 40
 #: Where a limit may lie, as shares of the most that was read: of what is cut off nothing is seen above it.
 CEILINGS = (0.99, 0.9, 0.75, 0.6, 0.45)
 #: What a sensor may be off by, and where a recording states it.
 STATED = {"sensor_clock_offset": "offset_bound", "sensor_lag": "lag_bound"}
 
 
-def term_at(candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Sequence[Run]) -> Term:
-    """The term of a candidate at a place.
+def term_at(
+    candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Sequence[Run], timeline: Timeline
+) -> Term:  # fmt: skip
+    """The term of a candidate at a place; its instants are those of the joint axis of the recordings.
 
     Args:
         candidate: The effect.
         place: Where it acts.
         layout: Coils and strings.
         runs: The recordings.
+        timeline: The recordings that are fitted, laid end to end.
     """
     own: list[Series] = []
     if candidate.axis == "channel":
@@ -36,24 +41,40 @@ def term_at(candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Se
         own = [s for run in runs for s in run.series if layout.channel(s.quantity) + s.element in elements]
     scales = rig_scales(runs[0].translation.parameters.base)
     free = []
+    scan: tuple[float, ...]
     for p in candidate.parameters:
         if p.is_fixed:
             continue
-        lower, upper, starts = p.lower, p.upper, p.tried(scales) or p.starts
+        lower, upper, starts, scan = p.lower, p.upper, p.tried(scales) or p.starts, ()
         if p.is_instant:
-            lower = begin = min(run.translation.start for run in runs)
-            upper = end = max(float(t[-1]) for run in runs for t in run.times.values())
-            starts = tuple(float(v) for v in np.linspace(begin, end, INSTANTS + 2)[1:-1])
+            lower, upper = timeline.begin, timeline.end
+            starts, scan = (_instants(timeline, count, candidate.scope) for count in (INSTANTS, SCANNED))
         elif p.name == "limit":
             starts = _limits([s for run in runs for s in run.series]) or starts
         elif p.name == "ceiling":
             starts = _ceilings(own) or starts
         negligible = max(p.negligible, _stated(candidate, own))
-        plausible = believed(candidate, p, own, scales)
+        believable = believed(candidate, p, own, scales)
         free.append(
-            TermParameter(p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible, *plausible)
+            TermParameter(
+                p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible, *believable, scan
+            )
         )
     return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+
+
+def _instants(timeline: Timeline, count: int, scope: Scope) -> tuple[float, ...]:
+    """So many instants within each recording, evenly spread, and the begin of each that says something of its own.
+
+    What is there from the begin of the first recording on and lasts is no event. On one day of several it is one.
+    """
+    found: list[float] = []
+    for number in timeline.order:
+        seat = timeline.seats[number]
+        inside = np.linspace(seat.position, seat.position + seat.end - seat.begin, count + 2)[1:-1]
+        is_event = seat.position > timeline.begin or (scope == "day" and len(timeline.days) > 1)
+        found += [*([seat.position] if is_event else []), *inside.tolist()]
+    return tuple(found)
 
 
 def _stated(candidate: CandidateTerm, own: Sequence[Series]) -> float:

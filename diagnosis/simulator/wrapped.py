@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from cosim.unit import AnyArray, Array
+from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, has_valleys, strength_slopes
+from diagnosis.search.score import Projection, Scoring
 from diagnosis.simulator.models import DiagnosisModel, Effect, RecordedRun, Spot
+
+#: What wrapping models make of changes of some residuals of the inner one: rows, shape (k, residuals), and which.
+Scaled = Callable[[Array, slice], Array]
+
+
+def unscaled(rows: Array, own: slice) -> Array:
+    """Changes of residuals as they are."""
+    return rows
 
 
 class WrappedModel:
@@ -46,6 +56,25 @@ class WrappedModel:
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
         return strength_slopes(self.inner, self.inside(point), None, tasks)
+
+    def scaled(self, rows: Array, own: slice) -> Array:
+        """Changes of this model's residuals, from those of the inner model's; shape (k, residuals of `own`)."""
+        return rows
+
+    def interval_scores(self, base: Fit, projection: Projection, scaled: Scaled = unscaled) -> Scoring | None:
+        """Scores of faults that have begin and end; None where the model knows none.
+
+        See `diagnosis.faults.model.FaultyModel.interval_scores`.
+        """
+        inner = getattr(self.inner, "interval_scores", None)
+        found = inner(base, projection, lambda rows, own: scaled(self.scaled(rows, own), own)) if inner else None
+        return found if isinstance(found, Scoring) else None
+
+    def near_intervals(self, point: Point) -> Iterator[Point]:
+        """Points with begin or end of a fault elsewhere; their parameters are those of this model."""
+        inner = getattr(self.inner, "near_intervals", None)
+        for other in inner(point) if inner else ():
+            yield Point(point.base, other.terms)
 
     def terms(self) -> list[Term]:
         """Every law that may be missing, at every place."""

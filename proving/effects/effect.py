@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
@@ -104,23 +105,42 @@ class Effect:
     """
 
     identifier: ClassVar[str]
-    unit: ClassVar[Unit]
+    unit: Unit
     is_named: ClassVar[bool] = True
-    law: ClassVar[str]
+    law: str
     places: ClassVar[tuple[str, ...]] = ("all",)
     same_parameters: ClassVar[tuple[str, ...]] = ()
-    #: Parameter to its values when weak, medium, strong.
-    strengths: ClassVar[Mapping[str, tuple[float, float, float]]]
+    #: Parameter to its range, from weak to strong: a strength is a third of it on a logarithmic scale.
+    strengths: ClassVar[Mapping[str, tuple[float, float]]]
+    #: Parameter to its range, where it says nothing about the strength.
+    ranges: ClassVar[Mapping[str, tuple[float, float]]] = {}
     #: Parameter whose sign may be drawn.
     signed: ClassVar[str] = ""
-    #: Whether it sets in at an instant, a parameter `instant`.
+    #: Whether it sets in at an instant, a parameter `instant`, of one recording.
     is_sudden: ClassVar[bool] = False
+    #: Whether it is gone in the recordings after that one (a window that was open) and does not last (a break).
+    is_of_a_day: ClassVar[bool] = False
     #: Whether a load must hang from the coils to show it.
     needs_load: ClassVar[bool] = False
 
     def __init__(self, place: Place, parameters: Mapping[str, float]) -> None:
         self.place = place
         self.parameters = dict(parameters)
+        #: Of a sudden effect: the recording that it sets in, from 1.
+        self.recording = 1
+
+    def in_recording(self, number: int) -> Effect:
+        """The effect as it is in a recording, counted from 1.
+
+        What is sudden is not there before its recording, sets in at its instant in that one, and after it is there from
+        the start, or not at all if it is of a day.
+        """
+        if not self.is_sudden or number == self.recording:
+            return self
+        never = number < self.recording or self.is_of_a_day
+        found = copy(self)
+        found.parameters = self.parameters | {"instant": np.inf if never else -np.inf}
+        return found
 
     def begin(self, now: Now) -> None:
         """Before the first step: states of its own start here."""
@@ -156,6 +176,10 @@ class Effect:
     def loop(self, now: Now, change: LoopChange) -> None:
         """Change the loop; held over a step."""
 
+    def curve(self, now: Now, celsius: Array, stiffness: Array) -> Array:
+        """Stiffness of every piece [N/m] at its temperature, where the loop gives `stiffness`; shape (coils, cells)."""
+        return stiffness
+
     def load(self, now: Now, tension: Array) -> None:
         """Change the load of every coil [N]."""
 
@@ -168,6 +192,27 @@ class Effect:
     def is_known_by_catalogue(self) -> bool:
         """Whether the catalogue has an entry for it."""
         return self.is_named
+
+
+def value_at(span: tuple[float, float], share: float) -> float:
+    """Value at a share of the way through a range, 0 to 1, on a logarithmic scale; both ends have one sign."""
+    low, high = span
+    return float(low * (high / low) ** share)
+
+
+def drawn_values(
+    strengths: Mapping[str, tuple[float, float]],
+    ranges: Mapping[str, tuple[float, float]],
+    strength: Strength,
+    rng: np.random.Generator,
+) -> dict[str, float]:
+    """Parameters of an effect, log-uniform: those of `strengths` in the third of their range, the others in all of it.
+
+    No value is preferred: a start value of the diagnosis's library cannot be the truth but by chance.
+    """
+    level = STRENGTHS.index(strength)
+    found = {n: value_at(span, (level + float(rng.random())) / len(STRENGTHS)) for n, span in strengths.items()}
+    return found | {n: value_at(span, float(rng.random())) for n, span in ranges.items()}
 
 
 def coil_place(sheet: DataSheet, coil: int) -> Place:

@@ -34,7 +34,7 @@ class ContactResistance(_OfStrings):
     law = "R_string = R_string_0 + R_contact"
     places = ("string",)
     same_parameters = ("R_contact",)
-    strengths = {"R_contact": (0.5, 1.2, 3.0)}
+    strengths = {"R_contact": (0.5, 3.0)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.lead += self.parameters["R_contact"] * self.amount_of_strings(network)
@@ -45,7 +45,7 @@ class LooseContact(_OfStrings):
     law = "R_string = R_string_0 + R_contact * step(t - instant)"
     places = ("string",)
     same_parameters = ("R_contact", "instant")
-    strengths = {"R_contact": (0.08, 0.5, 3.0)}
+    strengths = {"R_contact": (0.08, 3.0)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -59,7 +59,7 @@ class SupplySourceResistance(Effect):
     law = "V_terminal = V - R_source * I_supply"
     places = ("supply",)
     same_parameters = ("R_source",)
-    strengths = {"R_source": (0.1, 0.3, 0.8)}
+    strengths = {"R_source": (0.1, 0.8)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.source += self.parameters["R_source"]
@@ -72,7 +72,7 @@ class SupplyCurrentLimit(Effect):
     places = ("supply",)
     same_parameters = ("limit",)
     #: Share of the current of the highest level that is let through.
-    strengths = {"share": (0.95, 0.85, 0.65)}
+    strengths = {"share": (0.95, 0.65)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.limit = min(network.limit, self.parameters["limit"])
@@ -84,7 +84,7 @@ class TemperatureDependentResistance(Effect):
     law = "R = R_0 + alpha * reference_resistance * (T - reference_temperature)"
     places = ("all", "all", "string", "coil")
     same_parameters = ("alpha",)
-    strengths = {"alpha": (0.0006, 0.0015, 0.003)}
+    strengths = {"alpha": (0.0006, 0.003)}
 
     def resistivity(self, now: Now, factor: Array) -> None:
         factor += self.parameters["alpha"] * self.place.amount[:, None] * (now.wire - REFERENCE)
@@ -96,7 +96,7 @@ class PhaseDependentResistance(Effect):
     law = "R = R_0 + delta * reference_resistance * phase"
     places = ("all", "all", "string", "coil")
     same_parameters = ("delta",)
-    strengths = {"delta": (-0.04, -0.08, -0.15)}
+    strengths = {"delta": (-0.04, -0.15)}
 
     def resistivity(self, now: Now, factor: Array) -> None:
         factor += self.parameters["delta"] * self.place.amount[:, None] * now.phase
@@ -108,7 +108,8 @@ class OpenCoil(Effect):
     law = "R = R_0 / (1 - openness * step(t - instant))"
     places = ("coil",)
     same_parameters = ("openness", "instant")
-    strengths = {"openness": (0.1, 0.6, 1.0)}
+    #: Above 1 it is quite open.
+    strengths = {"openness": (0.1, 1.6)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -122,7 +123,8 @@ class ShortedCoil(Effect):
     law = "R = R_0 * (1 - bridged * step(t - instant))"
     places = ("coil",)
     same_parameters = ("bridged", "instant")
-    strengths = {"bridged": (0.06, 0.4, 1.0)}
+    #: Above 1 all of it is bridged.
+    strengths = {"bridged": (0.06, 1.6)}
     is_sudden = True
 
     def branches(self, now: Now, network: Branches) -> None:
@@ -135,7 +137,7 @@ class SelfHeatingLead(_OfStrings):
     law = "R_string = R_string_0 + rise * I**2"
     places = ("string",)
     same_parameters = ("rise",)
-    strengths = {"rise": (1.0, 4.0, 15.0)}
+    strengths = {"rise": (1.0, 15.0)}
 
     def branches(self, now: Now, network: Branches) -> None:
         current = now.current[network.first]  # of the evaluation before: lags by less than a step

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from proving.effects.effect import Place, Strength, Unit
+from proving.effects.effect import Place, Strength, Unit, drawn_values
 from proving.sensors import Sensors
 
 
@@ -22,10 +22,10 @@ class SensorFault:
     identifier: ClassVar[str]
     unit: ClassVar[Unit] = "measurement"
     is_named: ClassVar[bool] = True
-    law: ClassVar[str]
+    law: str
     places: ClassVar[tuple[str, ...]] = ("channel", "quantity")
     same_parameters: ClassVar[tuple[str, ...]] = ()
-    strengths: ClassVar[Mapping[str, tuple[float, float, float]]]
+    strengths: ClassVar[Mapping[str, tuple[float, float]]]
     signed: ClassVar[str] = ""
     #: Kinds of sensors that may have it.
     kinds: ClassVar[tuple[str, ...]] = ("temperature", "extension", "string", "supply")
@@ -45,7 +45,7 @@ class ClockOffset(SensorFault):
     identifier = "sensor_clock_offset"
     law = "value = truth(t - delay)"
     same_parameters = ("delay",)
-    strengths = {"delay": (0.5, 1.0, 2.0)}
+    strengths = {"delay": (0.5, 2.0)}
     signed = "delay"
 
     def spoil(self, sensors: Sensors) -> None:
@@ -56,7 +56,7 @@ class Lag(SensorFault):
     identifier = "sensor_lag"
     law = "lag_time * d(value) = truth - value"
     same_parameters = ("lag_time",)
-    strengths = {"lag_time": (0.6, 1.2, 2.5)}
+    strengths = {"lag_time": (0.6, 2.5)}
     kinds = ("temperature", "extension")
 
     def spoil(self, sensors: Sensors) -> None:
@@ -67,7 +67,7 @@ class Gain(SensorFault):
     identifier = "sensor_gain"
     law = "value = truth + gain * (truth - pivot)"
     same_parameters = ("gain",)
-    strengths = {"gain": (0.05, 0.1, 0.2)}
+    strengths = {"gain": (0.05, 0.2)}
     signed = "gain"
     places = ("channel",)
 
@@ -82,7 +82,7 @@ TYPICAL = {"temperature": 20.0, "extension": 2e-3, "string": 0.3, "supply": 1.5}
 class Bias(SensorFault):
     identifier = "sensor_bias"
     law = "value = truth + bias"
-    strengths = {"bias": (0.08, 0.16, 0.32)}
+    strengths = {"bias": (0.08, 0.32)}
     signed = "bias"
     relative = ("bias",)
     places = ("channel",)
@@ -94,7 +94,7 @@ class Bias(SensorFault):
 class Drift(SensorFault):
     identifier = "sensor_drift"
     law = "value = truth + drift * t"
-    strengths = {"drift": (0.0015, 0.003, 0.006)}
+    strengths = {"drift": (0.0015, 0.006)}
     signed = "drift"
     relative = ("drift",)
     places = ("channel",)
@@ -107,7 +107,7 @@ class Clipping(SensorFault):
     identifier = "sensor_clipping"
     law = "value = min(truth, ceiling)"
     #: Share of the way from the least to the greatest true reading.
-    strengths = {"share": (0.85, 0.7, 0.5)}
+    strengths = {"share": (0.85, 0.5)}
 
     def spoil(self, sensors: Sensors) -> None:
         sensors.ceiling[sensors.rows(self.place.channels)] = self.parameters["ceiling"]
@@ -117,7 +117,7 @@ class WrongIdentity(SensorFault):
     identifier = "wrong_identity"
     law = "two channels are exchanged"
     places = ("swap",)
-    strengths = {"exchange": (1.0, 1.0, 1.0)}
+    strengths = {"exchange": (1.0, 1.0)}
     kinds = ("temperature", "extension", "string")
 
     def spoil(self, sensors: Sensors) -> None:
@@ -131,7 +131,7 @@ class CurrentPickup(SensorFault):
     identifier = "current_pickup"
     is_named = False
     law = "value = truth + pickup * I"
-    strengths = {"pickup": (4.0, 8.0, 16.0)}  # [K/A]
+    strengths = {"pickup": (4.0, 16.0)}  # [K/A]
     signed = "pickup"
     kinds = ("temperature",)
 
@@ -145,7 +145,7 @@ class BentScale(SensorFault):
     identifier = "bent_scale"
     is_named = False
     law = "value = truth - bend * (truth - pivot)**2"
-    strengths = {"bend": (0.001, 0.002, 0.004)}  # [1/K]
+    strengths = {"bend": (0.001, 0.004)}  # [1/K]
     kinds = ("temperature",)
 
     def spoil(self, sensors: Sensors) -> None:
@@ -181,10 +181,7 @@ def drawn_fault(
         chosen = (first, str(rng.choice([n for n in names if _string(n) != _string(first)])))
     else:
         chosen = names
-    level = ("weak", "medium", "strong").index(strength)
-    parameters = {name: values[level] * float(rng.uniform(0.9, 1.1)) for name, values in fault.strengths.items()}
-    if "exchange" in parameters:
-        parameters["exchange"] = 1.0
+    parameters = drawn_values(fault.strengths, {}, strength, rng)
     for name in fault.relative:
         parameters[name] *= TYPICAL[kind]
     if fault.signed and rng.random() < 0.5:

@@ -19,7 +19,7 @@ class SlideFriction(_OfLoad):
     law = "abs(tension - stiffness * extension) <= friction"
     places = ("coil", "all", "string")
     same_parameters = ("friction",)
-    strengths = {"friction": (0.03, 0.08, 0.2)}
+    strengths = {"friction": (0.03, 0.2)}
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
         room = self.parameters["friction"] * self.place.amount / now.stiffness
@@ -31,7 +31,7 @@ class ViscousDamping(_OfLoad):
     law = "damping * d(extension) = tension - stiffness * extension"
     places = ("coil", "all", "string")
     same_parameters = ("damping",)
-    strengths = {"damping": (250.0, 600.0, 1500.0)}
+    strengths = {"damping": (250.0, 1500.0)}
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
         damping = self.parameters["damping"] * self.place.amount
@@ -44,7 +44,8 @@ class SupplyWireStiffness(_OfLoad):
     law = "tension = stiffness * extension + wire * (extension - reach)"
     places = ("coil", "all", "string")
     same_parameters = ("wire", "reach")
-    strengths = {"wire": (10.0, 25.0, 60.0), "reach": (0.0015, 0.0015, 0.0015)}
+    strengths = {"wire": (10.0, 60.0)}
+    ranges = {"reach": (0.0008, 0.0028)}
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
         wire = self.parameters["wire"] * self.place.amount
@@ -56,7 +57,7 @@ class Backlash(_OfLoad):
     law = "abs(extension_marker - extension) <= 0.5 * gap"
     places = ("coil", "all", "string")
     same_parameters = ("gap",)
-    strengths = {"gap": (0.0003, 0.0007, 0.0015)}
+    strengths = {"gap": (0.0003, 0.0015)}
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
         half = 0.5 * self.parameters["gap"] * self.place.amount
@@ -68,7 +69,7 @@ class Tilt(_OfLoad):
     law = "tension = load * (1 - loss)"
     places = ("coil", "string")
     same_parameters = ("loss",)
-    strengths = {"loss": (0.05, 0.1, 0.2)}
+    strengths = {"loss": (0.05, 0.2)}
 
     def load(self, now: Now, tension: Array) -> None:
         tension *= 1.0 - self.parameters["loss"] * self.place.amount
@@ -79,7 +80,7 @@ class ThermalContraction(_OfLoad):
     law = "extension = extension_0 - contraction * (T - reference_temperature)"
     places = ("all", "all", "coil", "string")
     same_parameters = ("contraction",)
-    strengths = {"contraction": (6e-6, 1.5e-5, 4e-5)}
+    strengths = {"contraction": (6e-6, 4e-5)}
     signed = "contraction"
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
@@ -91,7 +92,8 @@ class Creep(_OfLoad):
     law = "extension = extension_0 + crept; tau * d(crept) = compliance * tension - crept"
     places = ("all", "coil")
     same_parameters = ("compliance", "tau")
-    strengths = {"compliance": (0.0003, 0.0006, 0.0012), "tau": (20.0, 35.0, 60.0)}
+    strengths = {"compliance": (0.0003, 0.0012)}
+    ranges = {"tau": (13.0, 75.0)}
 
     def begin(self, now: Now) -> None:
         self._crept = np.zeros_like(now.tension)

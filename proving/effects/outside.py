@@ -21,7 +21,7 @@ class PeltierJunction(Effect):
     is_named = False
     law = "heat = pi_coefficient * I"
     places = ("all", "string", "coil")
-    strengths = {"pi_coefficient": (0.05, 0.1, 0.2)}
+    strengths = {"pi_coefficient": (0.05, 0.2)}
     signed = "pi_coefficient"
 
     def heat(self, now: Now, wire: Array) -> tuple[Array, Array]:
@@ -42,7 +42,7 @@ class WetFilm(Effect):
     law = "heat = -2.43e6 * transfer * (p(T) - 0.5 * p(T_ambient)) while film > 0"
     places = ("all", "string")
     #: Film in kg, transfer in kg/s/Pa, of a coil.
-    strengths = {"film": (1e-6, 2e-6, 3e-6), "transfer": (6e-13, 2e-12, 5e-12)}
+    strengths = {"film": (1e-6, 3e-6), "transfer": (6e-13, 5e-12)}
 
     def begin(self, now: Now) -> None:
         self._film = self.parameters["film"] * np.ones_like(now.temperature)
@@ -79,7 +79,8 @@ class BoilingOnset(Effect):
     is_named = False
     law = "heat = -g * max(T - T_onset, 0)"
     places = ("all", "string", "coil")
-    strengths = {"g": (0.0012, 0.004, 0.012), "T_onset": (325.0, 323.0, 321.0)}
+    strengths = {"g": (0.0012, 0.012)}
+    ranges = {"T_onset": (316.0, 326.0)}  # [K]
 
     def heat(self, now: Now, wire: Array) -> tuple[Array, Array]:
         g = self.parameters["g"] * self.place.amount[:, None]
@@ -94,7 +95,7 @@ class MotionDraught(Effect):
     unit = "thermal"
     is_named = False
     law = "heat = -hA * fan * abs(d(extension)) * (T - T_ambient)"
-    strengths = {"fan": (100.0, 400.0, 1500.0)}  # [s/m]
+    strengths = {"fan": (100.0, 1500.0)}  # [s/m]
     needs_load = True
 
     def convection(self, now: Now, factor: Array) -> None:
@@ -109,7 +110,7 @@ class StringLeak(Effect):
     is_named = False
     law = "I_lower = I - V_middle / R_leak * V / (3 V)"
     places = ("string",)
-    strengths = {"R_leak": (60.0, 25.0, 10.0)}
+    strengths = {"R_leak": (60.0, 10.0)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.leak += self.place.amount[network.first] / self.parameters["R_leak"] * now.voltage / 3.0
@@ -126,7 +127,7 @@ class ContactVoltage(Effect):
     is_named = False
     law = "I_string = max(V - V_contact, 0) / R_string"
     places = ("string", "all")
-    strengths = {"V_contact": (0.05, 0.2, 0.6)}
+    strengths = {"V_contact": (0.05, 0.6)}
 
     def branches(self, now: Now, network: Branches) -> None:
         network.drop += self.parameters["V_contact"] * self.place.amount[network.first]
@@ -140,7 +141,7 @@ class SlowSupply(Effect):
     is_named = False
     law = "tau * d(V) = V_set - V"
     places = ("supply",)
-    strengths = {"tau": (0.15, 0.5, 1.5)}
+    strengths = {"tau": (0.15, 1.5)}
 
     def begin(self, now: Now) -> None:
         self._behind: float | Array = 0.0
@@ -162,7 +163,7 @@ class AgeingResistance(Effect):
     is_named = False
     law = "R = R_0 * (1 + growth * charge)"
     places = ("all", "string", "coil")
-    strengths = {"growth": (0.0015, 0.004, 0.01)}  # [1/C]
+    strengths = {"growth": (0.0015, 0.01)}  # [1/C]
 
     def begin(self, now: Now) -> None:
         self._charge = np.zeros_like(now.current)
@@ -182,7 +183,7 @@ class RateDependentLoop(Effect):
     is_named = False
     law = "shift = drag * d(T)"
     places = ("all", "string", "coil")
-    strengths = {"drag": (0.5, 1.2, 2.5)}  # [s]
+    strengths = {"drag": (0.5, 2.5)}  # [s]
 
     def loop(self, now: Now, change: LoopChange) -> None:
         change.shift += self.parameters["drag"] * self.place.amount * now.rate
@@ -194,15 +195,16 @@ class AgeingStiffness(Effect):
     identifier = "ageing_stiffness"
     unit = "stiffness"
     is_named = False
-    law = "shift = -speed * time_above_325_K"
+    law = "d(shift) = -speed * step(T - T_hot)"
     places = ("all", "coil")
-    strengths = {"speed": (0.08, 0.16, 0.3)}  # [K/s]
+    strengths = {"speed": (0.08, 0.3)}  # [K/s]
+    ranges = {"T_hot": (316.0, 328.0)}  # [K]
 
     def begin(self, now: Now) -> None:
         self._hot = np.zeros_like(now.temperature)
 
     def advance(self, now: Now) -> None:
-        self._hot = self._hot + now.size * (now.temperature > 325.0)
+        self._hot = self._hot + now.size * (now.temperature > self.parameters["T_hot"])
 
     def loop(self, now: Now, change: LoopChange) -> None:
         change.shift -= self.parameters["speed"] * self.place.amount * self._hot
@@ -219,7 +221,7 @@ class MagneticPull(Effect):
     is_named = False
     law = "tension = load - pull * I**2"
     places = ("all", "string", "coil")
-    strengths = {"pull": (0.3, 0.6, 1.2)}  # [N/A^2]
+    strengths = {"pull": (0.3, 1.2)}  # [N/A^2]
     needs_load = True
 
     def load(self, now: Now, tension: Array) -> None:
@@ -234,7 +236,7 @@ class StickAndRelease(Effect):
     is_named = False
     law = "extension holds until abs(tension - stiffness * extension) > hold, then springs to tension / stiffness"
     places = ("all", "coil", "string")
-    strengths = {"hold": (0.1, 0.2, 0.35)}  # [N]
+    strengths = {"hold": (0.1, 0.35)}  # [N]
     needs_load = True
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
@@ -251,7 +253,8 @@ class SoftStop(Effect):
     is_named = False
     law = "tension = stiffness * extension + cushion * max(extension - reach, 0)"
     places = ("all", "string", "coil")
-    strengths = {"cushion": (100.0, 250.0, 600.0), "reach": (0.0046, 0.0045, 0.0044)}
+    strengths = {"cushion": (100.0, 600.0)}
+    ranges = {"reach": (0.0041, 0.0048)}  # [m]
     needs_load = True
 
     def length(self, now: Now, extension: Array, before: Array) -> None:
@@ -268,7 +271,7 @@ class TwoWaySquare(Effect):
     is_named = False
     law = "extension = extension_0 - curve * (T - reference_temperature)**2"
     places = ("all", "coil", "string")
-    strengths = {"curve": (2e-7, 4e-7, 1e-6)}
+    strengths = {"curve": (2e-7, 1e-6)}
     needs_load = True
 
     def length(self, now: Now, extension: Array, before: Array) -> None:

@@ -13,7 +13,7 @@ class StressDependentTransformation(Effect):
     unit = "stiffness"
     law = "shift = slope * tension"
     same_parameters = ("slope",)
-    strengths = {"slope": (3.0, 6.0, 12.0)}
+    strengths = {"slope": (3.0, 12.0)}
     needs_load = True
 
     def loop(self, now: Now, change: LoopChange) -> None:
@@ -26,7 +26,7 @@ class TransformationShift(Effect):
     law = "shift = offset"
     places = ("coil", "string")
     same_parameters = ("offset",)
-    strengths = {"offset": (3.0, 6.0, 10.0)}
+    strengths = {"offset": (3.0, 10.0)}
     signed = "offset"
 
     def loop(self, now: Now, change: LoopChange) -> None:
@@ -39,7 +39,7 @@ class Fatigue(Effect):
     law = "fraction = 1 - loss * cycles; d(cycles) = 0.5 * abs(d(phase))"
     places = ("all", "all", "coil")
     same_parameters = ("loss",)
-    strengths = {"loss": (0.04, 0.09, 0.18)}
+    strengths = {"loss": (0.04, 0.18)}
 
     def begin(self, now: Now) -> None:
         self._last = now.phase @ now.weight
@@ -58,7 +58,7 @@ class FatigueShift(Fatigue):
     identifier = "fatigue_shift"
     law = "shift = wander * cycles; d(cycles) = 0.5 * abs(d(phase))"
     same_parameters = ("wander",)
-    strengths = {"wander": (0.8, 1.6, 3.0)}
+    strengths = {"wander": (0.8, 3.0)}
     signed = "wander"
 
     def loop(self, now: Now, change: LoopChange) -> None:
@@ -70,7 +70,7 @@ class MinorLoopMemory(Effect):
     unit = "stiffness"
     law = "inside the loop, the stiffness moves with the temperature in proportion to its distance from the ends"
     places = ("all", "all", "coil")
-    strengths = {"duhem_share": (0.35, 0.65, 1.0)}
+    strengths = {"duhem_share": (0.35, 1.0)}
 
     def duhem(self) -> Array:
         return self.parameters["duhem_share"] * self.place.amount
@@ -82,7 +82,7 @@ class IncompleteTransformation(Effect):
     law = "stiffness = heating_d + (1 - retained) * (stiffness_0 - heating_d)"
     places = ("coil", "string")
     same_parameters = ("retained",)
-    strengths = {"retained": (0.12, 0.25, 0.5)}
+    strengths = {"retained": (0.12, 0.5)}
 
     def loop(self, now: Now, change: LoopChange) -> None:
         change.fraction *= 1.0 - self.parameters["retained"] * self.place.amount

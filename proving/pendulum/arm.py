@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from proving.effects.effect import value_at
+
 GRAVITY = 9.80665  # [m/s^2]
+#: Time [s], angle [rad] and angular velocity [rad/s] to a torque [N m]; asked for at rising times, and at 0 to begin.
+Torque = Callable[[float, float, float], float]
 
 
 @dataclass(frozen=True)
@@ -16,7 +20,8 @@ class ArmEffect:
     Args:
         identifier: Name.
         law: Formula.
-        strengths: Parameter to its values when weak, medium, strong.
+        strengths: Parameter to its range, from weak to strong.
+        ranges: Parameter to its range, where it says nothing about the strength.
         is_named: Whether a catalogue has it.
         signed: Parameter whose sign may be drawn.
         comparable: Parameters that mean the same in the catalogue.
@@ -24,51 +29,56 @@ class ArmEffect:
 
     identifier: str
     law: str
-    strengths: Mapping[str, tuple[float, float, float]]
+    strengths: Mapping[str, tuple[float, float]]
     is_named: bool = True
     signed: str = ""
     comparable: tuple[str, ...] = ()
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
 EFFECTS: tuple[ArmEffect, ...] = (
     ArmEffect(
-        "viscous_damping", "torque = -viscous_damping * w", {"viscous_damping": (3e-5, 1e-4, 3e-4)},
+        "viscous_damping", "torque = -viscous_damping * w", {"viscous_damping": (3e-5, 3e-4)},
         comparable=("viscous_damping",),
     ),
     ArmEffect(
-        "coulomb_friction", "torque = -coulomb_friction * sign(w)", {"coulomb_friction": (1e-4, 3e-4, 1e-3)},
+        "coulomb_friction", "torque = -coulomb_friction * sign(w)", {"coulomb_friction": (1e-4, 1e-3)},
         comparable=("coulomb_friction",),
     ),
     ArmEffect(
         "stiction", "torque = -stiction * exp(-(w / stribeck_speed)**2) * sign(w)",
-        {"stiction": (1e-3, 2.5e-3, 6e-3), "stribeck_speed": (0.4, 0.4, 0.4)},
-        comparable=("stiction", "stribeck_speed"),
+        {"stiction": (1e-3, 6e-3)}, comparable=("stiction", "stribeck_speed"), ranges={"stribeck_speed": (0.25, 0.7)},
     ),
     ArmEffect(
-        "quadratic_drag", "torque = -quadratic_drag * abs(w) * w", {"quadratic_drag": (5e-6, 1.5e-5, 5e-5)},
+        "quadratic_drag", "torque = -quadratic_drag * abs(w) * w", {"quadratic_drag": (5e-6, 5e-5)},
         comparable=("quadratic_drag",),
     ),
     ArmEffect(
-        "backlash", "abs(arm - encoder) <= backlash / 2", {"backlash": (0.008, 0.02, 0.05)}, comparable=("backlash",)
+        "backlash", "abs(arm - encoder) <= backlash / 2", {"backlash": (0.008, 0.05)}, comparable=("backlash",)
     ),
     ArmEffect(
-        "tilt", "torque = weight_moment * sin(angle - tilt)", {"tilt": (0.005, 0.015, 0.04)}, signed="tilt",
+        "tilt", "torque = weight_moment * sin(angle - tilt)", {"tilt": (0.005, 0.04)}, signed="tilt",
         comparable=("tilt",),
     ),
     # Not in any catalogue: a cable that twists, a magnet below the hanging arm, a table that shakes.
     ArmEffect(
-        "cable_spring", "torque = -cable * (angle - rest)", {"cable": (1e-3, 3e-3, 8e-3), "rest": (2.8, 2.8, 2.8)},
-        is_named=False,
+        "cable_spring", "torque = -cable * (angle - rest)", {"cable": (1e-3, 8e-3)}, is_named=False,
+        ranges={"rest": (2.4, 3.7)},
     ),
     ArmEffect(
-        "eddy_brake", "torque = -brake * exp(-((angle - pi) / 0.25)**2) * w", {"brake": (2e-4, 6e-4, 2e-3)},
-        is_named=False,
+        "eddy_brake", "torque = -brake * exp(-((angle - pi) / brake_width)**2) * w", {"brake": (2e-4, 2e-3)},
+        is_named=False, ranges={"brake_width": (0.12, 0.55)},
     ),
     ArmEffect(
-        "shaking", "torque = shake * sin(rhythm * t)", {"shake": (3e-4, 8e-4, 2e-3), "rhythm": (9.0, 9.0, 9.0)},
-        is_named=False,
+        "shaking", "torque = shake * sin(rhythm * t)", {"shake": (3e-4, 2e-3)}, is_named=False,
+        ranges={"rhythm": (5.5, 14.0)},
     ),
 )  # fmt: skip
+
+
+def middle(effect: ArmEffect) -> dict[str, float]:
+    """Parameters of an effect in the middle of their ranges, on a logarithmic scale."""
+    return {n: value_at(span, 0.5) for n, span in {**effect.strengths, **effect.ranges}.items()}
 
 
 @dataclass(frozen=True)
@@ -80,12 +90,14 @@ class Arm:
         moment: Mass times gravity times distance of the centre from the hinge [N m].
         distance: Of the centre from the hinge [m].
         effects: Parameters of all effects together, by their names; those left out are 0.
+        extra: A torque besides, or None.
     """
 
     inertia: float
     moment: float
     distance: float
     effects: Mapping[str, float] = field(default_factory=dict)
+    extra: Torque | None = None
 
     def of(self, name: str) -> float:
         """A parameter of an effect, 0 if it does not act."""
@@ -106,7 +118,9 @@ class Arm:
         if "cable" in self.effects:
             torque -= self.of("cable") * (angle - self.of("rest"))
         if "brake" in self.effects:
-            torque -= self.of("brake") * math.exp(-(((angle - math.pi) / 0.25) ** 2)) * speed
+            torque -= self.of("brake") * math.exp(-(((angle - math.pi) / self.of("brake_width")) ** 2)) * speed
+        if self.extra is not None:
+            torque += self.extra(time, angle, speed)
         return torque + self.of("shake") * math.sin(self.of("rhythm") * time)
 
     def dry(self, speed: float) -> float:

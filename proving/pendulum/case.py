@@ -5,21 +5,23 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
 
-from proving.effects.effect import STRENGTHS, Strength
-from proving.pendulum.arm import GRAVITY, Arm, ArmEffect
+from proving.composed.torque import ComposedTorque, drawn_torque
+from proving.effects.effect import Strength, drawn_values
+from proving.pendulum.arm import GRAVITY, Arm, ArmEffect, Torque
 from proving.pendulum.engines import ENGINES
 from proving.rig import Array
+from proving.sabotage.pendulum import ArmSabotage
 
 _SCENARIO = Path(__file__).resolve().parents[1] / "scenarios" / "pendulum.yaml"
-_STOP, _INTERVAL = 12.0, 0.01  # [s]
-_QUANTUM = 2.0 * math.pi / 4096.0  # [rad]; an encoder of 12 bits
+STOP, INTERVAL = 12.0, 0.01  # [s]
+QUANTUM = 2.0 * math.pi / 4096.0  # [rad]; an encoder of 12 bits
 # What the scenario says: kg, m, kg m^2.
 _MASS, _DISTANCE, _CENTRAL = 0.1, 0.115, 4408e-7
 
@@ -38,6 +40,8 @@ class PendulumCase:
         starts: Angle [rad] and angular velocity [rad/s] of each recording; the last one is held out.
         verdicts: That are right.
         hidden: Identifiers to be taken out of the catalogue.
+        sabotage: What makes recordings and scenario be of different experiments; by default nothing.
+        composed: A torque for which no catalogue has a law, or None.
     """
 
     identifier: str
@@ -49,6 +53,8 @@ class PendulumCase:
     starts: tuple[tuple[float, float], ...]
     verdicts: tuple[str, ...]
     hidden: tuple[str, ...] = ()
+    sabotage: ArmSabotage = field(default_factory=ArmSabotage)
+    composed: ComposedTorque | None = None
 
     def write(self, cases: Path, answers: Path, rng: np.random.Generator) -> None:
         """Runs the case and writes recordings, task and answer.
@@ -56,17 +62,30 @@ class PendulumCase:
         Args:
             cases: Folder that the diagnosis is given.
             answers: Folder that it is not given.
-            rng: Source of noise.
+            rng: Source of noise, and of a composed torque.
+
+        Raises:
+            NoLaw: None of many compositions can be made strong enough.
         """
+        if self.kind == "composed" and self.composed is None:
+            noise = math.hypot(self.noise, QUANTUM / math.sqrt(12.0))
+            made = drawn_torque(self.arm, self.starts, noise, (STOP, INTERVAL), rng)
+            replace(self, composed=made).write(cases, answers, rng)
+            return
         folder = cases / self.identifier
         names = [*(f"training_{n + 1}" for n in range(len(self.starts) - 1)), "held_out_1"]
         clean: Array = np.zeros(0)
-        for name, (angle, speed) in zip(names, self.starts):
+        stamps: Array = INTERVAL * np.arange(round(STOP / INTERVAL) + 1, dtype=np.float64)
+        for number, (name, start) in enumerate(zip(names, self.starts), start=1):
             off = rng.normal(0.0, 0.005), rng.normal(0.0, 0.02)  # let go by hand
-            swing = ENGINES[self.engine](self.arm, angle + off[0], speed + off[1], _STOP, _INTERVAL)
+            angle, speed = self.sabotage.real_start(number, start)
+            arm = replace(self.arm, extra=self._extra(number))
+            swing = ENGINES[self.engine](arm, angle + off[0], speed + off[1], STOP, INTERVAL)
             clean = behind_play(swing, self.arm.of("backlash"))
-            read = _QUANTUM * np.round((clean + self.noise * rng.standard_normal(clean.size)) / _QUANTUM)
-            _write_recording(folder / name, f"arm, {name.replace('_', ' ')}", (angle, speed), read, self.noise)
+            read: Array = QUANTUM * np.round((clean + self.noise * rng.standard_normal(clean.size)) / QUANTUM)
+            course = self.sabotage.spoil_swing(number, stamps, read)
+            stated = self.sabotage.stated_start(number, self.starts)
+            _write_recording(folder / name, _title(name), stated, course, (self.noise, number))
         (folder / "scenario.yaml").write_text(_SCENARIO.read_text())
         task = {
             "scenario": "scenario.yaml", "training": names[:-1], "held_out": names[-1:], "hidden": list(self.hidden)
@@ -74,12 +93,17 @@ class PendulumCase:
         (folder / "task.yaml").write_text(yaml.safe_dump(task, sort_keys=False))
         answers.mkdir(parents=True, exist_ok=True)
         (answers / f"{self.identifier}.json").write_text(json.dumps(self._answer(), indent=1) + "\n")
-        stamps = _INTERVAL * np.arange(clean.size)
         arrays: dict[str, Any] = {"held_out_1/angle/stamps": stamps, "held_out_1/angle/clean": clean}
         np.savez_compressed(answers / f"{self.identifier}.npz", **arrays)
 
+    def _extra(self, number: int) -> Torque | None:
+        """What acts besides in a recording: a sabotaged case has no composed law."""
+        return self.composed.fresh() if self.composed is not None else self.sabotage.torque(number)
+
     def _answer(self) -> dict[str, Any]:
-        findings = [
+        names = [*(f"training_{n + 1}" for n in range(len(self.starts) - 1)), "held_out_1"]
+        findings = [] if self.composed is None else [self.composed.finding()]
+        findings += [
             {
                 "effect": effect.identifier, "unit": "mechanical", "is_in_catalogue": effect.is_named,
                 "is_hidden": effect.identifier in self.hidden, "strength": strength, "place": "component",
@@ -91,7 +115,9 @@ class PendulumCase:
         arm = {"inertia": self.arm.inertia, "moment": self.arm.moment, "distance": self.arm.distance}
         return {
             "case": self.identifier, "kind": self.kind, "setup": "pendulum", "engine": self.engine,
-            "verdicts": list(self.verdicts), "hidden": list(self.hidden), "findings": findings, "rig": arm,
+            "verdicts": [*self.verdicts, *self.sabotage.verdicts], "hidden": list(self.hidden), "findings": findings,
+            "sabotage": self.sabotage.answer(names, [_title(n) for n in names], STOP) if self.sabotage.kind else None,
+            "rig": arm,
             "noise": {"angle": self.noise},
         }  # fmt: skip
 
@@ -106,8 +132,7 @@ def drawn_pendulum(
     """
     chosen = []
     for effect, strength in wanted:
-        level = STRENGTHS.index(strength)
-        parameters = {n: v[level] * float(rng.uniform(0.9, 1.1)) for n, v in effect.strengths.items()}
+        parameters = drawn_values(effect.strengths, effect.ranges, strength, rng)
         if effect.signed and rng.random() < 0.5:
             parameters[effect.signed] *= -1.0
         chosen.append((effect, strength, parameters))
@@ -128,6 +153,10 @@ def drawn_pendulum(
     )  # fmt: skip
 
 
+def _title(name: str) -> str:
+    return f"arm, {name.replace('_', ' ')}"
+
+
 def behind_play(angle: Array, play: float) -> Array:
     """Encoder behind a play of this full width [rad], from its middle."""
     if play == 0.0:
@@ -139,18 +168,22 @@ def behind_play(angle: Array, play: float) -> Array:
     return found
 
 
-def _write_recording(folder: Path, title: str, start: tuple[float, float], angle: Array, noise: float) -> None:
+def _write_recording(
+    folder: Path, title: str, start: tuple[float, float], course: tuple[Array, Array], told: tuple[float, int]
+) -> None:
+    """Writes one recording; `course` is stamps and readings, `told` the noise [rad] and the place in time."""
     folder.mkdir(parents=True, exist_ok=True)
-    lines = ["time,angle", *(f"{n * _INTERVAL:.2f},{a:.6f}" for n, a in enumerate(angle.tolist()))]
+    noise, order = told
+    lines = ["time,angle", *(f"{t:.6g},{a:.6f}" for t, a in zip(*(c.tolist() for c in course)))]
     (folder / "encoder.csv").write_text("\n".join(lines) + "\n")
     initial = {"initial_angle": f"{start[0]:.6g} rad", "initial_angular_velocity": f"{start[1]:.6g} rad/s"}
     sidecar = {
-        "title": title, "table": "encoder.csv", "time": {"column": "time", "unit": "s", "zero": 0},
-        "overrides": {"time": {"stop": f"{_STOP:g} s"}, "components": {"arm": {"parameters": initial}}},
+        "title": title, "table": "encoder.csv", "time": {"column": "time", "unit": "s", "zero": 0}, "order": order,
+        "overrides": {"time": {"stop": f"{STOP:g} s"}, "components": {"arm": {"parameters": initial}}},
         "uncertain": {"arm.initial_angle": "0.005 rad", "arm.initial_angular_velocity": "0.02 rad/s"},
         "channels": {
             "arm.angle": {
-                "column": "angle", "unit": "rad", "noise": f"{noise:.3g} rad", "quantum": f"{_QUANTUM:.6g} rad"
+                "column": "angle", "unit": "rad", "noise": f"{noise:.3g} rad", "quantum": f"{QUANTUM:.6g} rad"
             }
         },
     }  # fmt: skip

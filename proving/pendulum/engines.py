@@ -134,7 +134,7 @@ def mujoco(arm: Arm, angle: float, speed: float, stop: float, interval: float) -
         angle,
         speed - 0.5 * dt * torque / arm.inertia,
     )  # it moves with the speed after the kick
-    has_given = bool(set(arm.effects) & {"quadratic_drag", "cable", "brake", "shake"})
+    has_given = bool(set(arm.effects) & {"quadratic_drag", "cable", "brake", "shake"}) or arm.extra is not None
     found = [angle]
     for _ in range(round(stop / interval)):
         if has_given or "stiction" in arm.effects:

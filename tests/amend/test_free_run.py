@@ -167,7 +167,7 @@ def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(model:
     written = yaml.safe_load((tmp_path / "scenario.yaml").read_text())["components"]
     assert written["actuator"]["parameters"]["radiation_emissivity_area"] == ["0 m^2", "0 m^2", "0.0001 m^2", "0 m^2"]
     assert written["circuit"]["elements"] == [
-        {"kind": "contact", "string": 2, "resistance": "1 ohm", "instant": f"{INSTANT:g} s"}
+        {"kind": "contact", "string": 2, "resistance": "1 ohm"}  # the rig as it is now: it came loose and stays so
     ]
     sensors = yaml.safe_load((tmp_path / "sensors.yaml").read_text())["sensors"]
     assert [(s["channel"], s["effect"]) for s in sensors if "channel" in s] == [

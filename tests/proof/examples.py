@@ -7,7 +7,7 @@ from typing import Any
 
 from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
 from diagnosis.judge.isolability import Isolability
-from diagnosis.proof.answer import Answer, Concealed
+from diagnosis.proof.answer import Answer, Concealed, Sabotage
 from diagnosis.proof.place import Rig
 from diagnosis.proof.reference import Reference
 from diagnosis.proof.result import CaseResult
@@ -51,9 +51,14 @@ def diagnosis(*findings: Finding, verdict: Verdict = Verdict.MISSING_PHYSICS, af
     )  # fmt: skip
 
 
-def answer(*effects: Concealed, kind: str = "single", verdicts: tuple[str, ...] = ("missing physics",)) -> Answer:
+def answer(
+    *effects: Concealed,
+    kind: str = "single",
+    verdicts: tuple[str, ...] = ("missing physics",),
+    sabotage: Sabotage | None = None,
+) -> Answer:
     """A truth on the rig `SMALL`."""
-    return Answer("case_0001", kind, "small", "own", verdicts, effects)
+    return Answer("case_0001", kind, "small", "own", verdicts, effects, sabotage)
 
 
 #: The true term explains 100 in the training recordings; 300 held-out samples.

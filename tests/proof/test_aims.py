@@ -12,7 +12,17 @@ import pytest
 from cosim.errors import InputError
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.proof.aims import Aim, aims
-from diagnosis.proof.breakdown import by_effect, by_kind, by_method, by_rig, confusions, unit_matrix
+from diagnosis.proof.answer import Sabotage
+from diagnosis.proof.breakdown import (
+    by_effect,
+    by_kind,
+    by_method,
+    by_rig,
+    by_sabotage,
+    by_verdict,
+    confusions,
+    unit_matrix,
+)
 from diagnosis.proof.command import write_all
 from diagnosis.proof.result import read_results, row
 from diagnosis.proof.tables import page_of, short
@@ -25,6 +35,8 @@ MISSED = result(diagnosis(verdict=Verdict.CONSISTENT), answer(replace(RADIATION,
 SHORTED = result(diagnosis(finding("open_coil", "electrical", "coil[2,3]")), answer(SHORT))
 QUIET = result(diagnosis(verdict=Verdict.RECALIBRATED), NULL)
 ALARM = result(diagnosis(finding()), NULL)
+SWAPPED = Sabotage("swapped_columns", ("r",), ("coil[1,1].temperature",), 0.0, 100.0)
+SPOILED = answer(kind="sabotaged", verdicts=("recording fault", "cannot tell"), sabotage=SWAPPED)
 FAILED = result(None, answer(RADIATION, SHORT, kind="two"), outcome="timed out")
 REFUSED = result(None, answer(RADIATION), outcome="refused")
 RESULTS = [RIGHT, MISSED, SHORTED, QUIET, ALARM, FAILED, REFUSED]
@@ -98,12 +110,54 @@ def test_kinds_rigs_and_methods_are_told_apart() -> None:
     kinds = {r[0]: r for r in by_kind(RESULTS)}
     assert kinds["single"][1] == 3
     assert kinds["null"][2] == Share(1, 2)
-    assert kinds["null"][4] == 1
+    assert kinds["null"][3] == Share(1, 2)
+    assert kinds["null"][5] == 1
     (rig,) = by_rig(RESULTS)
     assert rig[2:5] == (6, Share(2, 6), Share(1, 2))
     methods = {r[0]: r for r in by_method(RESULTS)}
     # recalibrated, process, SINDy (ran away), diagnosis, knows, without the effect, noise; then runs away and terms
     assert methods["single"][2:] == (3.0, 2.0, float("inf"), 1.0, 1.0, None, 0.95, 3, 21.0)
+
+
+def test_false_claims_are_of_sabotaged_cases_and_a_refusal_claims_nothing() -> None:
+    named = result(diagnosis(finding()), SPOILED)
+    careful = result(diagnosis(verdict=Verdict.CANNOT_TELL), SPOILED)
+    refused = result(None, SPOILED, outcome="refused")
+    late = result(None, SPOILED, outcome="timed out")
+    by_name = {a.name: a for a in aims([named, careful, refused, late, *RESULTS])}
+    assert by_name["false claims on sabotaged recordings"].share == Share(2, 4)
+    assert by_name["false alarms"].share == Share(1, 2)  # of nulls alone
+    # right, shorted (a false name), quiet, alarm, missed (which says that all is well), named and careful
+    assert by_name["headline true, all kinds"].share == Share(3, 7)
+    assert by_sabotage([named, careful, refused, *RESULTS]) == [
+        ("swapped_columns", 3, 1, Share(1, 2), 1, "1 missing physics, 1 cannot tell, 1 refused")
+    ]
+    assert by_verdict([careful, QUIET, MISSED]) == [
+        ("cannot tell", 1, Share(1, 1)), ("consistent", 1, Share(0, 1)), ("recalibrated", 1, Share(1, 1))
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("false claims on sabotaged recordings", "at most 2 % of at least 60"),
+        ("false alarms", "at most 5 % of at least 100"),
+        ("headline true, all kinds", "95 %"),
+        ("both of two effects", "70 %"),
+        ("outside the catalogue: 80 % of the possible held-out gain", "80 %"),
+        ("composed laws: 80 % of the possible held-out gain", "80 %"),
+        ("left out of the catalogue: not misnamed", "90 %"),
+    ],
+)
+def test_what_is_wanted(name: str, wanted: str) -> None:
+    assert _aim(name).wanted == wanted
+
+
+def test_the_page_tells_the_library_of_the_draw() -> None:
+    about = {"cases": 7, "seed": 1, "library": "abc123", "library_now": "abc123"}
+    assert "library frozen before the draw: abc123" in page_of([about], RESULTS)
+    assert "another" not in page_of([about], RESULTS).split("## Aims")[0]
+    assert "scored with another: def456" in page_of([about | {"library_now": "def456"}], RESULTS)
 
 
 def test_a_twin_stands_beside_noise_alone(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ DRAW = Draw(5, 27, ("null", "single", "sensor"), ("bath", "heaters"))
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, CaseResult]:
     with workers(1) as alone:
-        found = prove(Folder(tmp_path_factory.mktemp("proof")), DRAW, alone, Effort(limit=300.0, has_baselines=False))
+        found = prove(Folder(tmp_path_factory.mktemp("proof")), DRAW, alone, Effort(limit=1200.0, has_baselines=False))
     names = [r.score.effects[0].effect if r.score.effects else "null" for r in found]
     return dict(zip(names, found))
 

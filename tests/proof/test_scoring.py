@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from diagnosis.judge.diagnosis import Estimate, Verdict
-from diagnosis.proof.scoring import Score, held_out_chi_square, score
+from diagnosis.judge.diagnosis import Estimate, Standing, Used, Verdict
+from diagnosis.proof.headline import held_out_chi_square
+from diagnosis.proof.reference import Reference
+from diagnosis.proof.scoring import Score, score
 from tests.proof.examples import (
     DURATION,
     RADIATION,
@@ -91,6 +93,65 @@ def test_an_instant_is_right_near_the_truth_or_within_a_telling_interval(value, 
 def test_without_an_instant_the_begin_of_what_is_seen_counts(begin: float, is_right: bool) -> None:
     found = replace(SHORTED, parameters=(), intervals=((60.0, 70.0), (begin, 50.0)))
     assert _scored(found, truth=answer(SHORT)).effects[0].is_time_right is is_right
+
+
+@pytest.mark.parametrize(
+    ("statement", "is_right"),
+    [
+        ("sets in at 41.0 s of recording small, training 2", True),
+        ("sets in at 41.0 s of recording small, training 1", False),
+        ("sets in at 41.0 s", True),  # it does not say in which
+    ],
+)
+def test_a_finding_that_names_a_recording_must_name_the_right_one(statement: str, is_right: bool) -> None:
+    used = tuple(Used(f"small, training {n}", "", False, 0.0, 100.0, ()) for n in (1, 2))
+    told = replace(diagnosis(replace(SHORTED, statement=statement)), recordings=used)
+    truth = answer(replace(SHORT, recording="small, training 2", order=2))
+    assert score(told, truth, SMALL, REFERENCE, DURATION).effects[0].is_time_right is is_right
+
+
+def test_a_suggestion_is_no_claim_and_nothing_found() -> None:
+    suggested = finding(is_accepted=False)
+    null = answer(kind="null", verdicts=("consistent", "recalibrated", "cannot tell"))
+    quiet = _scored(suggested, truth=null, verdict=Verdict.CANNOT_TELL)
+    assert (quiet.is_false_alarm, quiet.spare, quiet.suggestions) == (False, 0, 1)
+    (effect,) = _scored(suggested).effects
+    assert (effect.found, effect.is_named, effect.is_unit_right) == ("", False, False)
+
+
+def test_a_recording_that_is_blamed_where_nothing_is_wrong_is_a_false_alarm() -> None:
+    null = answer(kind="null", verdicts=("consistent", "recalibrated"))
+    assert _scored(truth=null, verdict=Verdict.RECORDING_FAULT).is_false_alarm is True
+
+
+@pytest.mark.parametrize(
+    ("standing", "members", "is_named", "is_misnamed"),
+    [
+        (Standing.NAMED, (), False, True),
+        (Standing.CLASS, ("radiation",), False, False),  # the truth is in the class
+        (Standing.CLASS, ("latent_heat",), False, True),
+        (Standing.UNNAMED, (), False, False),
+    ],
+)
+def test_a_class_is_misnamed_only_without_the_truth(standing, members, is_named, is_misnamed) -> None:
+    found = finding("second_mass", standing=standing, ambiguous_with=members)
+    (known,) = _scored(found).effects
+    (hidden,) = _scored(found, truth=answer(replace(RADIATION, is_hidden=True), kind="leave_one_out")).effects
+    assert known.is_named is is_named
+    assert hidden.is_misnamed is is_misnamed
+
+
+def test_the_right_name_at_the_head_of_a_class_counts_and_below_no_name_does_not() -> None:
+    assert _scored(finding(standing=Standing.CLASS, ambiguous_with=("latent_heat",))).effects[0].is_named
+    assert not _scored(finding(standing=Standing.UNNAMED)).effects[0].is_named
+
+
+def test_without_a_bank_the_gain_of_a_composed_law_ends_at_noise() -> None:
+    truth = answer(replace(RADIATION, effect="composed", is_in_catalogue=False), kind="composed")
+    none = Reference("case_0001", failure="no reference")
+    held = score(diagnosis(finding(is_named=False), after=1.2), truth, SMALL, none, DURATION).held_out
+    assert held.share == pytest.approx(0.9, rel=1e-12)  # of 3.0 - 1.0
+    assert held.is_share_enough
 
 
 @pytest.mark.parametrize("order", [(0, 1), (1, 0)])

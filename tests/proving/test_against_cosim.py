@@ -12,7 +12,7 @@ from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from proving.case import Case
-from proving.pendulum.arm import EFFECTS, Arm
+from proving.pendulum.arm import EFFECTS, Arm, middle
 from proving.pendulum.case import behind_play
 from proving.pendulum.engines import own
 from proving.rig import ideal_rig
@@ -82,7 +82,7 @@ def test_an_ideal_rig_is_its_scenario(name, tmp_path):
 @pytest.mark.parametrize("effect", [None, *(e for e in EFFECTS if e.is_named)],
                          ids=lambda e: "none" if e is None else e.identifier)  # fmt: skip
 def test_an_arm_is_its_scenario_with_the_effect_switched_on(effect):
-    parameters = {} if effect is None else {n: v[1] for n, v in effect.strengths.items()}
+    parameters = {} if effect is None else middle(effect)
     distance, mass = 0.115, 0.1
     arm = Arm(4408e-7 + mass * distance**2, mass * 9.80665 * distance, distance, parameters)
     angle = behind_play(own(arm, math.pi - 1.2, 0.5, 12.0, 0.01), arm.of("backlash"))

@@ -119,10 +119,10 @@ def test_the_same_seed_writes_the_same_bytes(tmp_path):
 
 
 def test_kinds_come_by_their_shares_and_effects_equally_often():
-    cases = [case for case, _ in drawn_cases(400, 3)]
+    cases = [case for case, _ in drawn_cases(600, 3)]
     counts = Counter(c.kind for c in cases)
     for kind, share in KINDS.items():
-        assert counts[kind] == pytest.approx(400 * share / sum(KINDS.values()), abs=1.0)
+        assert counts[kind] == pytest.approx(600 * share / sum(KINDS.values()), abs=1.0)
     pendulums = [c for c in cases if isinstance(c, PendulumCase)]
     assert 0.05 < len(pendulums) / len(cases) < 0.17
     assert {c.engine for c in pendulums} == {"own", "bullet", "mujoco"}

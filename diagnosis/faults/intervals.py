@@ -1,0 +1,127 @@
+"""The interval of time in which a change of one thing explains most, of all intervals: a generalised likelihood ratio.
+
+Source: generalised likelihood ratio for a change of known shape and unknown size and time, M. Basseville and
+I. V. Nikiforov, Detection of Abrupt Changes: Theory and Application, Prentice Hall 1993, sections 2.4.3 and 7.2.4;
+parameters that are estimated too are projected out, as in `diagnosis.search.score.Projection`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.search.posterior import HUBER
+from diagnosis.search.score import LEAST_VISIBLE
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Pieces of time, next to each other, with what a change of unit strength in each does to the residuals.
+
+    Args:
+        gram: Products of these directions with each other, the recalibration taken away, shape (pieces, pieces).
+        whole: The same before it is taken away.
+        along: Products with the residuals, shape (pieces,).
+        noise: Products with nulls, shape (pieces, draws).
+        count: Samples in each piece that are used, shape (pieces,).
+    """
+
+    gram: Array
+    whole: Array
+    along: Array
+    noise: Array
+    count: AnyArray
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best interval of all.
+
+    Args:
+        first: Number of its first piece.
+        last: Number of the piece after its last one.
+        gain: Fall of -2 log posterior by the straight line.
+        amount: Strength that gives it.
+        chance: Largest gain of any interval in each null, shape (draws,).
+        leads: First piece, piece after the last, strength of that, for each null.
+        tried: Intervals that were looked at.
+    """
+
+    first: int
+    last: int
+    gain: float
+    amount: float
+    chance: Array
+    leads: tuple[tuple[int, int, float], ...]
+    tried: int
+
+
+def best_interval(pieces: Pieces, fewest: int, bounds: tuple[float, float]) -> Best | None:
+    """The interval with the largest gain; None where none can be seen.
+
+    An interval that holds every sample is none: that is a bias.
+
+    Args:
+        pieces: See there.
+        fewest: Samples that an interval must hold.
+        bounds: Of the strength: what lies beyond gains less.
+    """
+    first, last = np.triu_indices(len(pieces.along) + 1, 1)
+    samples = np.concatenate([[0], np.cumsum(pieces.count)])
+    held = samples[last] - samples[first]
+    left, whole = (_blocks(m, first, last) for m in (pieces.gram, pieces.whole))
+    seen = (held >= fewest) & (held < samples[-1]) & (left > LEAST_VISIBLE**2 * whole) & (left > 0.0)
+    if not seen.any():
+        return None
+    first, last, left = first[seen], last[seen], left[seen]
+    sides = np.column_stack([pieces.along, pieces.noise])
+    total = np.vstack([np.zeros(sides.shape[1]), np.cumsum(sides, axis=0)])
+    amounts = -(total[last] - total[first]) / left[:, None]
+    inside = np.clip(amounts, *bounds)
+    gains = (amounts**2 - (amounts - inside) ** 2) * left[:, None]
+    top = np.argmax(gains, axis=0)
+    found = [(int(first[k]), int(last[k]), float(inside[k, n])) for n, k in enumerate(top.tolist())]
+    best = gains[top, np.arange(gains.shape[1])]
+    return Best(found[0][0], found[0][1], float(best[0]), found[0][2], best[1:], tuple(found[1:]), len(first))
+
+
+def _blocks(matrix: Array, first: AnyArray, last: AnyArray) -> Array:
+    """Sums of matrix[first:last, first:last]."""
+    size = len(matrix) + 1
+    total = np.zeros((size, size))
+    total[1:, 1:] = np.cumsum(np.cumsum(matrix, axis=0), axis=1)
+    return np.asarray(total[last, last] - total[first, last] - total[last, first] + total[first, first])
+
+
+def best_constant(
+    residuals: Array, readings: Array, fewest: int, used: AnyArray, pieces: int
+) -> tuple[int, int, float] | None:  # fmt: skip
+    """The interval in which a sensor that holds one value explains most: first sample, sample after the last, gain.
+
+    Args:
+        residuals: As they are, shape (samples,).
+        readings: Measured values in deviations of the noise, shape (samples,).
+        fewest: Samples that an interval must hold.
+        used: Which samples count, shape (samples,).
+        pieces: Into which the samples are cut at most; begin and end lie between two of them.
+    """
+    if not used.any():
+        return None
+    weight = used.astype(np.float64)
+    level = readings - np.average(readings, weights=weight)  # the variance of large numbers would be rounding
+    size = np.abs(residuals)
+    misfit = np.where(size > HUBER, 2.0 * HUBER * size - HUBER**2, size**2)
+    cuts = np.unique(np.linspace(0, len(residuals), min(pieces, len(residuals)) + 1).astype(int))
+    first, last = np.triu_indices(len(cuts), 1)
+    sums = [
+        np.concatenate([[0.0], np.cumsum(v * weight)])[cuts] for v in (misfit, level**2, level, np.ones(len(level)))
+    ]
+    lost, square, total, count = (s[last] - s[first] for s in sums)
+    seen = (count >= fewest) & (count < sums[3][-1])
+    if not seen.any():
+        return None
+    gains = np.where(seen, lost - np.maximum(square - total**2 / np.maximum(count, 1.0), 0.0), -np.inf)
+    best = int(np.argmax(gains))
+    return int(cuts[first[best]]), int(cuts[last[best]]), float(gains[best])

@@ -1,0 +1,133 @@
+"""What each fault with begin and end says of itself, and how the search sees it at a place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from diagnosis.search.problem import Term, TermParameter
+
+#: Intervals of fewer samples than this are wild readings, which Huber's function deals with.
+FEWEST = 3
+#: Times that one sensor may be off in one way within one recording.
+OCCASIONS = 2
+#: Strength of a fault that is there or not.
+WHOLLY = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True)
+_INTERVAL = "box(t) = 1 from begin to end, else 0"
+
+
+@dataclass(frozen=True)
+class FaultLaw:
+    """A kind of fault; see `diagnosis.simulator.models.Effect`.
+
+    Args:
+        identifier: Stable name.
+        name: In plain words.
+        law: Formula.
+        strength: Name of its strength.
+        confused_with: Identifiers that data often cannot tell from it, with what decides.
+    """
+
+    identifier: str
+    name: str
+    law: str
+    strength: str
+    confused_with: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def is_of_a_day(self) -> bool:
+        """Always: a fault belongs to one recording."""
+        return True
+
+
+OFFSET = FaultLaw(
+    "sensor_offset_in_interval",
+    "sensor that was off for a while",
+    f"reading = truth + offset * box(t); {_INTERVAL}",
+    "offset",
+    {
+        "sensor_bias": "readings before and after the interval decide",
+        "sensor_drift": "readings within the interval decide: a drift grows",
+    },
+)
+STUCK = FaultLaw(
+    "sensor_stuck_in_interval",
+    "sensor that was stuck for a while",
+    f"reading = truth + share * box(t) * (held - truth); {_INTERVAL}; held: mean of its readings there",
+    "share",
+    {"sensor_clipping": "other intervals in which the truth goes beyond the value that it held decide"},
+)
+INPUT = FaultLaw(
+    "input_gain_in_interval",
+    "input that was another than stated for a while",
+    f"input = stated * (1 + gain * box(t)); {_INTERVAL}",
+    "gain",
+    {
+        "draught": "a record of the input itself decides",
+        "sensor_offset_in_interval": "another sensor of the same part decides",
+    },
+)
+
+
+@dataclass(frozen=True)
+class FaultPlace:
+    """See `diagnosis.simulator.models.Spot`.
+
+    Args:
+        label: Channel or input, and its recording where there are several.
+        channels: Numbers of the channels that it shows in; None: any may show it.
+    """
+
+    label: str
+    channels: tuple[int, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Span:
+    """When a fault may be.
+
+    Args:
+        begin: First instant [s].
+        end: Last instant [s].
+        instants: Distinct samples, of which any may be the first and the last that is wrong.
+    """
+
+    begin: float
+    end: float
+    instants: int
+
+    @property
+    def price(self) -> float:
+        """-2 log of the prior odds of one interval against all, by which the best of them is compared with laws.
+
+        Bonferroni's inequality: the best of N gains exceeds 2 log(N) + x no more often than N times as often as one
+        exceeds that, which for one degree of freedom is less often than one alone exceeds x.
+        """
+        count = max(self.instants, 2)
+        return 2.0 * float(np.log(0.5 * count * (count - 1)))
+
+
+def occasion(label: str, titles: Sequence[str], number: int) -> str:
+    """A place with its recording, where there are several: by its title, or by its number where titles are alike."""
+    if len(titles) == 1:
+        return label
+    named = titles[number] if len(set(titles)) == len(titles) else f"recording {number + 1}"
+    return f"{label} ({named})"
+
+
+def fault_term(law: FaultLaw, label: str, strength: TermParameter, span: Span, recording: int) -> Term:
+    """A fault as the search sees it.
+
+    Args:
+        law: Its kind.
+        label: Its place.
+        strength: Its first parameter.
+        span: When it may be.
+        recording: Number of the recording that it belongs to.
+    """
+    edges = tuple(TermParameter(n, "s", span.begin, span.end, (), is_instant=True) for n in ("begin", "end"))
+    return Term(
+        law.identifier, label, "measurement", (strength, *edges), law=law.law, recording=recording, price=span.price
+    )

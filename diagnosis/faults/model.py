@@ -1,0 +1,215 @@
+"""A model whose sensors and inputs may have been at fault for a while, in one recording alone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.faults.law import INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
+from diagnosis.faults.readings import Readings, readings_of
+from diagnosis.faults.scan import input_scores, sensor_scores
+from diagnosis.search.fit import Fit
+from diagnosis.search.problem import Point, Term, strength_slopes
+from diagnosis.search.score import Projection, Scoring
+from diagnosis.search.structure import structure
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel, Effect, Spot
+from diagnosis.simulator.wrapped import Scaled, WrappedModel, unscaled
+
+#: What the readings of a sensor do under each fault.
+_ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
+    OFFSET.identifier: Readings.with_offset,
+    STUCK.identifier: Readings.with_held,
+}
+_LAWS = {law.identifier: law for law in (OFFSET, STUCK, INPUT)}
+#: Samples by which begin and end are moved to look for a better interval near the one found.
+_MOVES = (-8, -5, -3, -2, -1, 1, 2, 3, 5, 8)
+#: Pieces of a recording in which a change of an input is simulated: by the coil bank, and where a run takes seconds.
+PIECES, FEW_PIECES = 16, 12
+
+
+class FaultyModel(WrappedModel):
+    """A model with faults of one recording that have begin and end, as terms beside the laws.
+
+    They are not among `terms`, which are tried at every start value: `interval_scores` finds the intervals that are
+    worth a fit, and another model of other recordings does not know them.
+
+    Args:
+        inner: The model that simulates.
+    """
+
+    def __init__(self, inner: DiagnosisModel) -> None:
+        super().__init__(inner)
+        self.readings = readings_of(inner)
+        #: Faults of sensors with the channel of each.
+        self.sensor_terms: dict[Term, Readings] = {}
+        for readings in self.readings:
+            for again in range(OCCASIONS):
+                label = readings.label + (", again" if again else "")
+                for law, strength in ((OFFSET, readings.offset()), (STUCK, WHOLLY)):
+                    term = fault_term(law, label, strength, readings.span, readings.recording)
+                    self.sensor_terms[term] = readings
+        innermost = self._innermost()
+        #: Faults of inputs, which the inner model simulates.
+        self.input_terms: list[Term] = list(getattr(innermost, "input_terms", list)())
+        self._is_fast = isinstance(innermost, BankModel)
+
+    def _innermost(self) -> DiagnosisModel:
+        found = self.inner
+        while isinstance(found, WrappedModel):
+            found = found.inner
+        return found
+
+    def inside(self, point: Point) -> Point:
+        """The point without faults of sensors."""
+        if not any(t in self.sensor_terms for t in point.terms):
+            return point
+        return Point(point.base, {t: v for t, v in point.terms.items() if t not in self.sensor_terms})
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`; points that differ in faults of sensors alone are simulated once."""
+        inner = [self.inside(p) for p in points]
+        keys = [(p.base.tobytes(), tuple(p.terms.items())) for p in inner]
+        different = dict(zip(keys, inner))
+        place = {key: n for n, key in enumerate(different)}
+        values = self.inner.residuals(list(different.values()))
+        found = values if len(different) == len(points) else values[[place[key] for key in keys]]
+        for row, point in zip(found, points):
+            for readings, faults in self._faults(point):
+                own = row[readings.own]
+                if np.isfinite(own).all():
+                    row[readings.own] = readings.residuals(_acted(readings, readings.plain(own), faults))
+        return found
+
+    def _faults(self, point: Point) -> Iterator[tuple[Readings, list[tuple[Term, tuple[float, ...]]]]]:
+        """Channels that are at fault, with their faults."""
+        found: dict[Readings, list[tuple[Term, tuple[float, ...]]]] = {}
+        for term, values in point.terms.items():
+            if term in self.sensor_terms:
+                found.setdefault(self.sensor_terms[term], []).append((term, values))
+        yield from found.items()
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`; a sensor that is stuck sees no parameter."""
+        found = super().base_jacobian(point)
+        for readings, faults in self._faults(point):
+            seen = np.ones(len(readings.measured))
+            for term, (strength, begin, end) in faults:
+                if term.identifier == STUCK.identifier:
+                    seen *= 1.0 - strength * readings.box(begin, end)
+            if np.any(seen != 1.0):
+                own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
+                found[readings.own] = readings.residuals(own * seen).T
+        return found
+
+    def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+        """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
+        own = [i for i, (term, _) in enumerate(tasks) if term in self.sensor_terms]
+        others = [i for i, (term, _) in enumerate(tasks) if term not in self.sensor_terms]
+        found = np.zeros((len(tasks), len(self.layout.time)))
+        if others:
+            found[others] = super().slopes(point, [tasks[i] for i in others])
+        if own:
+            moved = self.residuals([point, *(point.plus(*tasks[i]) for i in own)])
+            found[own] = (moved[1:] - moved[0]) / np.array([tasks[i][1][0] for i in own])[:, None]
+        return found
+
+    def where(self, term: Term) -> tuple[Effect, Spot]:
+        """What a term says about itself, and where it acts."""
+        if term.recording is None:
+            return super().where(term)
+        readings = self.sensor_terms.get(term)
+        return _LAWS[term.identifier], FaultPlace(term.place, None if readings is None else (readings.number,))
+
+    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
+        """See `diagnosis.search.focus.Local`."""
+        if term.recording is None:
+            return super().shows_in(term)
+        readings = self.sensor_terms.get(term)
+        return None if readings is None else ((readings.number,), False)
+
+    def unseen(self, term: Term) -> Sequence[float]:
+        """See `DiagnosisModel`."""
+        return super().unseen(term) if term.recording is None else (0.0,) * len(term.parameters)
+
+    def predict(self, point: Point, run: int) -> Sequence[Array]:
+        """Simulated values of every channel of a recording at its samples, SI, as its sensors read them."""
+        values = list(super().predict(point, run))
+        first = next(n for n, r in enumerate(self.readings) if r.recording == run)
+        for readings, faults in self._faults(point):
+            if readings.recording == run:
+                simulated = values[readings.number - first]
+                plain = (readings.measured - simulated) / readings.deviation
+                values[readings.number - first] = np.asarray(
+                    readings.measured - readings.deviation * _acted(readings, plain, faults)
+                )
+        return values
+
+    def interval_scores(self, base: Fit, projection: Projection, scaled: Scaled = unscaled) -> Scoring:
+        """The best interval of every fault, scored as laws are, their price taken off.
+
+        Args:
+            base: Converged fit, of this model or of one that wraps it.
+            projection: Of that fit, with nulls.
+            scaled: What wrapping models make of changes of residuals.
+        """
+        tracks: dict[int, list[Term]] = {}
+        for term, readings in self.sensor_terms.items():
+            if term not in base.point.terms:
+                tracks.setdefault(readings.number, []).append(term)
+        found = sensor_scores(base, projection, scaled, [(self.readings[n], t) for n, t in tracks.items()])
+        return found.joined(self._input_scores(base, projection, scaled))
+
+    def _input_scores(self, base: Fit, projection: Projection, scaled: Scaled) -> Scoring:
+        terms = [t for t in self.input_terms if t not in base.point.terms]
+        draws = projection.draws
+        if not terms or structure(base.residuals, self.layout).is_noise:
+            return Scoring([], 0, np.zeros(draws), (None,) * draws)
+
+        def slopes(term: Term, edges: Array) -> Array:
+            step = term.parameters[0].starts[0]
+            tasks = [(term, (step, float(a), float(b))) for a, b in itertools.pairwise(edges)]
+            return strength_slopes(self, base.point, None, tasks)
+
+        own = {r: self._residuals_of(r) for r in {t.recording for t in terms}}
+        pieces = PIECES if self._is_fast else FEW_PIECES
+        return input_scores(projection, scaled, [(t, own[t.recording]) for t in terms], slopes, pieces)
+
+    def _residuals_of(self, recording: int | None) -> slice:
+        every = [r.own for r in self.readings if r.recording == recording]
+        return slice(every[0].start, every[-1].stop)
+
+    def near_intervals(self, point: Point) -> Iterator[Point]:
+        """The same with the begin or end of one of its faults some samples elsewhere, or both together."""
+        for term, values in point.terms.items():
+            if term.recording is None:
+                continue
+            strength, begin, end = values
+            edges = self._edges(term)
+            places = [int(np.argmin(np.abs(edges - v))) for v in (begin, end)]
+            for move in _MOVES:
+                for first, last in ((move, 0), (0, move), (move, move)):
+                    a, b = (min(max(p + m, 0), len(edges) - 1) for p, m in zip(places, (first, last)))
+                    if a < b:
+                        yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
+
+    def _edges(self, term: Term) -> Array:
+        readings = self.sensor_terms.get(term)
+        if readings is not None:
+            return readings.edges
+        return max((r.edges for r in self.readings if r.recording == term.recording), key=len)
+
+
+def _acted(readings: Readings, plain: Array, faults: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+    """Plain residuals of a channel with its faults."""
+    for term, (strength, begin, end) in faults:
+        plain = _ACTS[term.identifier](readings, plain, strength, begin, end)
+    return plain
+
+
+def with_faults(model: DiagnosisModel) -> FaultyModel:
+    """The model, with faults of each of its recordings."""
+    return FaultyModel(model)

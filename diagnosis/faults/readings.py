@@ -1,0 +1,129 @@
+"""The readings of one sensor in one recording, and what a fault of it does to their residuals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.faults.law import Span
+from diagnosis.search.problem import TermParameter
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.runs import deviation
+from diagnosis.simulator.wrapped import WrappedModel
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """One channel of one recording.
+
+    Args:
+        number: Of the channel, over all recordings.
+        recording: Number of the recording.
+        label: Channel, and its recording where there are several.
+        unit: SI unit of its readings.
+        own: Its residuals among those of the model.
+        edges: Times between samples, the first and the last beyond them [s], shape (samples + 1,).
+        measured: Readings, SI, shape (samples,).
+        deviation: Of their noise, SI.
+        used: Which of them count, shape (samples,).
+        share: Share of the sum of the residuals that is taken from each: the zero of the channel is unknown
+            (`diagnosis.bank.whiten`).
+    """
+
+    number: int
+    recording: int
+    label: str
+    unit: str
+    own: slice
+    edges: Array
+    measured: Array
+    deviation: float
+    used: AnyArray
+    share: float
+
+    @property
+    def span(self) -> Span:
+        """When a fault of it may be."""
+        return Span(float(self.edges[0]), float(self.edges[-1]), int(np.count_nonzero(self.used)))
+
+    def box(self, begin: float, end: float) -> Array:
+        """Share of each sample's time, to halfway to its neighbours, that lies in an interval; shape (samples,)."""
+        low, high = self.edges[:-1], self.edges[1:]
+        overlap = np.minimum(high, end) - np.maximum(low, begin)
+        return np.clip(overlap / np.maximum(high - low, 1e-300), 0.0, 1.0)
+
+    def held(self, begin: float, end: float) -> float:
+        """Mean of the readings in an interval, SI."""
+        weight = self.box(begin, end) * self.used
+        return float(weight @ self.measured / weight.sum()) if weight.any() else float(self.measured[0])
+
+    def plain(self, residuals: Array) -> Array:
+        """(measured - simulated) / deviation, from residuals of which a share of their sum was taken away."""
+        total = float(np.sum(residuals[self.used])) / (1.0 - self.share * np.count_nonzero(self.used))
+        return np.asarray(residuals + self.share * total * self.used)
+
+    def residuals(self, plain: Array) -> Array:
+        """The way back from `plain`, of rows too: 0 where a sample does not count."""
+        counted = np.where(self.used, plain, 0.0)
+        return np.asarray(counted - self.share * counted.sum(axis=-1, keepdims=True) * self.used)
+
+    def with_offset(self, plain: Array, amount: float, begin: float, end: float) -> Array:
+        """Plain residuals where the sensor reads too much by an amount within an interval."""
+        return np.asarray(plain - amount / self.deviation * self.box(begin, end))
+
+    def with_held(self, plain: Array, share: float, begin: float, end: float) -> Array:
+        """Plain residuals where the sensor holds its reading within an interval."""
+        box = share * self.box(begin, end)
+        return np.asarray((1.0 - box) * plain + box * (self.measured - self.held(begin, end)) / self.deviation)
+
+    def offset(self) -> TermParameter:
+        """Bounds of an offset: no larger than the readings are wide, and more than one reading scatters."""
+        most = max(float(np.ptp(self.measured)), 10.0 * self.deviation)
+        return TermParameter("offset", self.unit, -most, most, (self.deviation,), negligible=self.deviation)
+
+
+def readings_of(model: DiagnosisModel) -> list[Readings]:
+    """Every channel of every recording of a model that compares sample by sample, in the order of its residuals."""
+    bank: object = model
+    while isinstance(bank, WrappedModel):
+        bank = bank.inner
+    found: list[Readings] = []
+    begin = 0
+    labels = _labels(model)
+    for recording, run in enumerate(model.runs):
+        shares = bank.runs[recording].shares if isinstance(bank, BankModel) else np.zeros(len(run.series))
+        for series, share in zip(run.series, shares.tolist()):
+            channel, count = series.channel, len(series.samples)
+            times = channel.times[-count:] if count else np.zeros(0)
+            found.append(Readings(
+                len(found), recording, labels[len(found)], channel.unit, slice(begin, begin + count), _edges(times),
+                channel.values[-count:] if count else times, deviation(channel), np.asarray(series.used, dtype=bool),
+                share,
+            ))  # fmt: skip
+            begin += count
+    return found
+
+
+def _labels(model: DiagnosisModel) -> Sequence[str]:
+    """Names of the channels with their recordings; with its number too where two recordings have one title."""
+    names = model.layout.names
+    if len(set(names)) == len(names):
+        return names
+    return list(_numbered(model))
+
+
+def _numbered(model: DiagnosisModel) -> Iterator[str]:
+    for recording, run in enumerate(model.runs):
+        for series in run.series:
+            yield f"{series.channel.name} (recording {recording + 1})"
+
+
+def _edges(times: Array) -> Array:
+    if len(times) < 2:
+        return np.concatenate([times - 0.5, times + 0.5])
+    middle = 0.5 * (times[1:] + times[:-1])
+    return np.concatenate([[2.0 * times[0] - middle[0]], middle, [2.0 * times[-1] - middle[-1]]])

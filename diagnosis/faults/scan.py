@@ -1,0 +1,145 @@
+"""Scores of faults with begin and end: the best interval of each sensor and of each input, and what chance gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from cosim.unit import AnyArray, Array
+from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
+from diagnosis.faults.law import FEWEST, OFFSET
+from diagnosis.faults.readings import Readings
+from diagnosis.search.fit import Fit
+from diagnosis.search.problem import Term
+from diagnosis.search.score import Projection, Score, Scoring
+from diagnosis.simulator.wrapped import Scaled
+
+#: Pieces of a channel whose ends are tried as begin and end of a fault; around the best of them every sample is tried.
+PIECES = 24
+#: Pieces of which a sensor that is stuck is tried to hold.
+STUCK_PIECES = 192
+
+Lead = tuple[Term, tuple[float, ...]] | None
+
+
+class _Collected:
+    """Scores so far."""
+
+    def __init__(self, draws: int) -> None:
+        self.scores: list[Score] = []
+        self.tried = 0
+        self.chance: Array = np.zeros(draws)
+        self.leads: list[Lead] = [None] * draws
+
+    def add(self, term: Term, best: Best, edges: Array) -> None:
+        """The best interval of a term, its price taken off; `edges` are the times between its pieces."""
+        self.tried += best.tried
+        self.score(term, best.gain, (best.amount, float(edges[best.first]), float(edges[best.last])))
+        for n, (gain, (first, last, amount)) in enumerate(zip((best.chance - term.price).tolist(), best.leads)):
+            if gain > self.chance[n]:
+                self.chance[n] = gain
+                self.leads[n] = (term, (amount, float(edges[first]), float(edges[last])))
+
+    def score(self, term: Term, gain: float, values: tuple[float, ...]) -> None:
+        """One interval of a term."""
+        if gain > term.price:
+            self.scores.append(Score(term, values, gain - term.price, 1.0))
+
+    def scoring(self) -> Scoring:
+        return Scoring(sorted(self.scores, key=lambda s: -s.gain), self.tried, self.chance, tuple(self.leads))
+
+
+def sensor_scores(
+    base: Fit, projection: Projection, scaled: Scaled, tracks: Sequence[tuple[Readings, Sequence[Term]]]
+) -> Scoring:
+    """Scores of faults of sensors; their directions are known without a simulation.
+
+    Where a sensor that holds its value reads as one with an offset would, it has the nulls of that.
+
+    Args:
+        base: Converged fit.
+        projection: Of that fit, with nulls.
+        scaled: What wrapping models make of changes of residuals.
+        tracks: Channels with the terms that may be added there; of each kind the first is tried.
+    """
+    found = _Collected(projection.draws)
+    for readings, terms in tracks:
+        if np.count_nonzero(readings.used) <= FEWEST:
+            continue
+        kinds: dict[str, Term] = {}
+        for term in terms:
+            kinds.setdefault(term.identifier, term)
+        for term in kinds.values():
+            if term.identifier == OFFSET.identifier:
+                _offset(found, projection, scaled, readings, term)
+            else:
+                _stuck(found, base, scaled, readings, term)
+    return found.scoring()
+
+
+def _offset(found: _Collected, projection: Projection, scaled: Scaled, readings: Readings, term: Term) -> None:
+    count = len(readings.measured)
+    cuts = np.unique(np.linspace(0, count, min(PIECES, count) + 1).astype(int))
+    bounds = (term.parameters[0].lower, term.parameters[0].upper)
+    best = best_interval(_offsets(projection, scaled, readings, cuts), FEWEST, bounds)
+    if best is None:
+        return
+    found.add(term, best, readings.edges[cuts])
+    if len(cuts) <= count and best.gain > term.price:
+        near = [range(cuts[max(e - 1, 0)], cuts[min(e + 1, len(cuts) - 1)] + 1) for e in (best.first, best.last)]
+        finer = np.unique(np.concatenate([[0], *near, [count]]))
+        better = best_interval(_offsets(projection, scaled, readings, finer), FEWEST, bounds)
+        if better is not None and better.gain > best.gain:
+            edges = readings.edges[finer]
+            found.scores.pop()
+            found.score(term, better.gain, (better.amount, float(edges[better.first]), float(edges[better.last])))
+
+
+def _offsets(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray) -> Pieces:
+    """Directions of an offset in pieces of a channel."""
+    inside = np.arange(len(readings.measured))[None, :]
+    boxes = (inside >= cuts[:-1, None]) & (inside < cuts[1:, None])
+    rows = scaled(readings.residuals(np.where(boxes, -1.0 / readings.deviation, 0.0)), readings.own)
+    return Pieces(*projection.pieces(rows, readings.own), np.add.reduceat(readings.used.astype(int), cuts[:-1]))
+
+
+def _stuck(found: _Collected, base: Fit, scaled: Scaled, readings: Readings, term: Term) -> None:
+    factor = scaled(readings.used.astype(np.float64)[None], readings.own)[0]
+    residuals = base.residuals[readings.own]
+    best = best_constant(
+        residuals, factor * readings.measured / readings.deviation, FEWEST, factor != 0.0, STUCK_PIECES
+    )
+    if best is not None:
+        first, last, gain = best
+        found.score(term, gain, (1.0, float(readings.edges[first]), float(readings.edges[last])))
+
+
+def input_scores(
+    projection: Projection,
+    scaled: Scaled,
+    terms: Sequence[tuple[Term, slice]],
+    slopes: Callable[[Term, Array], Array],
+    pieces: int,
+) -> Scoring:
+    """Scores of inputs that were another within an interval; responses to pieces of it add up along a straight line.
+
+    Args:
+        projection: Of the converged fit, with nulls.
+        scaled: What wrapping models make of changes of residuals.
+        terms: Faults with the residuals of their recordings.
+        slopes: Derivatives of all residuals by the strength of a term in pieces between edges.
+        pieces: Into how many a recording is cut.
+    """
+    found = _Collected(projection.draws)
+    for term, own in terms:
+        strength, begin, _ = term.parameters
+        edges = np.linspace(begin.lower, begin.upper, pieces + 1)
+        rows = slopes(term, edges)[:, own]
+        if not np.isfinite(rows).all():
+            continue
+        parts = Pieces(*projection.pieces(scaled(rows, own), own), np.ones(pieces, dtype=int))
+        best = best_interval(parts, 1, (strength.lower, strength.upper))
+        if best is not None:
+            found.add(term, best, edges)
+    return found.scoring()

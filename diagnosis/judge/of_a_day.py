@@ -1,0 +1,90 @@
+"""Terms that belong to one day or one recording: which readings can judge them, and when a fault stands out at all.
+
+A fault of one recording, or a draught of one day, says nothing about another. That no other recording shows it is then
+no reason to refuse it; every other reading of its own recording judges it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diagnosis.judge.unfitted import raw_residuals, readings_of
+from diagnosis.search.problem import Point, Term
+from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.tempered import untempered
+
+#: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
+#: that are normally distributed one in 370 is larger.
+STANDS_OUT = 3.0
+
+
+def is_shown_there_alone(
+    term: Term, values: Sequence[float], model: DiagnosisModel, judge: DiagnosisModel | None
+) -> bool:
+    """Whether no recording that was held out can show a term, so that readings of its own recording have to judge it.
+
+    That is so of a fault of one recording; of what belongs to a day that no held-out recording has; and of what sets in
+    after all of these were made. A drift that is the same in all recordings is in those held out too, and they judge.
+
+    Args:
+        term: A term that was fitted.
+        values: Of its parameters.
+        model: Model of the training recordings.
+        judge: Of those held out; None where stretches of the training judge.
+    """
+    if term.recording is not None:
+        return True
+    effect, place = model.where(term)
+    is_event = any(p.is_instant for p in term.parameters)
+    is_of_a_day = bool(getattr(effect, "is_of_a_day", False))
+    if not is_event and not is_of_a_day:
+        return False
+    if judge is None:
+        return is_of_a_day and (is_event or getattr(place, "day", None) is not None)
+    there = {str(t): t for t in judge.terms()}
+    if str(term) not in there:
+        return True
+    nominal = Point(np.zeros(len(judge.parameters)))
+    without, with_it = judge.residuals([nominal, nominal.plus(there[str(term)], tuple(values))])
+    return np.array_equal(without, with_it)
+
+
+def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
+    """Why a fault with begin and end does not stand out from what the model leaves elsewhere; empty if it does.
+
+    A box within a recording fills any gap of a wrong model. So a fault has to change a channel by at least `STANDS_OUT`
+    times the root mean square of what is left of that channel outside its interval. Of an input, which several channels
+    show, the one in which it stands out most counts.
+
+    Args:
+        model: Model of the training recordings.
+        point: A fit with the fault.
+        term: The fault; its parameters are its strength, begin and end.
+    """
+    if term.recording is None:
+        return ""
+    _, begin, end = point.terms[term]
+    inner = untempered(model)
+    left = raw_residuals(inner, point)
+    change = raw_residuals(inner, point.without(term)) - left
+    readings = readings_of(model.runs, [""] * len(model.runs))
+    time = np.asarray(model.layout.time)[readings.chosen]
+    left, change = left[readings.chosen], np.abs(change[readings.chosen])
+    most, worst = 0.0, ""
+    for number, recording in enumerate(readings.of_channel):
+        own = readings.channel == number
+        outside = own & ((time < begin) | (time > end)) & ~readings.is_wild
+        if recording != term.recording or not change[own].any() or not outside.any():
+            continue
+        size, rest = float(change[own].max()), float(np.sqrt(np.mean(left[outside] ** 2)))
+        if size >= STANDS_OUT * rest:
+            return ""
+        if size / rest > most:
+            most, worst = size / rest, readings.channels[number].name
+    where = f" of {worst}" if worst else ""
+    return (
+        f"it does not stand out: it changes the readings{where} by {most:.1f} times what the model leaves of them "
+        f"outside its interval, {STANDS_OUT:.0f} times would be needed"
+    )

@@ -1,0 +1,1 @@
+"""Recordings and scenarios that are not of one experiment: one class for each way in which that comes about."""
