@@ -27,6 +27,13 @@ RIVALS, BEHIND = 5, 30.0
 SHOWN = 0.02
 
 
+#: Why nothing is accepted that comes with a worse model.
+_DISTORTED = (
+    "together with the parameters that were fitted with it, the readings that judge are predicted worse than by the "
+    "scenario as it is"
+)
+
+
 @dataclass(frozen=True)
 class Accepted:
     """What of a search is accepted.
@@ -132,6 +139,9 @@ def accept(
         current = _without(model, outcome, current, worst)
     after = judge.predict(current.fit.point)
     readings = unfitted.readings
+    if current.terms and gain(before, after, readings).is_loss:
+        reasons |= dict.fromkeys(current.terms, (_DISTORTED,))
+        current, after = Explanation(outcome.base), recalibrated
     fitted = training.predict(current.fit.point, is_fitted=False)
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,

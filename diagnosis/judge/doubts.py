@@ -7,6 +7,16 @@ from dataclasses import replace
 
 from diagnosis.judge.diagnosis import Doubt, Finding
 
+#: Units of findings that are no physics of the rig.
+MEASURED = ("measurement", "input")
+#: Sensors and inputs of one recording that are hardly at fault at the same time without a common cause.
+MANY = 3
+#: End of the identifiers of faults with begin and end.
+_IN_INTERVAL = "_in_interval"
+_HARDLY = (
+    "so many sensors and inputs are hardly at fault at once: look at the programme, the columns and the clock of this "
+    "recording first"
+)
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
 OF_A_STRETCH = ("sensor", "input")
 
@@ -22,19 +32,39 @@ def faults(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 
 def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Finding, ...]:
-    """Findings, those of physics as suggestions where a sensor or an input was at fault: the fault may have made them.
+    """Findings, some as suggestions: physics beside a fault that no finding explains, and too many faults at once.
 
     Args:
         findings: Of a search.
         doubts: About its recordings.
     """
-    found = faults(doubts)
-    if not found:
-        return tuple(findings)
-    why = f"first the fault has to be cleared: {found[0].statement.rstrip('.')}"
+    told = _one_cause(findings)
+    accepted = [f for f in told if f.is_accepted and f.unit in MEASURED]
+    left = [d for d in faults(doubts) if not any(_is_explained(d, f) for f in accepted)]
+    if not left:
+        return told
+    why = f"first the fault has to be cleared: {left[0].statement.rstrip('.')}"
+    return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
+
+
+def _is_explained(doubt: Doubt, finding: Finding) -> bool:
+    """Whether a finding is the fault that a doubt is about: the same channel, and the recording where both name one."""
+    is_there = finding.recording in ("", doubt.recording)
+    return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
+
+
+def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable."""
+    places: dict[str, set[str]] = {}
+    for finding in findings:
+        if finding.is_accepted and finding.effect.endswith(_IN_INTERVAL):
+            places.setdefault(finding.recording, set()).add(finding.place)
+    many = {recording for recording, own in places.items() if len(own) >= MANY}
     return tuple(
-        replace(f, is_accepted=False, doubts=(why, *f.doubts))
-        if f.is_accepted and f.unit not in ("measurement", "input")
-        else f
+        _suggested(f, _HARDLY) if f.is_accepted and f.effect.endswith(_IN_INTERVAL) and f.recording in many else f
         for f in findings
     )
+
+
+def _suggested(finding: Finding, why: str) -> Finding:
+    return replace(finding, is_accepted=False, doubts=(why, *finding.doubts))

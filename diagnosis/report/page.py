@@ -18,6 +18,7 @@ from diagnosis.report.network import Network, concerned, inferred
 from diagnosis.report.sentences import (
     ADVICE,
     ambiguity,
+    doubt_text,
     effort,
     improvement,
     moved_text,
@@ -93,7 +94,7 @@ def _section(title: str, *content: str) -> Html:
 def _answer(diagnosis: Diagnosis, name: str) -> Html:
     """Verdict, and where, when, what and how much better in a line each."""
     verdict = diagnosis.verdict.value
-    facts = [("Doubt", f"{clean(d.statement)} {clean(d.remedy)}") for d in diagnosis.doubts[:_LEFT]]
+    facts = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
     facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     facts.append(("Searched", searched(diagnosis)))
     if diagnosis.next_experiment is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from diagnosis.judge.diagnosis import Diagnosis, Finding, Moved, Standing, Verdict
+from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Verdict
 from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
@@ -118,3 +118,9 @@ def moved_text(moved: Moved) -> str:
     """How far a number was moved: by which factor, or what was added."""
     far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
     return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit)} ({far})"
+
+
+def doubt_text(doubt: Doubt) -> str:
+    """What the check of a recording saw, and what to do about it."""
+    remedy = clean(doubt.remedy)
+    return f"{clean(doubt.recording)}: {clean(doubt.statement).rstrip('.')}. {remedy[:1].upper()}{remedy[1:]}"

@@ -15,6 +15,7 @@ from diagnosis.report.fits import STAGES, Row, rows
 from diagnosis.report.sentences import (
     ambiguity,
     decisive,
+    doubt_text,
     effort,
     improvement,
     moved_text,
@@ -69,7 +70,7 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
 
 def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     for doubt in diagnosis.doubts[:_FINDINGS]:
-        yield from _wrapped("doubt    ", f"{doubt.statement} {doubt.remedy}", width, 3)
+        yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
         yield from _finding(order, finding, width)

@@ -1,0 +1,54 @@
+"""What a fault seen by the check, and faults of many sensors at once, mean for findings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.doubts import MANY, doubted, is_of_another_experiment
+from tests.diagnosis.report_examples import CONTACT, LAG
+
+STEP = Doubt(
+    "monday", "coil[1,2].temperature", "sensor", "The readings step by 2 K.", "was it moved?", True, 0.0, 9.0, 50.0
+)
+FAULT = replace(
+    LAG, effect="sensor_offset_in_interval", place="coil[1,2].temperature (monday)", recording="monday",
+    channels=("coil[1,2].temperature (monday)",),
+)  # fmt: skip
+
+
+def test_physics_is_suggested_alone_beside_a_fault_that_nothing_explains() -> None:
+    (told,) = doubted([CONTACT], [STEP])
+    assert not told.is_accepted
+    assert told.doubts[0] == "first the fault has to be cleared: The readings step by 2 K"
+
+
+def test_physics_stands_beside_a_fault_that_was_found_too() -> None:
+    fault, physics = doubted([FAULT, CONTACT], [STEP])
+    assert fault.is_accepted
+    assert physics.is_accepted
+    other = replace(STEP, recording="tuesday")
+    assert [f.is_accepted for f in doubted([FAULT, CONTACT], [other])] == [True, False]
+
+
+def test_a_note_changes_nothing() -> None:
+    assert doubted([CONTACT], [replace(STEP, is_serious=False)]) == (CONTACT,)
+
+
+@pytest.mark.parametrize(("count", "is_accepted"), [(MANY - 1, True), (MANY, False)])
+def test_many_faults_of_one_recording_have_one_cause(count: int, is_accepted: bool) -> None:
+    many = [replace(FAULT, place=f"coil[1,{n}].temperature (monday)") for n in range(count)]
+    elsewhere = replace(FAULT, recording="tuesday")
+    *told, other = doubted([*many, elsewhere], [])
+    assert [f.is_accepted for f in told] == [is_accepted] * count
+    assert other.is_accepted
+
+
+@pytest.mark.parametrize(
+    ("kind", "is_other"), [("programme", True), ("unit", True), ("swapped", True), ("sensor", False), ("input", False)]
+)
+def test_a_fault_of_a_stretch_is_no_other_experiment(kind: str, is_other: bool) -> None:
+    assert is_of_another_experiment(replace(STEP, kind=kind)) is is_other
+    assert not is_of_another_experiment(replace(STEP, kind=kind, is_serious=False))
