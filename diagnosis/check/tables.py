@@ -13,6 +13,7 @@ from rich.table import Table
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.readings import measured_noise
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.usage import usage
 
 #: Name and factor in which an SI unit is printed; an offset makes degC.
 _SHOWN = {"K": ("degC", 1.0, -273.15), "A": ("mA", 1e3, 0.0), "m": ("mm", 1e3, 0.0)}
@@ -115,6 +116,9 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         console.print(table)
         for course in one.courses:
             console.print("  " + escape(course_text(course)))
+        for used in usage(one.recording):
+            if used.unused:
+                console.print("  " + escape(str(used)), soft_wrap=True)
     console.print()
     for doubt in doubts:
         colour, word = ("red", "serious") if doubt.is_serious else ("yellow", "note")

@@ -163,7 +163,8 @@ def _shade(axes: Axes, series: Series, findings: Sequence[Finding], left: Sequen
     if series.is_held_out:  # these are times of the training: another programme has others
         return
     for n, finding in enumerate(findings):
-        if any(is_channel(c, series.channel, series.recording) for c in finding.channels):
+        is_here = finding.recording in ("", series.recording)
+        if is_here and any(is_channel(c, series.channel, series.recording) for c in finding.channels):
             for a, b in finding.intervals:
                 axes.axvspan(a, b, color=colour(n), alpha=0.07, lw=0)
     for one in left:
