@@ -28,7 +28,7 @@ from diagnosis.judge.doubts import doubted, is_of_another_experiment
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import findings, nominal_cost, recalibration, verdict, why_open
+from diagnosis.judge.judge import findings, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
@@ -43,7 +43,7 @@ from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
 from diagnosis.simulator.biased import with_biases
-from diagnosis.simulator.models import DiagnosisModel, model_of, timeline_of
+from diagnosis.simulator.models import DiagnosisModel, models_of
 from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
 
@@ -122,11 +122,7 @@ def diagnose(
     known = means.catalogue()
     both = distinct([*training, *held_out])
     training, held_out = both[: len(training)], both[len(training) :]
-    model = model_of(scenario, training, known, means.threads, means.without, means.batches)
-    judge = None
-    if held_out:
-        placed = timeline_of(model)
-        judge = model_of(scenario, held_out, known, means.threads, means.without, means.batches, placed)
+    model, judge = models_of(scenario, training, held_out, known, means.threads, means.without, means.batches)
     on_progress("checking that recordings and scenario are of the same experiment")
     doubts = check_recordings(scenario, both)
     if means.is_checked and any(is_of_another_experiment(d) for d in doubts):
@@ -150,7 +146,7 @@ def diagnose(
     tried = searched(model, scenario, means.without)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, readings, day)
-    word = verdict(outcome, found, right, tried, nominal_cost(model), doubts)
+    word = verdict(outcome, found, right, tried, recalibration(model, outcome.base), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
         on_progress("finding out what these channels can tell apart")

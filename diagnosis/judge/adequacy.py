@@ -42,6 +42,7 @@ def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> 
         day=day,
         wild=now.wild,
         is_noise_stated=all(c.is_deviation_given for c in readings.channels),
+        is_nominal_rejected=before.is_rejected,
         is_training_rejected=accepted.training.is_rejected,
         is_recalibration_worse=accepted.recalibration.is_loss or bool(accepted.recalibration.worse),
     )

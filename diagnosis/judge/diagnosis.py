@@ -313,6 +313,7 @@ class Adequacy:
         day: Numbers of the day (its room, its start) that had to be moved by more than half of what is usual.
         wild: Single wild readings that were not counted.
         is_noise_stated: Whether the noise of every channel was stated; else it comes from neighbouring readings.
+        is_nominal_rejected: Whether the readings reject the scenario as it is.
         is_training_rejected: Whether the training recordings reject the model as well.
         is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
     """
@@ -328,6 +329,7 @@ class Adequacy:
     day: tuple[Moved, ...]
     wild: int
     is_noise_stated: bool
+    is_nominal_rejected: bool
     is_training_rejected: bool
     is_recalibration_worse: bool
 

@@ -28,7 +28,7 @@ from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.report.display import words
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
-from diagnosis.search.problem import Point, Term
+from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.shares import departures
 from diagnosis.simulator.models import DiagnosisModel
@@ -50,14 +50,12 @@ BURIED, MOST_LEFT = 2.0, 0.1
 MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0
-#: Fall of -2 log posterior per parameter by which a recalibration counts as needed.
-NEEDED = 4.0
 #: Share of its peak from which an effect counts as being there.
 SHOWS = 0.1
 
 
 def verdict(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, nominal_cost: float,
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, moved: Sequence[Moved] = (),
     doubts: Sequence[Doubt] = (),
 ) -> Verdict:  # fmt: skip
     """One word for a search.
@@ -67,7 +65,7 @@ def verdict(
         found: Findings, accepted and suggested.
         adequacy: How right the accepted model is.
         searched: What was searched.
-        nominal_cost: -2 log posterior of the model as it was.
+        moved: Parameters that the recalibration moved far.
         doubts: About the recordings.
     """
     accepted = [f for f in found if f.is_accepted]
@@ -79,9 +77,7 @@ def verdict(
         return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
     if why_open(outcome, found, adequacy, searched):
         return Verdict.CANNOT_TELL
-    moved = int(np.sum(np.abs(outcome.base.point.base) > MOVED))
-    fell = nominal_cost - outcome.base.cost
-    is_needed = moved or fell > NEEDED * max(len(outcome.base.point.base), 1) or adequacy.day
+    is_needed = moved or adequacy.is_nominal_rejected or adequacy.day
     return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
 
 
@@ -357,9 +353,3 @@ def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
         if abs(z) > MOVED
     ]
     return tuple(sorted(found, key=lambda m: -abs(m.deviations)))
-
-
-def nominal_cost(model: DiagnosisModel) -> float:
-    """-2 log posterior of the model as the scenario has it."""
-    base = np.zeros(len(model.parameters))
-    return cost(model.residuals([Point(base)])[0], base)

@@ -154,6 +154,37 @@ def model_of(
         return ClosedLoopModel(scenario, recordings, without, batches)
 
 
+def models_of(
+    scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording],
+    catalogue: Sequence[CandidateTerm], threads: int = 2, without: Sequence[str] = (), batches: Batches | None = None,
+) -> tuple[DiagnosisModel, DiagnosisModel | None]:  # fmt: skip
+    """Models of recordings that are fitted and of those that judge; both of the same kind.
+
+    Where one recording overrides what a coil bank does not have, the co-simulation simulates all of them: parameters of
+    one kind of model say nothing to the other.
+
+    Args:
+        scenario: What the recordings are compared with.
+        training: Recordings that are fitted.
+        held_out: Recordings that judge; there may be none.
+        catalogue: See `model_of`.
+        threads: See `model_of`.
+        without: See `model_of`.
+        batches: See `model_of`.
+
+    Raises:
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+    model = model_of(scenario, training, catalogue, threads, without, batches)
+    if not held_out:
+        return model, None
+    judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model))
+    if type(judge) is type(model):
+        return model, judge
+    both = (ClosedLoopModel(scenario, fitting(scenario, r), without, batches) for r in (training, held_out))
+    return next(both), next(both)
+
+
 def timeline_of(model: object) -> Timeline | None:
     """The recordings of a model laid end to end; None where no law of it has an instant (`ClosedLoopModel`)."""
     while hasattr(model, "inner"):

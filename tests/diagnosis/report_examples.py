@@ -81,7 +81,7 @@ ADEQUACY = Adequacy(
     limit=1.08, explained=0.9625, by_recalibration=0.8125,
     worst=Left("steps", "coil[2,5].temperature", "K", 1.2, 0.15, 64.0, 1.3), rejected=(3, 42),
     day=(Moved("ambient_offset of recording 1", "K", 0.31, False, 0.62),), wild=2, is_noise_stated=True,
-    is_training_rejected=False, is_recalibration_worse=False,
+    is_nominal_rejected=True, is_training_rejected=False, is_recalibration_worse=False,
 )  # fmt: skip
 DOUBT = Doubt("steps", "supply.voltage", "programme", "The supply switches at 30 s, the readings at 50 s.",
               "Give the programme of that day.", True, 0.0, 100.0, 40.0)  # fmt: skip

@@ -6,7 +6,7 @@ import pytest
 from diagnosis.judge.acceptance import accept
 from diagnosis.judge.adequacy import adequacy
 from diagnosis.judge.diagnosis import Searched, Verdict
-from diagnosis.judge.judge import findings, nominal_cost, verdict
+from diagnosis.judge.judge import findings, verdict
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.unfitted import left_out_readings, left_out_stretches
 from tests.faults.rig import NAMES, STOP, Wrong, faulty, found, interval, recorded, scenario
@@ -47,7 +47,7 @@ def test_a_thermometer_that_is_wrong_for_a_while_is_a_fault_of_that_sensor_then_
     assert finding.is_accepted
     assert finding.recording == "second"
     right = adequacy(accepted, left_out_stretches(model, titles).readings, ())
-    word = verdict(outcome, [finding], right, Searched(), nominal_cost(model))
+    word = verdict(outcome, [finding], right, Searched())
     assert word is Verdict.MEASUREMENT_FAULT
     assert finding.channels == (f"{NAMES[1]} (second)",)
     assert finding.is_named

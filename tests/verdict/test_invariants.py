@@ -19,7 +19,7 @@ from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import Adequacy, Domain, Finding, Searched, Standing, Verdict
 from diagnosis.judge.headline import headline
-from diagnosis.judge.judge import findings, nominal_cost, verdict, why_open
+from diagnosis.judge.judge import findings, recalibration, verdict, why_open
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_stretches
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
@@ -52,7 +52,7 @@ def answer(training: Lines, judge: Lines | None, tried: Searched = TRIED) -> Ans
     found = findings(model, outcome, accepted, ["training"])
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, unfitted.readings, day)
-    word = verdict(outcome, found, right, tried, nominal_cost(model))
+    word = verdict(outcome, found, right, tried, recalibration(model, outcome.base))
     told = headline(word, found, right, why_open(outcome, found, right, tried))
     return Answer(word, told, found, right, accepted, outcome, judge or training)
 
