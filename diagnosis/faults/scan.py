@@ -18,7 +18,7 @@ from diagnosis.simulator.wrapped import Scaled
 #: Pieces of a channel whose ends are tried as begin and end of a fault; around the best of them every sample is tried.
 PIECES = 24
 #: Pieces of which a sensor that is stuck is tried to hold.
-STUCK_PIECES = 192
+STUCK_PIECES = 64
 
 Lead = tuple[Term, tuple[float, ...]] | None
 

@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from diagnosis.judge.judge import findings
+from diagnosis.judge.acceptance import accept
+from diagnosis.judge.adequacy import adequacy
+from diagnosis.judge.diagnosis import Searched, Verdict
+from diagnosis.judge.judge import findings, verdict
+from diagnosis.judge.of_a_day import is_shown_there_alone
+from diagnosis.judge.unfitted import left_out_readings, left_out_stretches
 from tests.faults.rig import NAMES, STOP, Wrong, faulty, found, interval, recorded, scenario
 
 #: Begin and end are found within this share of the recording.
@@ -32,11 +37,21 @@ def test_a_thermometer_that_is_wrong_for_a_while_is_a_fault_of_that_sensor_then_
     assert term.recording == 1
     assert interval(outcome, term) == pytest.approx((0.4 * STOP, 0.6 * STOP), abs=CLOSE)
     assert outcome.best.fit.point.terms[term][0] == pytest.approx(strength, abs=0.15)
-    assert all(t.unit in ("measurement", "input") for t in outcome.best.terms)
-    (finding,) = findings(model, outcome)
+    titles = [r.title for r in recordings]
+    accepted = accept(
+        model, outcome, left_out_stretches(model, titles), left_out_stretches(model, titles),
+        lambda t: is_shown_there_alone(t, outcome.best.fit.point.terms[t], model, None),
+        lambda: left_out_readings(model, titles),
+    )  # fmt: skip
+    (finding,) = findings(model, outcome, accepted, titles)
+    assert finding.is_accepted
+    assert finding.recording == "second"
+    right = adequacy(accepted, left_out_stretches(model, titles).readings, ())
+    word = verdict(outcome, [finding], right, Searched())
+    assert word is Verdict.MEASUREMENT_FAULT
     assert finding.channels == (f"{NAMES[1]} (second)",)
     assert finding.is_named
-    ((begin, end),) = finding.intervals  # nine tenths of the effect
+    ((begin, end),) = finding.intervals
     assert 0.38 * STOP < begin < end < 0.62 * STOP
 
 
