@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.judge.doubts import faults
+from diagnosis.judge.doubts import MEASURED, faults
 from diagnosis.report.display import clean, difference, moved, number
 
+#: Findings that are named in one sentence.
+TOLD = 3
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
 
@@ -28,26 +30,35 @@ def headline(
     if verdict is Verdict.RECORDING_FAULT:
         serious = [d.statement.rstrip(".") for d in doubts if d.is_serious]
         return f"The recording and the scenario are not of the same experiment: {'; '.join(serious[:2])}."
-    accepted = "; ".join(f.statement for f in found if f.is_accepted)
-    suggested = "; ".join(f.statement for f in found if not f.is_accepted)
+    physics = _listed([f for f in found if f.is_accepted and f.unit not in MEASURED])
+    measured = _listed([f for f in found if f.is_accepted and f.unit in MEASURED])
+    suggested = _listed([f for f in found if not f.is_accepted])
     assert adequacy is not None, "only a recording fault is told without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {adequacy.basis} within {_noise(adequacy)}.",
         Verdict.RECALIBRATED: f"The model agrees with the {adequacy.basis} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(accepted, doubts)}.",
-        Verdict.MISSING_PHYSICS: f"The model leaves out: {accepted}.",
-        Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {accepted}.",
+        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(measured, doubts)}.",
+        Verdict.MISSING_PHYSICS: f"The model leaves out: {physics}.",
+        Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {physics}.",
         Verdict.CANNOT_TELL: f"It cannot be told whether something is missing: {'; '.join(reasons)}.",
     }[verdict]
     parts = [first]
+    if physics and measured:
+        parts.append(f"Besides, a sensor or an input is at fault: {measured}.")
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(accepted)))
+        parts.append(how_right(adequacy, bool(physics)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy)}.")
     return " ".join(parts)
+
+
+def _listed(found: Sequence[Finding]) -> str:
+    """Statements of findings; of many the first ones."""
+    more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
+    return "; ".join(f.statement for f in found[:TOLD]) + more
 
 
 def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:

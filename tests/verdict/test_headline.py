@@ -1,0 +1,54 @@
+"""The first sentences of an answer say what was found and how right the model is, and no more."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from diagnosis.judge.diagnosis import Verdict
+from diagnosis.judge.headline import headline, how_right
+from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG
+
+
+def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> None:
+    told = headline(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
+    assert told == (
+        "The model leaves out: contact resistance in a string, string[3]. The amended model explains 96 % of the "
+        "mismatch in the held-out recordings; 1.2 K of coil[2,5].temperature stays, 8.0 times the noise: something else "
+        "is missing or wrong. That takes for granted: room temperature of recording 1: +0.310 K."
+    )
+
+
+def test_a_fault_beside_physics_is_no_physics() -> None:
+    told = headline(Verdict.MISSING_PHYSICS, [LAG, CONTACT], ADEQUACY)
+    assert told.startswith("The model leaves out: contact resistance in a string, string[3]. Besides, a sensor or an")
+    assert "sensor lag, coil[1,2].temperature" in told
+
+
+def test_noise_alone_is_said_to_be_no_more_than_noise() -> None:
+    quiet = replace(ADEQUACY, is_rejected=False, explained=0.999, day=())
+    assert how_right(quiet, True) == (
+        "The amended model explains more than 99 % of the mismatch in the held-out recordings; what is left is not "
+        "more than the stated noise of the sensors."
+    )
+    assert how_right(quiet, False).startswith("The recalibrated model explains")
+
+
+def test_a_model_that_got_worse_says_so() -> None:
+    worse = replace(ADEQUACY, explained=-0.5, chi_square={"before": 4.0, "recalibrated": 5.0, "after": 5.5}, day=())
+    assert how_right(worse, True).startswith(
+        "The amended model predicts the held-out recordings worse: chi-square per reading 4.00 -> 5.50; 1.2 K"
+    )
+
+
+def test_of_many_suggestions_the_first_are_named_and_the_others_counted() -> None:
+    many = [replace(LAG, is_accepted=False, statement=f"effect {n}") for n in range(5)]
+    told = headline(Verdict.CANNOT_TELL, many, ADEQUACY, ["the readings reject the model"])
+    assert "not accepted: effect 0; effect 1; effect 2; and 2 more." in told
+
+
+def test_another_experiment_is_told_by_what_was_seen() -> None:
+    told = headline(Verdict.RECORDING_FAULT, [], None, doubts=[DOUBT, replace(DOUBT, is_serious=False, statement="no")])
+    assert told == (
+        "The recording and the scenario are not of the same experiment: The supply switches at 30 s, the readings at "
+        "50 s."
+    )
