@@ -39,7 +39,7 @@ def test_simulations_of_an_interrupted_diagnosis_are_not_overwritten_unasked(tmp
     cache = Cache(tmp_path / "out" / "simulations")
     cache.put("ab", Result((np.ones(2),), "", 1.0))
     with pytest.raises(InputError, match="an interrupted diagnosis left its simulations here") as refusal:
-        diagnose("pendulum", [tmp_path / "r"], [tmp_path / "h"], tmp_path / "out")
+        diagnose("pendulum", [tmp_path / "r"], out=tmp_path / "out", held_out=[tmp_path / "h"])
     assert "--resume" in refusal.value.remedy
     assert cache.count() == 1
 
@@ -47,4 +47,4 @@ def test_simulations_of_an_interrupted_diagnosis_are_not_overwritten_unasked(tmp
 def test_resuming_goes_past_that_refusal(tmp_path):
     Cache(tmp_path / "out" / "simulations").put("ab", Result((np.ones(2),), "", 1.0))
     with pytest.raises(InputError, match="there is no recording here"):
-        diagnose("pendulum", [tmp_path / "r"], [tmp_path / "h"], tmp_path / "out", resume=True)
+        diagnose("pendulum", [tmp_path / "r"], out=tmp_path / "out", held_out=[tmp_path / "h"], resume=True)
