@@ -25,6 +25,7 @@ from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.standing import standing_of, unidentified
+from diagnosis.judge.unfitted import raw_residuals
 from diagnosis.report.display import words
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
@@ -32,6 +33,7 @@ from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.shares import departures
 from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.tempered import untempered
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -171,7 +173,7 @@ def _finding(
     fit = explanation.fit
     alternatives, probability = _alternatives(outcome, accepted, term)
     likely = _open_rivals(alternatives, term, accepted)
-    effect = model.residuals([fit.point.without(term)])[0] - fit.residuals
+    effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     when = since(term, fit, model, doubt)
     found = estimates(fit, term, doubt, model.unseen(term))
@@ -211,6 +213,19 @@ def _finding(
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
     )
+
+
+def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
+    """What a term changes in every reading, in deviations of the noise, shape (residuals,).
+
+    Predictions are compared, not residuals: where the zero of a channel is taken away, a change spreads over all of it.
+    """
+    point = fit.point
+    if sum(len(s.samples) for run in model.runs for s in run.series) != len(model.layout.time):
+        return np.asarray(model.residuals([point.without(term)])[0] - fit.residuals)  # bins of a fabric
+    inner = untempered(model)
+    used = np.concatenate([s.used for run in model.runs for s in run.series])
+    return np.where(used, raw_residuals(inner, point.without(term)) - raw_residuals(inner, point), 0.0)
 
 
 def _measured(model: DiagnosisModel) -> set[str]:

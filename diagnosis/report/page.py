@@ -163,7 +163,7 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
     begin, end = _extent(diagnosis, series)
     if end > begin:
         about = f"intervals in which each finding shows, {number(begin)} to {number(end)} s"
-        note = "Bars hold nine tenths of what each effect does to the channels."
+        note = "Bars: where an effect is at least a tenth of its largest, in the recording that shows it most."
         parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
     return _section("Where and when" if diagnosis.accepted else "Where and when it would act", *parts)
 
