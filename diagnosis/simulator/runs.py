@@ -19,7 +19,7 @@ from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.usage import near_switch
-from diagnosis.simulator.free import Clocks
+from diagnosis.simulator.free import MOST_FOLD, Clocks
 from diagnosis.simulator.priors import stated_priors
 from diagnosis.simulator.translate import Translation
 
@@ -158,7 +158,8 @@ def _fastest(translation: Translation) -> BankParameters:
     """The rig with the shortest time constants that its priors hold probable: two deviations from what is stated."""
     base = translation.parameters.base
     priors = stated_priors(translation.uncertainty, translation.scatter)
-    away = {n: 2.0 * float(np.hypot(priors[n].shared, priors[n].scatter)) for n in ("capacity", "conductance")}
+    doubt = {n: float(np.hypot(priors[n].shared, priors[n].scatter)) for n in ("capacity", "conductance")}
+    away = {n: min(2.0 * d, MOST_FOLD) for n, d in doubt.items()}
     return translation.parameters.with_base(
         capacity=np.asarray(base["capacity"]) * np.exp(-away["capacity"]),
         conductance=np.asarray(base["conductance"]) * np.exp(away["conductance"]),

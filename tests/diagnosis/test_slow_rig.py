@@ -82,7 +82,7 @@ def rig(tmp_path_factory):
 
 
 def answer(rig, out):
-    diagnose(str(rig / "scenario.yaml"), [rig / "monday"], [rig / "tuesday"], out, jobs=1, brief=True)
+    diagnose(str(rig / "scenario.yaml"), [rig / "monday"], out, [rig / "tuesday"], jobs=1, brief=True)
 
 
 def test_a_recording_of_85_minutes_is_simulated_in_hundreds_of_steps(rig, shipped_fmus, monkeypatch):

@@ -8,10 +8,11 @@ import pytest
 from diagnosis.bank.layout import BankLayout
 from diagnosis.search.problem import Parameter
 from diagnosis.simulator.free import Clocks, free_parameters
+from diagnosis.simulator.priors import DailyPriors
 
 
 def _parameters(clocks: Clocks) -> dict[str, Parameter]:
-    found = free_parameters(BankLayout(2, (2,)), {}, {"temperature"}, clocks, {}, [])
+    found = free_parameters(BankLayout(2, (2,)), {}, {"temperature"}, clocks, {}, DailyPriors())
     return {f.parameter.name: f.parameter for f in found}
 
 

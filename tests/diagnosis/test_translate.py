@@ -133,8 +133,6 @@ REFUSED = {
     "drop": ({"components.circuit.elements": [{"kind": "drop", "string": 1, "voltage": "0.5 V"}]}, "kind drop"),
     "limit": ({"components.circuit.elements": [{"kind": "current_limit", "limit": "0.1 A"}]}, "kind current_limit"),
     "slow": ({"components.circuit.elements": [{"kind": "slow_source", "delay": "2 s"}]}, "kind slow_source"),
-    "open": ({"components.circuit.open_coils": [2]}, "whole coils"),
-    "shorted": ({"components.circuit.shorted_coils": [2]}, "whole coils"),
     "added terms": ({"components.actuator.added_terms": [{"to": "power", "formula": "0.1 * power"}]}, "added_terms"),
     "other FMU": ({"components.actuator.fmu": "instant_stiffness",
                    "components.actuator.parameters": {}}, "thermal_stiffness"),
