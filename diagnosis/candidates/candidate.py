@@ -57,7 +57,7 @@ class Parameter:
         negligible: Size of an amplitude below which it is no finding: every rig has that much of it.
         plausible: Largest size that a real rig can have: a search may go beyond it, but what is found there is no name
             of an effect. In the parameter's unit, or, with `of`, a multiple of that scale.
-        plausible_reason: Why: physics, with source or reckoning.
+        plausible_reason: Why: physics, with source or derivation.
         of: Name of a scale of the rig (`diagnosis.candidates.sizes.SCALES`).
         is_position: A threshold or a place, counted from `origin`: small values are no smaller effect. It may lie on
             either side where its lower bound is negative.

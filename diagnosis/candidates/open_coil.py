@@ -32,5 +32,5 @@ CANDIDATE = CandidateTerm(
         "loose_contact": "voltage across the coil, or its heat where the break is partial, decides",
         "open_coil": "another coil of the same string: never from currents and temperatures after a clean break",
     },
-    scope_reason="a wire that broke does not mend by itself",
+    scope_reason="a wire that broke stays broken",
 )

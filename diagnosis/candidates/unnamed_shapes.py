@@ -30,7 +30,7 @@ _SERIES = "a contact that takes the heat of three coils on its small surface bur
 _SLOW = "what lags by more than 20 s is seen by eye"
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,))
 #: What changes a heat balance at once comes from outside (a fan, the sun); what changes in a circuit is a fault.
-_OF_DAY, _OF_RIG = "heat from the surroundings is of that day", "a fault of a circuit stays until somebody mends it"
+_OF_DAY, _OF_RIG = "heat from the surroundings is of that day", "a fault of a circuit stays until it is repaired"
 
 
 #: Generic terms whose law is that of a named candidate.

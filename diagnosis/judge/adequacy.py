@@ -10,7 +10,7 @@ from diagnosis.judge.diagnosis import Adequacy, Left, Moved
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.search.problem import Parameter
 
-#: Prior deviations from which a number of the day is told.
+#: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
 
 

@@ -33,7 +33,7 @@ def headline(
     physics = _listed([f for f in found if f.is_accepted and f.unit not in MEASURED])
     measured = _listed([f for f in found if f.is_accepted and f.unit in MEASURED])
     suggested = _listed([f for f in found if not f.is_accepted])
-    assert adequacy is not None, "only a recording fault is told without a simulation"
+    assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {adequacy.basis} within {_noise(adequacy)}.",
         Verdict.RECALIBRATED: f"The model agrees with the {adequacy.basis} within {_noise(adequacy)} once its own "
