@@ -24,7 +24,7 @@ from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
-from diagnosis.judge.doubts import doubted, is_of_another_experiment
+from diagnosis.judge.doubts import doubted, of_another_experiment
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
@@ -125,7 +125,7 @@ def diagnose(
     model, judge = models_of(scenario, training, held_out, known, means.threads, means.without, means.batches)
     on_progress("checking that recordings and scenario are of the same experiment")
     doubts = check_recordings(scenario, both)
-    if means.is_checked and any(is_of_another_experiment(d) for d in doubts):
+    if means.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
     outcome, model, judge = _searched(model, judge, settings, on_progress)

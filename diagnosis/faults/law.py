@@ -11,6 +11,8 @@ from diagnosis.search.problem import Term, TermParameter
 
 #: Intervals of fewer samples than this are wild readings, which Huber's function deals with.
 FEWEST = 3
+#: Readings that a stuck sensor must hold: its value is taken from them, so that of a few wild ones it says nothing.
+FEWEST_EQUAL = 8
 #: Times that one sensor may be off in one way within one recording.
 OCCASIONS = 2
 #: Strength of a fault that is there or not.

@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
-from diagnosis.faults.law import FEWEST, OFFSET
+from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET
 from diagnosis.faults.readings import Readings
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
@@ -108,7 +108,7 @@ def _stuck(found: _Collected, base: Fit, scaled: Scaled, readings: Readings, ter
     factor = scaled(readings.used.astype(np.float64)[None], readings.own)[0]
     residuals = base.residuals[readings.own]
     best = best_constant(
-        residuals, factor * readings.measured / readings.deviation, FEWEST, factor != 0.0, STUCK_PIECES
+        residuals, factor * readings.measured / readings.deviation, FEWEST_EQUAL, factor != 0.0, STUCK_PIECES
     )
     if best is not None:
         first, last, gain = best

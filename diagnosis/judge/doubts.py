@@ -26,6 +26,19 @@ def is_of_another_experiment(doubt: Doubt) -> bool:
     return doubt.is_serious and doubt.kind not in OF_A_STRETCH
 
 
+def of_another_experiment(doubts: Sequence[Doubt]) -> list[Doubt]:
+    """Doubts by which recordings and scenario are not of the same experiment.
+
+    A sensor that stands still and catches up moves when no programme does: where a serious fault of a sensor was seen
+    in a recording, that its readings change beside the programme says nothing more.
+
+    Args:
+        doubts: About all recordings.
+    """
+    faulty = {d.recording for d in faults(doubts)}
+    return [d for d in doubts if is_of_another_experiment(d) and not (d.kind == "programme" and d.recording in faulty)]
+
+
 def faults(doubts: Sequence[Doubt]) -> list[Doubt]:
     """Serious doubts about a stretch of a sensor or of an input."""
     return [d for d in doubts if d.is_serious and d.kind in OF_A_STRETCH]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.judge.doubts import MEASURED, faults
+from diagnosis.judge.doubts import MEASURED, faults, of_another_experiment
 from diagnosis.report.display import clean, difference, moved, number
 
 #: Findings that are named in one sentence.
@@ -28,7 +28,7 @@ def headline(
         doubts: About the recordings.
     """
     if verdict is Verdict.RECORDING_FAULT:
-        serious = [d.statement.rstrip(".") for d in doubts if d.is_serious]
+        serious = [d.statement.rstrip(".") for d in of_another_experiment(doubts)]
         return f"The recording and the scenario are not of the same experiment: {'; '.join(serious[:2])}."
     physics = _listed([f for f in found if f.is_accepted and f.unit not in MEASURED])
     measured = _listed([f for f in found if f.is_accepted and f.unit in MEASURED])
