@@ -147,7 +147,10 @@ def _tells(finding: Finding, sabotage: Sabotage, rig: Rig) -> bool:
     """Whether a finding says what the sabotage did: the same in other words, or a fault of a spoiled channel."""
     if finding.effect in sabotage.same_as:
         return True
-    channels = {*finding.elements, *found_place(finding.place, rig)}
+    channel, _, title = finding.place.partition(" (")  # a fault of one recording names it behind its channel
+    if title and title.rstrip(")") not in sabotage.titles:
+        return False
+    channels = {channel, *finding.elements, *found_place(channel, rig)}
     return finding.unit == "measurement" and bool(channels & set(sabotage.channels))
 
 

@@ -100,6 +100,17 @@ def test_a_measurement_fault_must_be_of_a_channel_that_is_spoiled() -> None:
     assert not _true(diagnosis(here, verdict=verdict), NULL)
 
 
+def test_a_fault_of_one_recording_names_it_behind_its_channel() -> None:
+    for place, is_right in (
+        ("coil[1,1].temperature (small, training 1)", True),
+        ("coil[1,1].temperature (small, training 2)", False),
+        ("coil[1,2].temperature (small, training 1)", False),
+    ):
+        one = replace(finding("sensor_stuck_in_interval", "measurement", place), elements=())
+        told = diagnosis(one, verdict=Verdict.MEASUREMENT_FAULT)
+        assert _true(told, _sabotaged(STUCK)) is is_right
+
+
 def test_a_recording_fault_must_have_been_committed() -> None:
     verdict = Verdict.RECORDING_FAULT
     assert _true(diagnosis(verdict=verdict), _sabotaged(ROOM))
