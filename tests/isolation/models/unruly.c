@@ -45,10 +45,13 @@ static void never_return(Instance *i)
 }
 
 /* Memory that is used, without end: the allocation that fails is not checked. */
+/* Slow enough for whoever watches the memory to see the last of it on a busy machine. */
 static void leak(Instance *i)
 {
-    for (;;)
+    for (;;) {
         memset(malloc(1 << 22), ++i->steps & 1 ? 1 : 2, 1 << 22);
+        usleep(5000);
+    }
 }
 
 /* 20 MB more in each step, never touched, and a refusal when there is no more. */
