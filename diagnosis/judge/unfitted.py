@@ -18,6 +18,7 @@ from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.own_numbers import own_numbers
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
+from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Point
 from diagnosis.search.validation import blocks
@@ -159,7 +160,12 @@ def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
             measured = series.channel.values[-len(series.samples) :]
             rows.append((measured - values) / deviation(series.channel))
     found = np.concatenate(rows)
-    return np.clip(np.where(np.isfinite(found), found, 1e6), -1e6, 1e6)
+    return _finite(found)
+
+
+def _finite(residuals: Array) -> Array:
+    """Residuals, those that are not finite or run away at `RUNAWAY`: their squares are numbers then."""
+    return np.clip(np.where(np.isfinite(residuals), residuals, RUNAWAY), -RUNAWAY, RUNAWAY)
 
 
 class HeldOutReadings:
@@ -212,8 +218,7 @@ class HeldOutReadings:
         scale = np.ones(len(columns))
         for _ in range(STEPS):
             for _ in range(STEPS):
-                here = model.residuals([Point(base, point.terms)])[0]
-                here = np.clip(np.where(np.isfinite(here), here, 1e6), -1e6, 1e6)
+                here = _finite(model.residuals([Point(base, point.terms)])[0])
                 weight = huber_weights(here * scale) ** 2 * scale**2
                 normal = columns.T @ (weight[:, None] * columns) + np.eye(len(self._own))
                 slope = columns.T @ (weight * here) + base[self._own]
@@ -222,8 +227,7 @@ class HeldOutReadings:
                 base[self._own] = moved
                 if is_settled:
                     break
-            here = model.residuals([Point(base, point.terms)])[0]
-            factor = inflation(np.clip(np.where(np.isfinite(here), here, 1e6), -1e6, 1e6), model.layout)
+            factor = inflation(_finite(model.residuals([Point(base, point.terms)])[0]), model.layout)
             wanted = (
                 1.0 / np.sqrt(np.where(factor > BELIEVED, factor, 1.0))[np.asarray(model.layout.channel, dtype=int)]
             )

@@ -13,7 +13,7 @@ from diagnosis.bank.layout import AXIS_OF_FIELD, QUANTITIES, BankLayout
 from diagnosis.bank.parameters import BankParameters
 from diagnosis.bank.places import coil_label
 from diagnosis.bank.sensitivities import Direction
-from diagnosis.search.problem import Parameter
+from diagnosis.search.problem import MOST_FOLD, Parameter
 from diagnosis.search.shares import own_label
 from diagnosis.simulator.priors import DailyPriors, Prior, matters
 
@@ -29,8 +29,6 @@ POSITION, HALF_WAY = "initial_loop_position", 0.5
 LATE_SHARE, LAG_SHARE = 0.5, 0.2
 #: Deviation of the logarithm of a sensor's lag.
 LAG_SPREAD = 0.9
-#: Logarithm of the largest factor that a value is changed by: 1e43 is beyond any rig, and far from the largest number.
-MOST_FOLD = 100.0
 #: Deviation of the gain of an ammeter as bought (0.1 to 0.3 % of the reading).
 CALIBRATION = 0.002
 

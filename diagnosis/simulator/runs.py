@@ -19,7 +19,8 @@ from diagnosis.bank.whiten import Whitening
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.usage import near_switch
-from diagnosis.simulator.free import MOST_FOLD, Clocks
+from diagnosis.search.problem import MOST_FOLD
+from diagnosis.simulator.free import Clocks
 from diagnosis.simulator.priors import stated_priors
 from diagnosis.simulator.translate import Translation
 

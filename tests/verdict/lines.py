@@ -10,7 +10,7 @@ import numpy as np
 from cosim.unit import AnyArray, Array
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
-from diagnosis.search.problem import Layout, Point, Term
+from diagnosis.search.problem import Point, Term
 from tests.search.line_model import TERMS, TIME, LineModel
 
 #: Noise of the line's readings.
@@ -92,7 +92,3 @@ def renamed(model: Lines, name: str) -> Lines:
     """The same whose offset belongs to its day alone."""
     model.parameters[0] = replace(model.parameters[0], name=name)
     return model
-
-
-def layout_of(model: Lines) -> Layout:
-    return model.layout
