@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.search.posterior import cost
-from diagnosis.search.problem import Model, Point, Term, TermParameter
+from diagnosis.search.problem import Model, Point, Term, TermParameter, limits_of
 
 #: Deviations beyond which residuals are all the same.
 RUNAWAY = 1e6
@@ -36,9 +36,10 @@ class Objective:
         self.scale = np.array([_scale(p) for p in free])
         self._is_instant = np.array([p.is_instant for p in free], dtype=bool)
         bound = np.array([p.bounds for p in model.parameters]) * widths
-        least = [p.upper if p.is_switch else p.lower for p in free]
+        limits = [limits_of(model, p) for p in free]
+        least = [high if p.is_switch else low for p, (low, high) in zip(free, limits)]
         self.lower = np.concatenate([-bound, [low / s for low, s in zip(least, self.scale)]])
-        self.upper = np.concatenate([bound, [p.upper / s for p, s in zip(free, self.scale)]])
+        self.upper = np.concatenate([bound, [high / s for (_, high), s in zip(limits, self.scale)]])
 
     def point(self, x: Array) -> Point:
         """The point that scaled coordinates mean."""

@@ -174,6 +174,19 @@ def has_valleys(model: Model) -> bool:
     return bool(getattr(model, "has_valleys", False))
 
 
+def limits_of(model: Model, parameter: TermParameter) -> tuple[float, float]:
+    """Smallest and largest value that a fit may give a parameter of a term.
+
+    Where the model errs by more than noise, any law that is stretched far enough fills a gap: there, no size is
+    taken that no real rig has. Else the readings decide, and a size beyond belief is a reason against the name.
+    """
+    lower, upper = parameter.lower, parameter.upper
+    if not getattr(model, "sizes_are_believed", False) or parameter.is_switch or parameter.is_instant:
+        return lower, upper
+    most = max(parameter.plausible, parameter.negligible)
+    return (max(lower, -most), min(upper, most)) if lower < min(upper, most) else (lower, upper)
+
+
 def strength_slopes(
     model: Model, point: Point, here: Array | None, tasks: Sequence[tuple[Term, tuple[float, ...]]]
 ) -> Array:  # fmt: skip

@@ -13,7 +13,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
-from diagnosis.search.problem import Model, Term, strength_slopes
+from diagnosis.search.problem import Model, Term, limits_of, strength_slopes
 
 #: Strength at which a term is simulated, as a share of its first start value: small enough for a straight line.
 SHARE = 0.02
@@ -287,7 +287,8 @@ def _batch(
     for i, amount, length in zip(chosen, -along / left, left):
         term, values = tasks[i]
         strength = term.parameters[0]
-        inside = min(max(float(amount), strength.lower), strength.upper)
+        low, high = limits_of(model, strength)
+        inside = min(max(float(amount), low), high)
         # A strength held at its bound (0 where it would act against its sign) gains less: the parabola there.
         gain = float(amount**2 * length - (amount - inside) ** 2 * length)
         visibility = float(np.sqrt(length / seen.whole[i]))

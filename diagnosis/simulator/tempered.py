@@ -39,6 +39,11 @@ class TemperedModel(WrappedModel):
         self.inflation = inflation
         self._factor = 1.0 / np.sqrt(inflation)[np.asarray(inner.layout.channel, dtype=int)]
 
+    @property
+    def sizes_are_believed(self) -> bool:
+        """See `diagnosis.search.problem.limits_of`: such a model errs by more than noise."""
+        return True
+
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""
         return np.asarray(super().residuals(points) * self._factor)

@@ -41,6 +41,11 @@ class WrappedModel:
         """How many were made so far."""
         return self.inner.simulations
 
+    @property
+    def sizes_are_believed(self) -> bool:
+        """See `diagnosis.search.problem.limits_of`."""
+        return bool(getattr(self.inner, "sizes_are_believed", False))
+
     def inside(self, point: Point) -> Point:
         """The point as the inner model knows it."""
         return point
