@@ -6,7 +6,10 @@ import math
 from collections.abc import Collection, Sequence
 
 from diagnosis.candidates.candidate import NEEDS, CandidateTerm
-from diagnosis.search.problem import Term
+from diagnosis.search.problem import Term, TermParameter
+
+#: Share of the largest believed size within which a fit was held there.
+HELD = 1e-6
 
 #: Unit of a law to what was not recorded, and what it cannot be told from.
 _ELSEWHERE = {
@@ -38,9 +41,11 @@ def implausible(term: Term, values: Sequence[float]) -> list[str]:
     found = []
     for parameter, value in zip(term.parameters, values, strict=True):
         most = parameter.plausible
-        if math.isfinite(most) and not abs(value) <= most:
-            unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-            reason = f" ({parameter.plausible_reason})" if parameter.plausible_reason else ""
+        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+        reason = f" ({parameter.plausible_reason})" if parameter.plausible_reason else ""
+        if _is_held(parameter, value):
+            found.append(f"{parameter.name} lies at {most:.3g}{unit}, the most that is believed{reason}")
+        elif math.isfinite(most) and not abs(value) <= most:
             # Three digits, or as many as it takes to see that one is more than the other.
             digits = next((d for d in range(3, 10) if f"{abs(value):.{d}g}" != f"{most:.{d}g}"), 17)
             found.append(
@@ -48,6 +53,16 @@ def implausible(term: Term, values: Sequence[float]) -> list[str]:
                 f"{most:.{digits}g}{unit} is the most that is believed{reason}"
             )
     return found
+
+
+def _is_held(parameter: TermParameter, value: float) -> bool:
+    """Whether a fit was held at the largest size that is believed, though the readings ask for more.
+
+    See `diagnosis.search.problem.limits_of`. Beyond a bound of the law itself no reading asks for more: a share of 1 is
+    all of it.
+    """
+    bound = parameter.upper if value > 0.0 else -parameter.lower
+    return bound > parameter.plausible and abs(abs(value) - parameter.plausible) <= HELD * parameter.plausible
 
 
 def unidentified(candidate: CandidateTerm, measured: Collection[str]) -> str:

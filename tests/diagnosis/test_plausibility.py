@@ -68,7 +68,7 @@ def test_a_value_just_beyond_its_limit_is_told_with_the_digits_that_show_it():
     parameter = TermParameter("a", "1", 0.0, 1.0, (0.1,), plausible=0.5, plausible_reason="half")
     term = Term("x", "all", "thermal", (parameter,))
     assert implausible(term, (0.50001,)) == ["a would have to be 0.50001; 0.5 is the most that is believed (half)"]
-    assert implausible(term, (0.5,)) == []
+    assert implausible(term, (0.4999,)) == []
     assert implausible(term, (float("nan"),)) != []  # what is not known to be small is not believed
     with pytest.raises(ValueError):
         implausible(term, (0.1, 0.2))
