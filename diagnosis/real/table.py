@@ -6,7 +6,7 @@ import argparse
 import json
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -59,10 +59,21 @@ def row(data_set: str, split: str, content: Mapping[str, Any]) -> str:
     figures = [f"{held_out_rmse(content, stage):.3g}" for stage in _STAGES]
     elsewhere = ELSEWHERE.get((data_set, split))
     told = f"{elsewhere[0]:g} -> {elsewhere[1]:g}" if elsewhere else "none"
-    found = "; ".join(f"{f['effect']} at {f['place']}" for f in content["findings"]) or "nothing"
-    cells = [f"{data_set}, {split}", *figures, told, unit, content["verdict"], found,
+    found = _listed(f for f in content["findings"] if f["is_accepted"])
+    suggested = _listed(f for f in content["findings"] if not f["is_accepted"])
+    cells = [f"{data_set}, {split}", *figures, told, unit, content["verdict"], found, suggested,
              f"{content['seconds']:.0f} s"]  # fmt: skip
     return "| " + " | ".join(cells) + " |"
+
+
+def _listed(findings: Iterable[Mapping[str, Any]]) -> str:
+    """Effects with what they may be instead, and places; in quotation marks where only the description has a name."""
+    told = []
+    for one in findings:
+        effect = " or ".join((one["effect"], *one["ambiguous_with"]))
+        told.append(f"{effect} at {one['place']}" if one["is_named"] or one["standing"] == "class"
+                    else f'"{effect}" at {one["place"]}')  # fmt: skip
+    return "; ".join(told) or "nothing"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -72,8 +83,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, required=True, help="folder for the diagnoses")
     parser.add_argument("--only", default="", help="only data sets and splits whose name contains this")
     given = parser.parse_args(arguments)
-    lines = ["| recording | before | recalibrated | amended | elsewhere | unit | verdict | found | time |",
-             "|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    lines = ["| recording | before | recalibrated | amended | elsewhere | unit | verdict | found | suggested alone | time |",
+             "|---|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
     for data_set, split, call in tasks(given.recordings):
         if given.only not in f"{data_set}, {split}":
             continue
