@@ -83,7 +83,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, required=True, help="folder for the diagnoses")
     parser.add_argument("--only", default="", help="only data sets and splits whose name contains this")
     given = parser.parse_args(arguments)
-    lines = ["| recording | before | recalibrated | amended | elsewhere | unit | verdict | found | suggested alone | time |",
+    lines = ["| recording | before | recalibrated | amended | elsewhere | unit | verdict | found | suggested alone |"
+             " time |",
              "|---|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
     for data_set, split, call in tasks(given.recordings):
         if given.only not in f"{data_set}, {split}":
