@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
+from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Standing, Verdict
 from diagnosis.judge.doubts import MEASURED, faults, of_another_experiment
 from diagnosis.report.display import clean, difference, moved, number
 
@@ -12,6 +12,8 @@ from diagnosis.report.display import clean, difference, moved, number
 TOLD = 3
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
+#: Share below which what recalibration explains would read as 0 %.
+LEAST_SHARE = 0.005
 
 
 def headline(
@@ -31,7 +33,9 @@ def headline(
         serious = [d.statement.rstrip(".") for d in of_another_experiment(doubts)]
         return f"The recording and the scenario are not of the same experiment: {'; '.join(serious[:2])}."
     physics = _listed([f for f in found if f.is_accepted and f.unit not in MEASURED])
-    measured = _listed([f for f in found if f.is_accepted and f.unit in MEASURED])
+    at_fault = [f for f in found if f.is_accepted and f.unit in MEASURED]
+    measured = _listed([f for f in at_fault if f.standing is not Standing.UNNAMED])
+    described = _listed([f for f in at_fault if f.standing is Standing.UNNAMED])
     suggested = _listed([f for f in found if not f.is_accepted])
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
@@ -46,10 +50,12 @@ def headline(
     parts = [first]
     if physics and measured:
         parts.append(f"Besides, a sensor or an input is at fault: {measured}.")
+    if described:
+        parts.append(f"What else improves the prediction the rig, a sensor or an input may do: {described}.")
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(physics)))
+        parts.append(how_right(adequacy, any(f.is_accepted for f in found)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy)}.")
     return " ".join(parts)
@@ -90,6 +96,8 @@ def how_right(adequacy: Adequacy, is_amended: bool) -> str:
     else:
         share = "more than 99 %" if ALL < adequacy.explained < 1.0 else share
         text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
+        if is_amended and adequacy.by_recalibration >= LEAST_SHARE:
+            text += f" (recalibration alone {100.0 * min(adequacy.by_recalibration, adequacy.explained):.0f} %)"
     if adequacy.is_rejected and adequacy.worst is not None:
         text += f"; {what_stays(adequacy)}: something else is missing or wrong"
     elif before > 1.0:

@@ -20,7 +20,7 @@ from diagnosis.judge.diagnosis import (
     Standing,
     Verdict,
 )
-from diagnosis.judge.doubts import faults
+from diagnosis.judge.doubts import MEASURED, faults
 from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
@@ -71,12 +71,12 @@ def verdict(
         doubts: About the recordings.
     """
     accepted = [f for f in found if f.is_accepted]
-    physics = [f for f in accepted if f.unit not in ("measurement", "input")]
-    if (accepted or faults(doubts)) and not physics:
-        return Verdict.MEASUREMENT_FAULT
+    physics = [f for f in accepted if f.unit not in MEASURED]
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)
         return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
+    if any(f.standing is not Standing.UNNAMED for f in accepted) or faults(doubts):
+        return Verdict.MEASUREMENT_FAULT
     if why_open(outcome, found, adequacy, searched):
         return Verdict.CANNOT_TELL
     is_needed = moved or adequacy.is_nominal_rejected or adequacy.day
@@ -88,6 +88,8 @@ def why_open(
 ) -> tuple[str, ...]:  # fmt: skip
     """Why it cannot be told whether something is missing, where nothing is accepted; empty if the model agrees."""
     reasons = []
+    if any(f.is_accepted and f.standing is Standing.UNNAMED and f.unit in MEASURED for f in found):
+        reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
     if not searched.has_physics:
         reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
     if any(not f.is_accepted for f in found):

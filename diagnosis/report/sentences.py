@@ -22,9 +22,10 @@ ADVICE = {
 
 
 def where(finding: Finding) -> str:
-    """Unit, place, and elements unless the place names them."""
+    """Unit, place, and elements unless the place names them; what has no name is only described there."""
     elements = listed([e for e in finding.elements if e != finding.place], 6)
-    return f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
+    told = f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
+    return f"described at {told}" if finding.standing is Standing.UNNAMED else told
 
 
 def when(finding: Finding, most: int = 4) -> str:

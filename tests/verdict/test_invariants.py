@@ -86,6 +86,8 @@ def test_every_answer_keeps_what_it_says(signals: tuple[Array, Array], seed: int
         assert "reject" in told.statement or "something else is missing" in told.statement or "worse" in told.statement
     if told.word is Verdict.CANNOT_TELL:
         assert told.statement.startswith("It cannot be told")
+    if told.word is Verdict.MEASUREMENT_FAULT:
+        assert any(f.is_accepted and f.standing is not Standing.UNNAMED for f in told.found)
 
 
 def _agrees_only_within_the_noise(told: Answer) -> None:
