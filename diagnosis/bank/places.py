@@ -23,6 +23,8 @@ SCALES: Mapping[str, tuple[float, float]] = {
 
 #: Two coils always lie on a straight line: it says no more than that they differ.
 FEWEST_OF_A_GRADIENT = 3
+#: Places along a string, and strings, from which there is something between the ends.
+FEWEST_BETWEEN = 3
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,8 @@ def _of_kind(kind: PlaceKind, term: CandidateTerm, layout: BankLayout, measured:
             yield Place(kind, "all coils" if term.axis == "coil" else f"all {term.axis}s", np.ones(size))
     elif kind in ("row_gradient", "column_gradient"):
         yield from _gradient(kind, layout)
+    elif kind in ("column", "string_ends", "outer_strings", "edge"):
+        yield from _patterns(kind, layout)
     elif kind == "string" and term.axis == "coil":
         for s in range(len(layout.strings)):
             yield Place(kind, f"string[{s + 1}]", (layout.string_of_coil == s).astype(np.float64))
@@ -112,6 +116,26 @@ def _gradient(kind: PlaceKind, layout: BankLayout) -> Iterator[Place]:
     if place.max() > 0 and len(place) >= FEWEST_OF_A_GRADIENT:
         mask = 2.0 * place / place.max() - 1.0
         yield Place(kind, f"gradient over {'rows' if kind == 'row_gradient' else 'columns'}", mask - mask.mean())
+
+
+def _patterns(kind: PlaceKind, layout: BankLayout) -> Iterator[Place]:
+    """Coils that a rig treats alike: those at one place of every string, at the clamps, in the outer strings.
+
+    Where a string has two coils, or a rig two strings, all of them are ends: nothing lies between.
+    """
+    string, place = layout.string_of_coil, layout.place_in_string
+    last = np.array([place[string == s].max() for s in range(int(string.max()) + 1)])
+    is_long, is_wide = int(last.min()) + 1 >= FEWEST_BETWEEN, len(last) >= FEWEST_BETWEEN
+    is_end, is_outer = (place == 0) | (place == last[string]), (string == 0) | (string == len(last) - 1)
+    if kind == "column" and len(last) > 1:
+        for n in range(int(last.max()) + 1 if last.max() > 0 else 0):
+            yield Place(kind, f"place {n + 1} of every string", (place == n).astype(np.float64))
+    elif kind == "string_ends" and is_long:
+        yield Place(kind, "ends of the strings", is_end.astype(np.float64))
+    elif kind == "outer_strings" and is_wide:
+        yield Place(kind, "outer strings", is_outer.astype(np.float64))
+    elif kind == "edge" and is_long and is_wide:
+        yield Place(kind, "edge of the network", (is_end | is_outer).astype(np.float64))
 
 
 def coil_label(layout: BankLayout, coil: int) -> str:

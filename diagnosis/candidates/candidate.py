@@ -13,7 +13,20 @@ Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"
 #: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other; `powered`: all
 #: coils of a bank without a circuit, whose power is given.
 PlaceKind = Literal[
-    "coil", "string", "all", "powered", "row_gradient", "column_gradient", "supply", "channel", "quantity", "swap"
+    "coil",
+    "string",
+    "all",
+    "powered",
+    "row_gradient",
+    "column_gradient",
+    "column",
+    "string_ends",
+    "outer_strings",
+    "edge",
+    "supply",
+    "channel",
+    "quantity",
+    "swap",
 ]
 Axis = Literal["coil", "string", "source", "channel"]
 StateKind = Literal["continuous", "memory", "shared"]

@@ -24,12 +24,15 @@ CANDIDATE = CandidateTerm(
             negligible=0.02,
         ),
     ),
-    places=("row_gradient", "column_gradient"),
+    places=("row_gradient", "column_gradient", "column", "string_ends", "outer_strings", "edge"),
     fewest=3,
     lines={
         "heat": "conductance *= 1.0 + amount;",
     },
-    signature="Plateaus that rise or fall steadily across rows or columns; time constants with them.",
+    signature=(
+        "Plateaus that rise or fall steadily across rows or columns, or that differ at the clamps or the edge; time "
+        "constants with them."
+    ),
     confused_with={
         "base:conductance": "independent scatter has no pattern",
         "neighbour_heat": "strings powered one at a time decide",

@@ -21,7 +21,16 @@ _SECOND = "a coil that loses or gains twice what it loses at 30 K is another coi
 _THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
 #: A delay behind which a generic term acts: what is far slower than the coil itself is a drift.
 DELAY_REASON = "what is thirty times as slow as the coil is a drift over a recording"
-_PLACES: tuple[PlaceKind, ...] = ("all", "string", "coil", "row_gradient", "column_gradient")
+_PLACES: tuple[PlaceKind, ...] = (
+    "all",
+    "string",
+    "coil",
+    "row_gradient",
+    "column_gradient",
+    "string_ends",
+    "outer_strings",
+    "edge",
+)
 
 #: Variable: formula that makes it dimensionless (in C and in Python alike), and its name in words.
 VARIABLES: Mapping[str, tuple[str, str]] = {

@@ -18,7 +18,7 @@ _SOURCE += "Transitions, Springer 1996, chapter 2"
 _REASON = "size only: nothing is known about the sign of a law without a name"
 _PASSIVE = "it only takes energy"
 _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
-_EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient")
+_EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient", "string_ends", "outer_strings", "edge")
 _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON)
 _HEAT = "a coil that loses or gains twice what it loses at 30 K is another coil"
 _COOLING = Parameter(

@@ -76,7 +76,8 @@ def widest(terms: Sequence[Term]) -> list[Term]:
 
 
 def _width(place: str) -> int:
-    return 2 if place.startswith(("all ", "every ", "supply")) else 1 if place.startswith("gradient") else 0
+    is_pattern = place.startswith(("gradient", "ends ", "outer ", "edge ", "place "))
+    return 2 if place.startswith(("all ", "every ", "supply")) else 1 if is_pattern else 0
 
 
 def effects(model: Model, fit: Fit, terms: Sequence[Term]) -> tuple[list[Effect], list[Alike]]:

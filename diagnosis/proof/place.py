@@ -16,6 +16,9 @@ _GRADIENTS = {
     "gradient over rows": "row gradient", "gradient over columns": "column gradient", "row_gradient": "row gradient",
     "column_gradient": "column gradient",
 }  # fmt: skip
+#: Places that are several coils of a circuit.
+_PATTERNS = ("ends of the strings", "outer strings", "edge of the network")
+_COLUMN = re.compile(r"place (\d+) of every string$")
 _STRING = re.compile(r"string\[(\d+)\]$")
 _COIL = re.compile(r"coil\[([\d,]+)\]$")
 #: On which day alone an effect acts says nothing about where.
@@ -46,6 +49,22 @@ class Rig:
         if not self.is_circuit:
             return frozenset({f"coil[{number}]"})
         return frozenset(f"coil[{number},{n + 1}]" for n in range(self.strings[number - 1]))
+
+    def pattern(self, label: str) -> frozenset[str]:
+        """Coils at one place of every string, at the ends of strings, in the outer strings, or both."""
+        column, last = _COLUMN.match(label), len(self.strings) - 1
+        found = set()
+        for s, count in enumerate(self.strings):
+            for n in range(count):
+                is_end, is_outer = n in (0, count - 1), s in (0, last)
+                is_of = {
+                    "ends of the strings": is_end,
+                    "outer strings": is_outer,
+                    "edge of the network": is_end or is_outer,
+                }
+                if n == int(column[1]) - 1 if column else is_of[label]:
+                    found.add(f"coil[{s + 1},{n + 1}]")
+        return frozenset(found)
 
     def of_quantity(self, quantity: str) -> frozenset[str]:
         """Channels of one quantity; the current of the supply is a quantity of its own."""
@@ -81,6 +100,8 @@ def found_place(label: str, rig: Rig) -> frozenset[str]:
         return rig.of_quantity(label.removeprefix("every "))
     if " and " in label:
         return frozenset(part.strip() for part in label.split(" and "))
+    if label in _PATTERNS or _COLUMN.match(label):
+        return rig.pattern(label)
     string = _STRING.match(label)
     if string and int(string[1]) <= len(rig.strings):
         return rig.string(int(string[1]))

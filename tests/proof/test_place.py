@@ -19,6 +19,8 @@ from tests.proof.examples import BATH, RADIATION, SMALL
         ("supply", {"supply"}),
         ("all sources", {"supply"}),
         ("gradient over rows", {"row gradient"}),
+        ("ends of the strings", {"coil[1,1]", "coil[1,3]", "coil[2,1]", "coil[2,3]"}),
+        ("place 2 of every string", {"coil[1,2]", "coil[2,2]"}),
         ("every temperature", {"coil[1,1].temperature", "coil[2,3].temperature"}),
         ("every current", {"string[1].current"}),
         ("coil[1,1].temperature and coil[2,3].temperature", {"coil[1,1].temperature", "coil[2,3].temperature"}),
