@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             -0.1,
             0.1,
             "a room changes by kelvins within minutes",
+            meaning="rate of the room's temperature",
             plausible=0.05,
             plausible_reason="60 W warm the air under a hood of 1 m^3 (1.2 kJ/K) by 3 K in a minute",
             is_amplitude=True,

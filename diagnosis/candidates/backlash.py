@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.005,
             "a gap is positive",
+            meaning="play of the pin, from end to end",
             plausible=0.33,
             of="stretch",
             plausible_reason="with play of more than a third of its stretch the coil would hang loose to the eye",

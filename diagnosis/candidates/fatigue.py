@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.3,
             "cycling fades the effect; it never adds to it",
+            meaning="share of the rise of the stiffness that is lost in a full cycle",
             plausible=0.2,
             plausible_reason=(
                 "an overloaded wire loses a tenth or two in its first cycle, a trained one far less (Eggeler et "

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -5.0,
             5.0,
             "a few kelvins over the first cycles, either way",
+            meaning="shift of the transformation temperatures in a full cycle",
             plausible=4.0,
             plausible_reason=(
                 "untrained wire moves by some kelvins in a cycle, and by about 20 K in all (Eggeler et al. 2004)"

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             10.0,
             "transformation to austenite takes heat up and gives the same back",
+            meaning="heat that the whole transformation of one coil takes",
             plausible=40.0,
             of="capacity",
             plausible_reason=(

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             20.0,
             "metals gain resistance when they warm up",
+            meaning="resistance that the leads gain per square of the current",
             plausible=18.0,
             plausible_reason=(
                 "copper doubles over 250 K, where insulation ends: a cold lead of three coils (6.5 ohm) at 0.6 A"

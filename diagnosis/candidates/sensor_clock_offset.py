@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             -10.0,
             10.0,
             "clocks are set within seconds",
+            meaning="time by which the sensor's clock is late",
             plausible=5.0,
             plausible_reason="two loggers that one person starts one after the other are some seconds apart",
             is_amplitude=True,

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             -0.5,
             0.5,
             "a calibration is never off by more",
+            meaning="change of the sensor's factor: 0.01 reads 1 % too much",
             plausible=0.3,
             plausible_reason="a thermocouple of type J read as type K is off by 26 % (52 against 41 microvolt/K)",
             is_amplitude=True,

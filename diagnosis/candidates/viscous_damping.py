@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             10000.0,
             "damping only takes energy",
+            meaning="force of the dashpot per speed",
             plausible=20.0,
             of="stiffness",
             plausible_reason="a dashpot that holds a coil for 20 s; what is slower is creep",

@@ -32,6 +32,23 @@ class Standing(Enum):
 
 
 @dataclass(frozen=True)
+class Physical:
+    """A physical quantity with its 95 % interval.
+
+    Args:
+        unit: SI unit.
+        value: Estimate.
+        lower: Lower end.
+        upper: Upper end.
+    """
+
+    unit: str
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A parameter of a finding.
 
@@ -41,6 +58,10 @@ class Estimate:
         value: Estimate.
         lower: Lower end of the 95 % interval.
         upper: Upper end.
+        meaning: What it is, in words: a share, a factor or a change of what, or which physical quantity.
+        physical: The quantity that it stands for, where that is another: the bias of a sensor is counted in what its
+            channel typically reads. None: it is that quantity itself.
+        is_reading: Whether it is a reading and no change: 300 K are 27 degC then.
     """
 
     name: str
@@ -48,6 +69,9 @@ class Estimate:
     value: float
     lower: float
     upper: float
+    meaning: str = ""
+    physical: Physical | None = None
+    is_reading: bool = False
 
 
 @dataclass(frozen=True)
@@ -404,6 +428,8 @@ class Diagnosis:
         adequacy: How right the amended model is; None where no reading was left to judge.
         searched: What was searched.
         doubts: What the check of the recordings before the search stumbled over.
+        units: Units of channels and clocks as the user wrote them: terminal and report show quantities in them. All
+            numbers here are SI; each stands beside its unit.
     """
 
     verdict: Verdict
@@ -434,6 +460,7 @@ class Diagnosis:
     adequacy: Adequacy | None = None
     searched: Searched = Searched()
     doubts: tuple[Doubt, ...] = ()
+    units: tuple[str, ...] = ()
 
     @property
     def accepted(self) -> tuple[Finding, ...]:

@@ -16,6 +16,7 @@ from diagnosis.judge.diagnosis import (
     Estimate,
     Finding,
     Moved,
+    Physical,
     Searched,
     Standing,
     Verdict,
@@ -27,6 +28,7 @@ from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import raw_residuals
 from diagnosis.report.display import words
+from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
@@ -146,7 +148,9 @@ def bends_into(rival: Explanation, best: Explanation) -> bool:
     return all(t.is_named for t in best.terms) and not all(t.is_named for t in rival.terms)
 
 
-def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str]) -> tuple[Finding, ...]:
+def findings(
+    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str], units: Units = IN_SI
+) -> tuple[Finding, ...]:  # fmt: skip
     """Effects that were accepted, the largest gain first; then those that are suggested alone.
 
     Args:
@@ -154,6 +158,7 @@ def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles
         outcome: Of the search.
         accepted: What of it is accepted.
         titles: Of the training recordings.
+        units: In which sentences show quantities.
     """
     found = []
     for explanation, terms, is_accepted in (
@@ -161,13 +166,13 @@ def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles
         (accepted.headline, tuple(accepted.reasons), False),
     ):
         ordered = sorted(terms, key=lambda t: -explanation.gains.get(t, 0.0))
-        found += [_finding(model, outcome, accepted, explanation, t, is_accepted, titles) for t in ordered]
+        found += [_finding(model, outcome, accepted, explanation, t, is_accepted, titles, units) for t in ordered]
     return tuple(found)
 
 
 def _finding(
     model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str],
+    is_accepted: bool, titles: Sequence[str], units: Units,
 ) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
     fit = explanation.fit
@@ -175,10 +180,10 @@ def _finding(
     likely = _open_rivals(alternatives, term, accepted)
     effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
-    when = since(term, fit, model, doubt)
+    when = since(term, fit, model, doubt, units)
     found = estimates(fit, term, doubt, model.unseen(term))
     told = local_estimates(found, term, fit, model, doubt)
-    doubts = (*unidentified(term, fit, told), *implausible(term, fit.point.terms[term]))
+    doubts = (*unidentified(term, fit, told, units), *implausible(term, fit.point.terms[term], units))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
         doubts = (*doubts, unknown) if unknown else doubts
@@ -311,7 +316,12 @@ def estimates(fit: Fit, term: Term, doubt: float = 1.0, unseen: Sequence[float] 
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
         seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
         half = NORMAL_95 * float(np.hypot(seen, value * unseen[i] if unseen else 0.0))
-        found.append(Estimate(p.name, p.unit, value, max(value - half, p.lower), min(value + half, p.upper)))
+        lower, upper = max(value - half, p.lower), min(value + half, p.upper)
+        physical = None
+        if p.physical is not None:
+            factor, offset, unit = p.physical
+            physical = Physical(unit, *(factor * v + offset for v in (value, lower, upper)))
+        found.append(Estimate(p.name, p.unit, value, lower, upper, p.meaning, physical, p.is_reading))
     return tuple(found)
 
 

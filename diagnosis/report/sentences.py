@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Verdict
-from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
+from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, user_unit, words
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
+from diagnosis.report.user_units import IN_SI, Units
 
 #: What follows from a verdict.
 ADVICE = {
@@ -27,9 +28,9 @@ def where(finding: Finding) -> str:
     return f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
 
 
-def when(finding: Finding, most: int = 4) -> str:
+def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
     """Intervals of a finding, in the recording that shows it most."""
-    told = listed([span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
     return f"{told} of {clean(finding.recording)}" if finding.recording else told
 
 
@@ -114,10 +115,11 @@ def effort(diagnosis: Diagnosis) -> str:
     return f"{duration(diagnosis.seconds)}, {diagnosis.simulations} simulations, seed {diagnosis.seed}"
 
 
-def moved_text(moved: Moved) -> str:
+def moved_text(moved: Moved, units: Units = IN_SI) -> str:
     """How far a number was moved: by which factor, or what was added."""
     far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
-    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit)} ({far})"
+    preferred = user_unit(moved.unit, units.written)
+    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit, preferred)} ({far})"
 
 
 def doubt_text(doubt: Doubt) -> str:
