@@ -252,7 +252,7 @@ def _of_force() -> Iterator[CandidateTerm]:
             _amplitude(
                 "m",
                 0.005,
-                (0.165, "stretch", "half of the largest play that is believed"),
+                (0.135, "stretch", "half of the largest play that is believed"),
                 is_passive=True,
                 meaning="half of the play",
             ),
@@ -422,7 +422,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
             _amplitude(
                 "V/A^3",
                 20.0,
-                (18.0, "", "a cold lead of three coils that doubles over 250 K at 0.6 A"),
+                (4.4, "resistance", "a copper lead as resistive as the coil gains 70 % over 180 K, at 0.4 A"),
                 is_passive=True,
                 meaning="resistance that is gained per square of the current",
             ),

@@ -33,9 +33,9 @@ def test_a_person_finds_bounds_reason_and_starts_of_a_parameter():
         "sensor_lag"
     )
     assert (
-        "`C2` [J/K], 0.001 to 100: a heat capacity is positive; believed up to 30 times the coil's heat capacity"
-        in (section("second_mass"))
-    )
+        "`C2` [J/K], heat capacity of the second mass; 0.001 to 100: a heat capacity is positive; "
+        "believed up to 30 times the coil's heat capacity"
+    ) in section("second_mass")
     assert "- `other` [1]: given with the place" in section("wrong_identity")
     assert "- needs one of: current, voltage, power, resistance" in section("shared_supply_droop")
     assert "- needs at least 2 coils or heaters" in section("shared_supply_droop")
