@@ -144,7 +144,7 @@ def diagnose(
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     units = written_units([r.units for r in both])
-    found = doubted(findings(model, outcome, accepted, [r.title for r in training], units), doubts)
+    found = doubted(findings(model, outcome, accepted, [r.title for r in training], units, judge), doubts)
     tried = searched(model, scenario, means.without)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, readings, day)

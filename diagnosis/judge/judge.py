@@ -15,16 +15,19 @@ from diagnosis.judge.diagnosis import (
     Doubt,
     Estimate,
     Finding,
+    Member,
     Moved,
     Physical,
     Searched,
     Standing,
     Verdict,
+    class_places,
 )
 from diagnosis.judge.doubts import faults
 from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
+from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import raw_residuals
 from diagnosis.report.display import words
@@ -149,7 +152,8 @@ def bends_into(rival: Explanation, best: Explanation) -> bool:
 
 
 def findings(
-    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str], units: Units = IN_SI
+    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str], units: Units = IN_SI,
+    judge: DiagnosisModel | None = None,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """Effects that were accepted, the largest gain first; then those that are suggested alone.
 
@@ -159,6 +163,7 @@ def findings(
         accepted: What of it is accepted.
         titles: Of the training recordings.
         units: In which sentences show quantities.
+        judge: Model of the held-out recordings; None where there are none.
     """
     found = []
     for explanation, terms, is_accepted in (
@@ -166,18 +171,22 @@ def findings(
         (accepted.headline, tuple(accepted.reasons), False),
     ):
         ordered = sorted(terms, key=lambda t: -explanation.gains.get(t, 0.0))
-        found += [_finding(model, outcome, accepted, explanation, t, is_accepted, titles, units) for t in ordered]
+        found += [
+            _finding(model, outcome, accepted, explanation, t, is_accepted, titles, units, judge) for t in ordered
+        ]
     return tuple(found)
 
 
 def _finding(
     model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str], units: Units,
+    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None,
 ) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
     fit = explanation.fit
     alternatives, probability = _alternatives(outcome, accepted, term)
-    likely = _open_rivals(alternatives, term, accepted)
+    members = same_response(model, fit.point, term, judge)
+    likely = _class_of(term, members, _open_rivals(alternatives, term, accepted))
+    where = class_places(place.label, term.identifier, members)
     effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     when = since(term, fit, model, doubt, units)
@@ -189,7 +198,7 @@ def _finding(
         doubts = (*doubts, unknown) if unknown else doubts
     if not is_small(accepted):
         doubts = (*doubts, _much_left(accepted))
-    standing = standing_of(term, doubts, likely, is_trusted(outcome))
+    standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:
         begin, end = (v for p, v in zip(term.parameters, fit.point.terms[term]) if p.is_instant)
@@ -199,12 +208,12 @@ def _finding(
     return Finding(
         unit=term.unit,
         place=place.label,
-        elements=_elements(model, term),
+        elements=_class_elements(model, term, members),
         intervals=intervals,
         channels=_channels(model, effect),
         effect=term.identifier,
         is_named=standing is not Standing.UNNAMED,
-        statement=statement(candidate.name, place.label, standing, likely) + (f", {when}" if when else ""),
+        statement=statement(candidate.name, where, standing, likely) + (f", {when}" if when else ""),
         law=candidate.law,
         parameters=told,
         gain=explanation.gains.get(term, 0.0),
@@ -217,7 +226,21 @@ def _finding(
         doubts=(*accepted.reasons.get(term, ()), *doubts),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
+        members=members,
     )
+
+
+def _class_of(term: Term, members: Sequence[Member], rivals: Sequence[str]) -> tuple[str, ...]:
+    """Other effects of a finding's class: those that respond the same, named ones first, then those within the odds."""
+    alike = sorted((m for m in members if m.effect != term.identifier), key=lambda m: not m.is_named)
+    return tuple(dict.fromkeys([*(m.effect for m in alike), *rivals]))
+
+
+def _class_elements(model: DiagnosisModel, term: Term, members: Sequence[Member]) -> tuple[str, ...]:
+    """Elements concerned by a finding or by any member of its class."""
+    every = {(t.identifier, model.where(t)[1].label): t for t in model.terms()} if members else {}
+    found = [term, *(every[m.effect, m.place] for m in members)]
+    return tuple(dict.fromkeys(element for t in found for element in _elements(model, t)))
 
 
 def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:

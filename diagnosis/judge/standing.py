@@ -19,7 +19,9 @@ AT_BOUND = 1e-9
 UNKNOWN_SHARE = 0.9
 
 
-def standing_of(term: Term, doubts: Sequence[str], rivals: Sequence[str], is_trusted: bool) -> Standing:
+def standing_of(
+    term: Term, doubts: Sequence[str], rivals: Sequence[str], is_trusted: bool, has_named_twin: bool = False
+) -> Standing:  # fmt: skip
     """How far a finding may be called by its name.
 
     Args:
@@ -27,8 +29,9 @@ def standing_of(term: Term, doubts: Sequence[str], rivals: Sequence[str], is_tru
         doubts: Why its parameters are not identified, or its size is not believed.
         rivals: Other effects that explain the readings with odds of more than 1 to 20.
         is_trusted: Whether what is left is small enough for any name.
+        has_named_twin: Whether a law with a name predicts the same: then a law without one is of a class with it.
     """
-    if not term.is_named or doubts or not is_trusted:
+    if not (term.is_named or has_named_twin) or doubts or not is_trusted:
         return Standing.UNNAMED
     return Standing.CLASS if rivals else Standing.NAMED
 

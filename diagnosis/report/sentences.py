@@ -24,8 +24,8 @@ ADVICE = {
 
 def where(finding: Finding) -> str:
     """Unit, place, and elements unless the place names them."""
-    elements = listed([e for e in finding.elements if e != finding.place], 6)
-    return f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
+    elements = listed([e for e in finding.elements if e not in finding.places.split(" or ")], 6)
+    return f"{finding.unit}: {clean(finding.places)}" + (f" ({elements})" if elements else "")
 
 
 def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
@@ -46,6 +46,11 @@ def what(finding: Finding) -> str:
 
 def ambiguity(finding: Finding) -> str:
     """What the data cannot tell from a finding."""
+    if finding.members:
+        told = [f"{words(m.effect)} at {clean(m.place)}" for m in finding.members]
+        others = [words(e) for e in finding.ambiguous_with if e not in {m.effect for m in finding.members}]
+        more = f" Nor from: {listed(others, 6)}." if others else ""
+        return f"The recorded channels show the same of: {listed(told, 6)}.{more}"
     if not finding.ambiguous_with:
         return "Every other effect that was fitted in its place has odds of less than 1 to 20."
     return f"The recordings cannot tell it from: {listed([words(e) for e in finding.ambiguous_with], 6)}."

@@ -113,7 +113,7 @@ def _finding(order: int, finding: Finding, width: int, units: Units) -> Iterator
     yield from _wrapped("         ", "; ".join(told), width, 3)
     for doubt in finding.doubts[:_STATEMENTS]:
         yield from _wrapped("  why not" if not finding.is_accepted else "  doubt  ", f" {doubt}", width, 3)
-    if finding.ambiguous_with:
+    if finding.ambiguous_with or finding.members:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))
 
