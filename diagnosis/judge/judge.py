@@ -53,7 +53,7 @@ DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 #: Chi-square per reading below which errors of the model are smaller than the noise; share of what recalibration
 #: leaves that may stay where they are larger.
 BURIED, MOST_LEFT = 2.0, 0.1
-#: A parameter that moved by more prior deviations than this is told.
+#: A parameter that moved by more prior deviations than this is reported.
 MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0

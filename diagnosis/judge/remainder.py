@@ -13,7 +13,7 @@ from diagnosis.search.problem import Layout
 from diagnosis.search.structure import Structure, structure
 from diagnosis.simulator.runs import deviation
 
-#: Channels and groups that are told.
+#: Channels and groups that are reported.
 _TOLD = 8
 
 

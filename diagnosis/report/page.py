@@ -35,7 +35,7 @@ from diagnosis.report.user_units import Units
 
 #: Looks of the page; no font and no picture comes from elsewhere.
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
-#: Windows in which something is left that are told at the top.
+#: Windows in which something is left that are shown at the top.
 _LEFT = 3
 #: Forbids the page to load anything, whatever a recording's title says.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"

@@ -1,4 +1,4 @@
-"""What is told where nothing is accepted: what is left or suggested, why it is open, and what would decide."""
+"""What is said where nothing is accepted: what is left or suggested, why it is open, and what would decide."""
 
 from __future__ import annotations
 
