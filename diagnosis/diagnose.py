@@ -39,6 +39,7 @@ from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
+from diagnosis.report.user_units import written_units
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
@@ -142,7 +143,8 @@ def diagnose(
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
-    found = doubted(findings(model, outcome, accepted, [r.title for r in training]), doubts)
+    units = written_units([r.units for r in both])
+    found = doubted(findings(model, outcome, accepted, [r.title for r in training], units, judge), doubts)
     tried = searched(model, scenario, means.without)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, readings, day)
@@ -158,7 +160,7 @@ def diagnose(
     first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
-        statement=headline(word, found, right, why_open(outcome, found, right, tried), doubts),
+        statement=headline(word, found, right, why_open(outcome, found, right, tried), doubts, units),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
@@ -178,11 +180,12 @@ def diagnose(
         scenario=str(scenario.path or scenario.title),
         recordings=used(training, held_out),
         spread=spread_over_recordings(fits),
-        left=remainders(left, model.layout, model.groups()),
+        left=remainders(left, model.layout, model.groups(), [s.channel for run in model.runs for s in run.series]),
         next_experiment=experiment,
         adequacy=right,
         searched=tried,
         doubts=doubts,
+        units=units.written,
     )
     return Found(diagnosis, model, judge, points, carried)
 
@@ -220,6 +223,7 @@ def _unsearched(
         spread=spread_over_recordings(fits),
         searched=Searched(untried=("nothing was searched: the recordings come first",)),
         doubts=doubts,
+        units=written_units([r.units for r in (*training, *held_out)]).written,
     )
     return Found(diagnosis, model, judge, points, carried)
 

@@ -18,12 +18,12 @@ from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
-from diagnosis.search.validation import Foretold, Validation, chosen
+from diagnosis.search.validation import Validated, Validation, chosen
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 
-#: What was found is reckoned again if it leaves errors whose variance is larger than was told by this factor.
+#: What was found is fitted again if it leaves errors whose variance is larger than was assumed by this factor.
 FAR = 2.0
 #: Models carried forward, best-scored terms refitted and terms at most: with few readings of their own, a wider search.
 BEAM, REFITS, MOST_TERMS = 3, 8, 4
@@ -31,17 +31,17 @@ BEAM, REFITS, MOST_TERMS = 3, 8, 4
 MANY = 1_000_000
 #: Rivals of what the first search found that are weighed then.
 WEIGHED = 4
-#: Terms that are tried in the place of each term that was found, so that what may be exchanged is told.
+#: Terms that are tried in the place of each term that was found, so that what may be exchanged is known.
 EXCHANGED = 4
 
 
 def search_with_model_error(
     model: DiagnosisModel, settings: Settings, on_progress: Callable[[str], None] = lambda text: None
 ) -> tuple[Outcome, DiagnosisModel]:
-    """Search; where even the model that is found is wrong by more than noise, search again and be told so.
+    """Search; where even the model that is found is wrong by more than noise, search again with larger errors.
 
     The readings of a real rig are met far worse than their noise. Then the likelihood is tempered by what the most
-    general model leaves, and terms are chosen by how well they foretell stretches of the training that they were not
+    general model leaves, and terms are chosen by how well they predict stretches of the training that they were not
     fitted to. Where noise is all that is left, nothing of this happens.
 
     Args:
@@ -72,7 +72,7 @@ def search_with_model_error(
     larger = _pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
         found = TemperedModel(model, np.maximum(factor, larger))
-        outcome = _reckoned(found, outcome)
+        outcome = _refitted(found, outcome)
     return _with_faults(found, outcome, faults) if faults else (outcome, found)
 
 
@@ -111,10 +111,10 @@ def _with_faults(
     return _settled(whole, outcome, recalibrate(whole), best, near), whole
 
 
-def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
+def _refitted(model: TemperedModel, outcome: Outcome) -> Outcome:
     """What was found with larger errors: intervals grow, and terms that are not earned any more go.
 
-    It is not searched again: which laws foretell does not hang on the size of the errors, and with larger ones the
+    It is not searched again: which laws predict does not hang on the size of the errors, and with larger ones the
     search would stop earlier, leave more, and so on.
     """
     base = recalibrate(model)
@@ -124,9 +124,9 @@ def _reckoned(model: TemperedModel, outcome: Outcome) -> Outcome:
 
 
 def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
-    """Search plain laws, and all where none of them foretells better; take what foretells best."""
+    """Search plain laws, and all where none of them predicts better; take what predicts best."""
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
-    known: list[Foretold] = []
+    known: list[Validated] = []
     outcomes = []
     every = distinct(model, model.terms())
     plain = plain_terms(model, every)
@@ -148,7 +148,7 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
 
 
 def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], None]) -> Outcome:
-    """Of what the first search found, the part that foretells: its terms and every choice of them, and its rivals."""
+    """Of what the first search found, the part that predicts: its terms and every choice of them, and its rivals."""
     margin = first.margin
     terms = first.best.terms
     points = [
@@ -164,7 +164,7 @@ def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], 
     known = []
     on_progress("validating explanations by stretches of time that they were not fitted to")
     for explanation in counted(fitted, "explanations validated"):
-        known.append(validation.foretold(explanation))
+        known.append(validation.validated(explanation))
     plain = plain_terms(model, [t for e in fitted for t in e.terms])
     best = shrink(model, chosen(known, set(plain), margin).explanation, margin)
     return _settled(model, first, base, best, [e for e in fitted if len(e.terms) == len(best.terms)])

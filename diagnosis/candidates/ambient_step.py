@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             -30.0,
             30.0,
             "a door, a lamp, an air conditioner",
+            meaning="change of the room's temperature",
             plausible=5.0,
             plausible_reason=(
                 "a window that is opened mixes a fifth of the room's air with air 25 K colder: 5 K; no room "

@@ -18,9 +18,13 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.005,
             "a gap is positive",
-            plausible=0.33,
+            meaning="play of the pin, from end to end",
+            plausible=0.27,
             of="stretch",
-            plausible_reason="with play of more than a third of its stretch the coil would hang loose to the eye",
+            plausible_reason=(
+                "an eye is as wide as its coil, at most 12 wires of 0.3 mm (spring index, Shigley, chapter 10), and "
+                "a pin fills half of that: 1.65 mm where the paper's coil stretches by 6.2 mm"
+            ),
             is_amplitude=True,
             negligible=2e-5,
         ),

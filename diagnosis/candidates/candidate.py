@@ -32,6 +32,7 @@ Axis = Literal["coil", "string", "source", "channel"]
 StateKind = Literal["continuous", "memory", "shared"]
 #: `rig`: what sets in lasts, in later recordings too. `day`: it belongs to one day, and other days do not have it.
 Scope = Literal["rig", "day"]
+Physical = Literal["", "change", "rate", "reading"]
 
 #: Hooks over one axis each, in the order in which a step comes to them.
 HOOK_AXES: Mapping[str, Axis] = {
@@ -77,6 +78,9 @@ class Parameter:
         origin: See there.
         count: How many values are tried; 0: as the rule says.
         starts_reason: Why the values to start from do not follow the rule.
+        meaning: What the number is, in words: which physical quantity, or a share, a factor or a change of what.
+        physical: Where it is counted in what its channel typically reads: the `change` of a reading, its `rate` per
+            minute or a `reading` above the pivot that it stands for. A report shows that, in the channel's unit.
     """
 
     name: str
@@ -96,6 +100,8 @@ class Parameter:
     origin: float = 0.0
     count: int = 0
     starts_reason: str = ""
+    meaning: str = ""
+    physical: Physical = ""
 
     @property
     def is_instant(self) -> bool:
@@ -141,6 +147,8 @@ class Parameter:
             raise ValueError(f"{self.name}: start values must be given within its bounds, not {outside}")
         if not (self.is_fixed or self.is_instant) and not (0.0 < self.plausible < math.inf and self.plausible_reason):
             raise ValueError(f"{self.name}: say how large it can be on a real rig, and why")
+        if self.is_instant and not self.meaning:
+            object.__setattr__(self, "meaning", "when it sets in")
         if not self.starts:
             object.__setattr__(self, "starts", self.tried())
         if not self.starts:

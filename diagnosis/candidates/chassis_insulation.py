@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.95,
             "a covered surface loses less heat, and never none",
+            meaning="share of the heat transfer (h A) that is held back",
             plausible=0.8,
             plausible_reason=(
                 "10 mm of still air (0.026 W/(m K)) before the surface still pass 2.6 W/(m^2 K), a fifth of the "

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             50.0,
             "passive: a contact gives no energy",
+            meaning="resistance of the contact, in series with the string",
             plausible=3.0,
             of="resistance",
             plausible_reason="a contact that takes the heat of three coils on its small surface burns or opens",

@@ -58,9 +58,10 @@ C lines act at hooks. A step comes to them in this order; every parameter is a n
 _ADD = """## A candidate of your own
 
 1. Copy the file that is nearest in kind and rename it; `identifier` is the file's name.
-2. Write the law, its source, the parameters with bounds and the reason for them (passivity or sign), the largest size
-   that is believed of a real rig and why (`plausible`), which quantities must be measured to tell the law from heat or
-   from motion (`needs`, by default those of its unit), how many coils it takes (`fewest`), and the lines.
+2. Write the law, its source, the parameters with bounds and the reason for them (passivity or sign), what each number
+   is (`meaning`: a share, a factor or a change of what, or which physical quantity), the largest size that is believed
+   of a real rig and why (`plausible`), which quantities must be measured to tell the law from heat or from motion
+   (`needs`, by default those of its unit), how many coils it takes (`fewest`), and the lines.
    Write a term so that strength 0 changes no bit: `x += a * ...` or `x *= 1.0 + a * ...`.
 3. A loss of heat belongs into `conductance`, which the step solves exactly, rather than into `heat`.
 4. `python -m pytest tests/diagnosis_bank` tries it: formula, zero, what it moves, passivity. Add a closed form of its
@@ -76,12 +77,12 @@ def _parameter(p: Parameter) -> str:
     if p.is_fixed:
         return f"`{p.name}` [{p.unit}]: given with the place"
     if p.is_instant:
-        return f"`{p.name}` [{p.unit}]: {p.reason}; tried from instants spread over it"
+        return f"`{p.name}` [{p.unit}], {p.meaning}: {p.reason}; tried from instants spread over it"
     starts = ", ".join(_number(v) for v in p.starts)
     starts += f" ({p.starts_reason})" if p.starts_reason else ""
     small = f"; below {_number(p.negligible)} it is no finding" if p.negligible else ""
     bounds = f"{_number(p.lower)} to {_number(p.upper)}: {p.reason}"
-    return f"`{p.name}` [{p.unit}], {bounds}; {_limit(p)}; tried from {starts}{small}"
+    return f"`{p.name}` [{p.unit}], {p.meaning}; {bounds}; {_limit(p)}; tried from {starts}{small}"
 
 
 def _limit(p: Parameter) -> str:

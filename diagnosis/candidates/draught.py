@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -0.8,
             5.0,
             "heat transfer stays positive",
+            meaning="change of the heat transfer after the instant, as a share of h A",
             plausible=4.0,
             plausible_reason=(
                 "free air carries 10, a fan in a room 50 W/(m^2 K): fivefold (Incropera et al., table 1.1: 2 to "

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.95,
             "between none and nearly all of the material",
+            meaning="share of the rise of the stiffness that is missing",
             plausible=0.6,
             plausible_reason="a coil of which more than half never transforms is no actuator",
             is_amplitude=True,

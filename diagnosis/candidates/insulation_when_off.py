@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.95,
             "heat transfer stays positive",
+            meaning="share of the heat transfer (h A) that is held back while the power is off",
             plausible=0.8,
             plausible_reason=(
                 "a fan that runs with the power raises h from 10 to 50 W/(m^2 K) (Incropera et al., table 1.1): "

@@ -18,11 +18,12 @@ CANDIDATE = CandidateTerm(
             0.0,
             10.0,
             "transformation to austenite takes heat up and gives the same back",
+            meaning="heat that the whole transformation of one coil takes",
             plausible=40.0,
             of="capacity",
             plausible_reason=(
-                "NiTi takes 20 to 28 J/g at a specific heat of 0.84 J/(g K): 24 to 33 K times the heat capacity;"
-                " a fifth more is allowed"
+                "NiTi takes 20 to 30 J/g (Otsuka and Wayman 1998) at a specific heat of 0.84 J/(g K): 24 to 36 K "
+                "times the heat capacity; a tenth more for the error of a calorimeter"
             ),
             is_amplitude=True,
         ),

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             10000.0,
             "passive: a contact gives no energy",
+            meaning="resistance of the contact after the instant, in series with the string",
             plausible=10000.0,
             plausible_reason="an open contact is believed",
             starts=(0.14, 0.66, 3.06),

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.5,
             "heat flows from hot to cold",
+            meaning="heat transfer between coil and second mass",
             plausible=10.0,
             of="conductance",
             plausible_reason=(
@@ -32,6 +33,7 @@ CANDIDATE = CandidateTerm(
             0.001,
             100.0,
             "a heat capacity is positive",
+            meaning="heat capacity of the second mass",
             plausible=30.0,
             of="capacity",
             plausible_reason=(
@@ -44,6 +46,7 @@ CANDIDATE = CandidateTerm(
             1e-6,
             0.5,
             "heat flows from hot to cold; without loss it is a second mass",
+            meaning="heat transfer from the second mass to the surroundings",
             plausible=10.0,
             of="conductance",
             plausible_reason=(

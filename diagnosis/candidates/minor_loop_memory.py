@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "0 is the play operator; at most 1, so that the outer loop stays as it is",
+            meaning="share of the branch's own slope that the stiffness has inside the loop",
             plausible=0.9,
             plausible_reason=(
                 "measured minor loops of NiTi are less steep than the branches (Visintin, chapter III); at 1 "

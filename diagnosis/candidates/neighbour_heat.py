@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.1,
             "heat flows from hot to cold",
+            meaning="heat transfer between coils that touch",
             plausible=3.0,
             of="conductance",
             plausible_reason=(

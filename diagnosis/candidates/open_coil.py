@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "1 is a clean break, less a wire that is partly torn",
+            meaning="share of the coil's conductance that is lost: 1 is a clean break",
             plausible=1.0,
             plausible_reason="a clean break",
             starts=(1.0, 0.9, 0.5),

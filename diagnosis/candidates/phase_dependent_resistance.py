@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -0.5,
             0.5,
             "resistance stays positive; NiTi about -0.13 (0.89 against 1.02 microohm m)",
+            meaning="change of the resistance from martensite to austenite, as a share of the reference resistance",
             plausible=0.3,
             plausible_reason="NiTi about -0.13, with an R-phase to -0.25 (Novak et al. 2008)",
             is_amplitude=True,

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.02,
             "emissivity from 0 to 1 times the surface: heat flows from hot to cold",
+            meaning="area times emissivity",
             plausible=0.5,
             of="conductance",
             plausible_reason=(

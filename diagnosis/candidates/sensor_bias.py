@@ -15,6 +15,8 @@ CANDIDATE = CandidateTerm(
             -5.0,
             5.0,
             "larger ones are seen by eye",
+            meaning="change of every reading, as a share of what the channel typically reads",
+            physical="change",
             plausible=1.0,
             plausible_reason="10 K, 0.1 A or 1 mm are seen before a run begins",
             is_amplitude=True,

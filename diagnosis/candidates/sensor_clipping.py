@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "1: clipped",
+            meaning="factor 0 or 1: whether the readings are clipped",
             plausible=1.0,
             plausible_reason="clipped or not",
             is_amplitude=True,
@@ -26,6 +27,8 @@ CANDIDATE = CandidateTerm(
             -20.0,
             50.0,
             "in scales above the pivot",
+            meaning="reading at which it clips, as a factor of what the channel typically reads",
+            physical="reading",
             plausible=10.0,
             plausible_reason=(
                 "100 K, 1 A or 10 mm above the pivot: the range of common sensors; where readings are at hand, "

@@ -15,8 +15,12 @@ CANDIDATE = CandidateTerm(
             -10.0,
             10.0,
             "clocks are set within seconds",
+            meaning="time by which the sensor's clock is late",
             plausible=5.0,
-            plausible_reason="two loggers that one person starts one after the other are some seconds apart",
+            plausible_reason=(
+                "two quartz clocks of 20 ppm that are set each morning part by 3.5 s in the day; loggers that one "
+                "person starts by hand one after the other are as far apart"
+            ),
             is_amplitude=True,
             negligible=0.05,
         ),

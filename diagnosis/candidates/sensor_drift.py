@@ -15,6 +15,8 @@ CANDIDATE = CandidateTerm(
             -5.0,
             5.0,
             "larger ones are seen by eye",
+            meaning="change of the reading in a minute, as a share of what the channel typically reads",
+            physical="rate",
             plausible=0.1,
             plausible_reason="1 K or 0.1 mm in a minute: no sensor in order does more while it is looked at",
             is_amplitude=True,

@@ -15,8 +15,12 @@ CANDIDATE = CandidateTerm(
             -0.5,
             0.5,
             "a calibration is never off by more",
+            meaning="change of the sensor's factor: 0.01 reads 1 % too much",
             plausible=0.3,
-            plausible_reason="a thermocouple of type J read as type K is off by 26 % (52 against 41 microvolt/K)",
+            plausible_reason=(
+                "a thermocouple of type J read as type K is off by 28 % (51.7 against 40.5 microvolt/K at 25 degC, "
+                "NIST Monograph 175); yellow is K in ANSI MC96.1 and J in BS 1843"
+            ),
             is_amplitude=True,
             negligible=0.003,
         ),

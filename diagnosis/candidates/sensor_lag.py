@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             60.0,
             "a sensor follows, it does not foresee",
+            meaning="time constant of the sensor",
             plausible=30.0,
             plausible_reason=(
                 "a sheathed thermocouple of 3 mm in still air has some tens of seconds (Doebelin, section 3.3); "

@@ -19,6 +19,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.5,
             "a passive supply gives way, it does not push",
+            meaning="share of every coil's power that is lost per watt of all coils together",
             plausible=0.2,
             plausible_reason="2 R / V0^2 of 5 V behind 2.5 ohm: a USB port at the end of a long cable",
             is_amplitude=True,

@@ -21,6 +21,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "part of the surface that is covered, from none to all",
+            meaning="share of the coil's heat transfer that goes through the layer",
             plausible=1.0,
             plausible_reason="a coil can be covered wholly",
             is_amplitude=True,
@@ -31,6 +32,7 @@ CANDIDATE = CandidateTerm(
             0.0001,
             0.5,
             "heat flows from hot to cold",
+            meaning="heat transfer from the coil to the layer",
             plausible=30.0,
             of="conductance",
             plausible_reason=(
@@ -43,6 +45,7 @@ CANDIDATE = CandidateTerm(
             0.001,
             100.0,
             "a heat capacity is positive",
+            meaning="heat capacity of the layer",
             plausible=10.0,
             of="capacity",
             plausible_reason="a layer of ten times the coil's capacity is thicker than the wire: a body of its own",

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "share of the turns that are bridged",
+            meaning="share of the coil's resistance that is bridged",
             plausible=1.0,
             plausible_reason="a coil can be bridged wholly",
             starts=(1.0, 0.5, 0.25),

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             5.0,
             "friction only takes energy",
+            meaning="force that friction holds, of either direction",
             plausible=0.5,
             of="load",
             plausible_reason="dry metal has a coefficient of 0.5: even the whole load as normal force holds no more",

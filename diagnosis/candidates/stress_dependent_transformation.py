@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             40.0,
             "stress favours martensite, so the temperatures rise",
+            meaning="shift of the transformation temperatures per newton",
             plausible=30.0,
             of="per_load",
             plausible_reason=(

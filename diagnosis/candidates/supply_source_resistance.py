@@ -17,6 +17,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             20.0,
             "passive: it turns current into heat outside the coils",
+            meaning="inner resistance of the supply",
             plausible=2.0,
             of="resistance",
             plausible_reason="a supply that loses more than two coils take drives no network",

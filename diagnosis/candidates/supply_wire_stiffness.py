@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             300.0,
             "a spring that stores what it takes",
+            meaning="spring constant of the wires",
             plausible=0.5,
             of="stiffness",
             plausible_reason=(
@@ -29,6 +30,7 @@ CANDIDATE = CandidateTerm(
             -0.05,
             0.05,
             "extension at which the wires are slack",
+            meaning="extension at which the wires pull with no force",
             plausible=1.0,
             of="stretch",
             plausible_reason="the wires are slack somewhere on the coil's way",

@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.05,
             "free convection rises with the temperature difference; heat flows from hot to cold",
+            meaning="change of the heat transfer per kelvin above the surroundings, as a share of h A",
             plausible=0.02,
             plausible_reason=(
                 "h rises at most with dT**n, n = 1/3 (turbulent, Churchill and Chu): at dT = 25 K the straight "

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             -0.003,
             0.006,
             "resistance stays positive from 100 K to 600 K; pure metals reach 4e-3",
+            meaning="change of the resistance per kelvin, as a share of the reference resistance",
             plausible=0.0045,
             plausible_reason="tungsten 4.5e-3, copper 3.9e-3, NiTi 1e-3 at most",
             is_amplitude=True,

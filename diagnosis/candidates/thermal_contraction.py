@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -0.0002,
             0.0002,
             "expansion of metals or a two-way effect, either sign",
+            meaning="change of the length per kelvin, positive where it shrinks",
             plausible=0.01,
             of="stretch",
             plausible_reason=(

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             0.9,
             "the component along the coil is never more than the weight",
+            meaning="share of the load that does not pull along the coil",
             plausible=0.3,
             plausible_reason="a stand that leans by 45 degrees is seen: 1 - cos(45 degrees)",
             is_amplitude=True,

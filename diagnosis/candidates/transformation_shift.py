@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -30.0,
             30.0,
             "a batch differs by some kelvins",
+            meaning="shift of the transformation temperatures",
             plausible=20.0,
             plausible_reason="neighbouring alloys of one series (70 and 90 degC wires)",
             is_amplitude=True,

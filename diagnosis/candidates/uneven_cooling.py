@@ -18,6 +18,7 @@ CANDIDATE = CandidateTerm(
             -0.6,
             0.6,
             "heat transfer stays positive at every coil",
+            meaning="change of the heat transfer, as a share of h A",
             plausible=0.5,
             plausible_reason="edges that lose three times as much as the middle: (1 + 0.5) / (1 - 0.5)",
             is_amplitude=True,

@@ -20,6 +20,8 @@ _REASON = "size only: nothing is known about the sign of a law without a name"
 _SECOND = "a coil that loses or gains twice what it loses at 30 K is another coil"
 _THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
 #: A delay behind which a generic term acts: what is far slower than the coil itself is a drift.
+#: Amplitudes are what is there where the function of the variables is 1.
+AT_SCALE = " where the variables are at their scales"
 DELAY_REASON = "what is thirty times as slow as the coil is a drift over a recording"
 _PLACES: tuple[PlaceKind, ...] = (
     "all",
@@ -69,6 +71,7 @@ class Target:
         plausible: Its largest size that is believed, as a multiple of `of`.
         of: Name of a scale of the rig.
         plausible_reason: Why.
+        meaning: What the amplitude is.
         single: Variable to forms of it. What a base parameter or a named candidate is already is left out: heat linear
             in the excess is h A, resistance linear in it the temperature coefficient.
         products: Pairs of variables.
@@ -84,6 +87,7 @@ class Target:
     plausible: float
     of: str
     plausible_reason: str
+    meaning: str
     single: Mapping[str, tuple[str, ...]]
     products: tuple[tuple[str, str], ...]
     delayed: tuple[str, ...]
@@ -92,6 +96,7 @@ class Target:
 TARGETS: Mapping[str, Target] = {
     "heat": Target(
         "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, 1.0, "heat", _SECOND,
+        "change of the heat into a coil" + AT_SCALE,
         {
             "excess": ("square", "cube", "saturating"), "power": ("square", "saturating"),
             "rate": ("linear", "absolute"), "time": ("linear", "square"),
@@ -105,6 +110,7 @@ TARGETS: Mapping[str, Target] = {
     "resistance": Target(
         "electrical", "resistance", "R += a * reference_resistance * ({phi});",
         "R = R_0 + a * reference_resistance * ({phi})", "1", 0.5, 0.3, "", _THIRD,
+        "change of the resistance, as a share of the reference resistance," + AT_SCALE,
         {
             "excess": ("square", "saturating"), "rate": ("linear",), "time": ("linear", "square"),
             "energy": ("linear", "saturating"), "stretch": ("linear", "square"), "power": ("linear",),
@@ -115,7 +121,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "stiffness": Target(
         "stiffness", "stiffness", "added += a * ({phi});", "stiffness = stiffness_0 + a * ({phi})", "N/m", 100.0,
-        0.3, "stiffness", _THIRD,
+        0.3, "stiffness", _THIRD, "change of the stiffness" + AT_SCALE,
         {
             "excess": ("linear", "square"), "rate": ("linear",), "time": ("linear",), "energy": ("linear",),
             "stretch": ("linear", "square"), "power": ("linear",), "phase": ("linear", "square"), "pull": ("linear",),
@@ -125,7 +131,7 @@ TARGETS: Mapping[str, Target] = {
     ),
     "length": Target(
         "mechanical", "length", "extension += a * ({phi});", "extension = extension_0 + a * ({phi})", "m", 0.01,
-        0.3, "stretch", _THIRD,
+        0.3, "stretch", _THIRD, "change of the extension" + AT_SCALE,
         {
             "excess": ("square",), "rate": ("linear",), "time": ("linear", "square"), "energy": ("linear",),
             "power": ("linear",), "phase": ("linear", "square"), "stretch": ("square",), "pull": ("square",),
@@ -140,7 +146,7 @@ def _term(equation: str, name: str, phi: str, words: str, delay: Parameter | Non
     target = TARGETS[equation]
     amplitude = Parameter(
         "a", target.amplitude, -target.bound, target.bound, _REASON, is_amplitude=True,
-        plausible=target.plausible, of=target.of, plausible_reason=target.plausible_reason,
+        plausible=target.plausible, of=target.of, plausible_reason=target.plausible_reason, meaning=target.meaning,
     )  # fmt: skip
     lines = {target.hook: target.line.format(phi="delayed" if delay else phi)}
     law = target.law.format(phi="delayed" if delay else phi.replace("fabs", "abs"))
@@ -172,7 +178,15 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
         phi = f"({VARIABLES[one][0]}) * ({VARIABLES[other][0]})"
         yield _term(equation, f"{one}_times_{other}", phi, f"{VARIABLES[one][1]} times {VARIABLES[other][1]}")
     tau = Parameter(
-        "tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON
+        "tau",
+        "s",
+        0.05,
+        1e4,
+        "a delay is positive",
+        plausible=30.0,
+        of="time",
+        plausible_reason=DELAY_REASON,
+        meaning="time constant of the delay",
     )
     for variable in target.delayed:
         formula, words = VARIABLES[variable]
@@ -184,6 +198,7 @@ def _between_neighbours() -> CandidateTerm:
     amplitude = Parameter(
         "a", "W", 0.0, 3.0, "heat flows from hot to cold", is_amplitude=True,
         plausible=3.0, of="heat", plausible_reason="coils that touch pass less than a few times what they lose",
+        meaning="heat between two coils that touch, at a difference of 30 K",
     )  # fmt: skip
     return CandidateTerm(
         identifier="unnamed_heat_neighbour",

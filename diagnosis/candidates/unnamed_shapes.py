@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
-from diagnosis.candidates.unnamed import DELAY_REASON, VARIABLES
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, Physical, PlaceKind, State, Unit
+from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, VARIABLES
 
 _SOURCE = "J. H. Friedman, Annals of Statistics 19 (1991) 1-67; M. Brokate and J. Sprekels, Hysteresis and Phase "
 _SOURCE += "Transitions, Springer 1996, chapter 2"
@@ -19,14 +19,25 @@ _REASON = "size only: nothing is known about the sign of a law without a name"
 _PASSIVE = "it only takes energy"
 _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 _EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient", "string_ends", "outer_strings", "edge")
-_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON)
+_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
+    meaning="time constant of the delay")  # fmt: skip
 _HEAT = "a coil that loses or gains twice what it loses at 30 K is another coil"
 _COOLING = Parameter(
-    "a", "W", -0.2, 2.0, "cooling stays cooling", is_amplitude=True, plausible=1.0, of="heat", plausible_reason=_HEAT
+    "a",
+    "W",
+    -0.2,
+    2.0,
+    "cooling stays cooling",
+    is_amplitude=True,
+    plausible=1.0,
+    of="heat",
+    plausible_reason=_HEAT,
+    meaning="change of the heat out of a coil, 30 K above the surroundings",
 )
 _THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
 _HALF = "what holds more than half of the load lets nothing move"
 _SERIES = "a contact that takes the heat of three coils on its small surface burns or opens"
+_OHMS = "change of the resistance, as a share of the reference resistance," + AT_SCALE
 _SLOW = "what lags by more than 20 s is seen by eye"
 _INSTANT = Parameter("instant", "s", -1000000.0, 1000000.0, "within the recordings", (10.0,))
 #: What changes a heat balance at once comes from outside (a fan, the sun); what changes in a circuit is a fault.
@@ -55,8 +66,9 @@ _WARMTH = "(T - reference_temperature) / 30.0"
 
 
 def _amplitude(
-    unit: str, bound: float, plausible: tuple[float, str, str], is_passive: bool = False, negligible: float = 0.0
-) -> Parameter:
+    unit: str, bound: float, plausible: tuple[float, str, str], is_passive: bool = False, negligible: float = 0.0,
+    meaning: str = "", physical: Physical = "",
+) -> Parameter:  # fmt: skip
     """The strength of a term; `plausible` is the largest size that is believed, the scale it counts in, and why."""
     most, of, why = plausible
     return Parameter(
@@ -70,6 +82,8 @@ def _amplitude(
         plausible=most,
         of=of,
         plausible_reason=why,
+        meaning=meaning,
+        physical=physical,
     )
 
 
@@ -111,7 +125,11 @@ def _delayed(formula: str) -> tuple[dict[str, str], tuple[State, ...]]:
 def _of_shift() -> Iterator[CandidateTerm]:
     """Shift of the transformation temperatures [K]."""
     size = _amplitude(
-        "K", 40.0, (20.0, "", "neighbouring alloys of one series differ by 20 K"), negligible=0.5
+        "K",
+        40.0,
+        (20.0, "", "neighbouring alloys of one series differ by 20 K"),
+        negligible=0.5,
+        meaning="shift of the transformation temperatures" + AT_SCALE,
     )  # no rig knows it better
     for form, variable in (
         ("linear", "rate"),
@@ -143,7 +161,7 @@ def _of_shift() -> Iterator[CandidateTerm]:
 
 def _of_force() -> Iterator[CandidateTerm]:
     """Force on a coil [N], and what holds its motion."""
-    size = _amplitude("N", 1.0, (0.5, "load", _HALF))
+    size = _amplitude("N", 1.0, (0.5, "load", _HALF), meaning="change of the force" + AT_SCALE)
     for name, phi, words in (
         ("linear_pull", VARIABLES["pull"][0], "tension (scale 1 N), linear"),
         ("square_amperes", "({v}) * ({v})".format(v=VARIABLES["amperes"][0]), "current, square"),
@@ -157,7 +175,11 @@ def _of_force() -> Iterator[CandidateTerm]:
         "tension = stiffness * extension + a * max(extension - onset, 0)",
         (
             _amplitude(
-                "N/m", 5000.0, (10.0, "stiffness", "a stop of ten times the coil's stiffness is rigid"), is_passive=True
+                "N/m",
+                5000.0,
+                (10.0, "stiffness", "a stop of ten times the coil's stiffness is rigid"),
+                is_passive=True,
+                meaning="spring constant of the stop",
             ),
             Parameter(
                 "onset",
@@ -169,6 +191,7 @@ def _of_force() -> Iterator[CandidateTerm]:
                 of="stretch",
                 plausible_reason="a threshold on the coil's way",
                 is_position=True,
+                meaning="extension at which the stop is met",
                 count=4,
             ),
         ),
@@ -183,6 +206,7 @@ def _of_force() -> Iterator[CandidateTerm]:
                 300.0,
                 (0.5, "stiffness", "half of the coil's own stiffness carries a third of its load"),
                 is_passive=True,
+                meaning="spring constant beside the coil",
             ),
             Parameter(
                 "reach",
@@ -193,6 +217,7 @@ def _of_force() -> Iterator[CandidateTerm]:
                 plausible=1.0,
                 of="stretch",
                 plausible_reason="it is slack somewhere on the coil's way",
+                meaning="extension at which it is slack",
                 is_position=True,
             ),
         ),
@@ -201,32 +226,44 @@ def _of_force() -> Iterator[CandidateTerm]:
     yield _term(
         ("mechanical", "length_linear_excess", "temperature, linear"),
         f"extension = extension_0 + a * {_WARMTH}",
-        (_amplitude("m", 0.006, (0.3, "stretch", _THIRD)),),
+        (_amplitude("m", 0.006, (0.3, "stretch", _THIRD), meaning="change of the extension by 30 K"),),
         {"length": f"extension += a * {_WARMTH};"},
     )
     yield _term(
         ("mechanical", "force_sign_motion", "direction of the motion"),
         "abs(tension - stiffness * extension) <= a",
-        (_amplitude("N", 1.0, (0.5, "load", _HALF), is_passive=True),),
+        (
+            _amplitude(
+                "N", 1.0, (0.5, "load", _HALF), is_passive=True, meaning="force that is held, of either direction"
+            ),
+        ),
         {"length": "extension = clip(extension_before, extension - a / stiffness, extension + a / stiffness);"},
     )
     yield _term(
         ("mechanical", "length_delayed", "itself, delayed"),
         "a * d(extension_marker) = extension - extension_marker",
-        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True),),
+        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True, meaning="time constant of the motion"),),
         {"length": "extension += (extension_before - extension) * exp(-dt / most(a, 1e-9));"},
     )
     yield _term(
         ("mechanical", "length_sign_motion", "direction of the motion"),
         "abs(extension_marker - extension) <= a",
-        (_amplitude("m", 0.005, (0.165, "stretch", "half of the largest play that is believed"), is_passive=True),),
+        (
+            _amplitude(
+                "m",
+                0.005,
+                (0.135, "stretch", "half of the largest play that is believed"),
+                is_passive=True,
+                meaning="half of the play",
+            ),
+        ),
         {"length": "extension = clip(extension_before, extension - a, extension + a);"},
     )
 
 
 def _of_heat() -> Iterator[CandidateTerm]:
     """Heat [W]: what no smooth function of the coil's own variables is."""
-    watts = _amplitude("W", 2.0, (1.0, "heat", _HEAT))
+    watts = _amplitude("W", 2.0, (1.0, "heat", _HEAT), meaning="change of the heat into a coil" + AT_SCALE)
     excess, words = VARIABLES["excess"]
     yield _term(
         ("thermal", "heat_linear_excess", f"{words}, linear"),
@@ -250,6 +287,7 @@ def _of_heat() -> Iterator[CandidateTerm]:
                 plausible_reason="a threshold between a room and where the coil has transformed",
                 is_position=True,
                 origin=295.15,
+                meaning="temperature from which it acts",
             ),
         ),
         {"heat": "heat += a * most(T - onset, 0.0) / 30.0;"},
@@ -276,7 +314,7 @@ def _of_heat() -> Iterator[CandidateTerm]:
         ),
         f"heat = a * ({excess}) * abs({stretch} - delayed) / tau; tau * d(delayed) = {stretch} - delayed",
         (
-            _amplitude("W*s", 20.0, (30.0, "capacity", "heat that warms the coil by 30 K")),
+            _amplitude("W*s", 20.0, (30.0, "capacity", "heat that warms the coil by 30 K"), meaning="heat" + AT_SCALE),
             Parameter(
                 "tau",
                 "s",
@@ -286,6 +324,7 @@ def _of_heat() -> Iterator[CandidateTerm]:
                 plausible=3.0,
                 of="time",
                 plausible_reason="a change is over once the coil has followed it",
+                meaning="time constant of the change",
             ),
         ),
         {"heat": f"heat += a * ({excess}) * fabs({stretch} - delayed) / tau;", **lines},
@@ -308,6 +347,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
                 is_amplitude=True,
                 plausible=3.0,
                 plausible_reason="three more coils in one place; beyond, it is open",
+                meaning="change of the resistance, as a share of the reference resistance",
             ),
             _INSTANT,
         ),
@@ -325,7 +365,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
         yield _term(
             ("electrical", f"resistance_{name}", words),
             f"R = R_0 + a * reference_resistance * {phi}",
-            (_amplitude("1", 0.5, (0.3, "", _THIRD)),),
+            (_amplitude("1", 0.5, (0.3, "", _THIRD), meaning=_OHMS),),
             {"resistance": f"R += a * reference_resistance * {phi};"},
         )
     amperes, words = VARIABLES["amperes"]
@@ -333,28 +373,45 @@ def _of_resistance() -> Iterator[CandidateTerm]:
     yield _term(
         ("electrical", "resistance_delayed_amperes", f"{words}, delayed"),
         f"R = R_0 + a * reference_resistance * delayed; tau * d(delayed) = {amperes} - delayed",
-        (_amplitude("1", 20.0, (0.3, "", _THIRD)), _TAU),
+        (_amplitude("1", 20.0, (0.3, "", _THIRD), meaning=_OHMS), _TAU),
         {"resistance": "R += a * reference_resistance * delayed;", **lines},
         states=states,
     )
     yield _term(
         ("electrical", "series_constant", "direction of the current"),
         "R_string = R_string_0 + a / (abs(I) + 0.01)",
-        (_amplitude("V", 5.0, (1.5, "", "two diodes in series"), is_passive=True),),
+        (
+            _amplitude(
+                "V",
+                5.0,
+                (1.5, "", "two diodes in series"),
+                is_passive=True,
+                meaning="voltage that is lost at any current",
+            ),
+        ),
         {"string": "R_string += a / (fabs(I) + 0.01);"},
         ("all", "string"),
     )
     yield _term(
         ("electrical", "series_linear", "current, linear"),
         "R_string = R_string_0 + a",
-        (_amplitude("ohm", 20.0, (3.0, "resistance", _SERIES), is_passive=True),),
+        (_amplitude("ohm", 20.0, (3.0, "resistance", _SERIES), is_passive=True, meaning="resistance in series"),),
         {"string": "R_string += a;"},
         ("string",),
     )
     yield _term(
         ("electrical", "series_step", "current after an instant"),
         "R_string = R_string_0 + a * step(t - instant)",
-        (_amplitude("ohm", 50.0, (3.0, "resistance", _SERIES), is_passive=True), _INSTANT),
+        (
+            _amplitude(
+                "ohm",
+                50.0,
+                (3.0, "resistance", _SERIES),
+                is_passive=True,
+                meaning="resistance in series after the instant",
+            ),
+            _INSTANT,
+        ),
         {"string": "R_string += a * share_after(instant, t_begin, t_end);"},
         ("string",),
     )
@@ -365,8 +422,9 @@ def _of_resistance() -> Iterator[CandidateTerm]:
             _amplitude(
                 "V/A^3",
                 20.0,
-                (18.0, "", "a cold lead of three coils that doubles over 250 K at 0.6 A"),
+                (4.4, "resistance", "a copper lead as resistive as the coil gains 70 % over 180 K, at 0.4 A"),
                 is_passive=True,
+                meaning="resistance that is gained per square of the current",
             ),
         ),
         {"string": "R_string += a * I * I;"},
@@ -381,6 +439,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
                 20.0,
                 (2.0, "resistance", "a supply that loses more than two coils take drives no network"),
                 is_passive=True,
+                meaning="inner resistance of the supply",
             ),
         ),
         {"supply": "R_supply += a;"},
@@ -399,6 +458,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
                 is_amplitude=True,
                 plausible=1.0,
                 plausible_reason="all above the threshold is lost",
+                meaning="share of the current above the threshold that is lost",
             ),
             Parameter(
                 "limit",
@@ -408,6 +468,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
                 "a threshold is positive",
                 plausible=30.0,
                 plausible_reason="laboratory supplies are made for 0.3 to 30 A",
+                meaning="current of the threshold",
                 count=6,
             ),
         ),
@@ -417,7 +478,7 @@ def _of_resistance() -> Iterator[CandidateTerm]:
     yield _term(
         ("electrical", "supply_delayed", "voltage of the supply, delayed"),
         "a * d(V_terminal) = V - V_terminal",
-        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True),),
+        (_amplitude("s", 100.0, (20.0, "", _SLOW), is_passive=True, meaning="time constant of the supply"),),
         {
             "source": """
             const double decay = exp(-dt / most(a, 1e-9)), gap = behind_begin - V;
@@ -437,7 +498,17 @@ def _of_value() -> Iterator[CandidateTerm]:
     yield _term(
         ("measurement", "value_square", "the reading itself, square"),
         "value = truth + a * scale * ((truth - pivot) / scale)**2",
-        (_amplitude("1", 0.3, (0.3, "", "bent by a third over its range: no sensor")), scale, pivot),
+        (
+            _amplitude(
+                "1",
+                0.3,
+                (0.3, "", "bent by a third over its range: no sensor"),
+                meaning="change of the reading one typical reading above the pivot, as a share of that reading",
+                physical="change",
+            ),
+            scale,
+            pivot,
+        ),
         {"sensor": "value += a * scale * ((value - pivot) / scale) * ((value - pivot) / scale);"},
         ("channel", "quantity"),
     )
@@ -448,7 +519,11 @@ def _of_value() -> Iterator[CandidateTerm]:
         f"value = truth + a * scale * ({amperes})",
         (
             _amplitude(
-                "1", 1.0, (1.0, "", "a whole scale at the typical current, as of a thermocouple welded to the wire")
+                "1",
+                1.0,
+                (1.0, "", "a whole scale at the typical current, as of a thermocouple welded to the wire"),
+                meaning="change of the reading at 0.4 A, as a share of what the channel typically reads",
+                physical="change",
             ),
             scale,
         ),

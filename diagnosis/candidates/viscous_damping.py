@@ -15,9 +15,12 @@ CANDIDATE = CandidateTerm(
             0.0,
             10000.0,
             "damping only takes energy",
-            plausible=20.0,
-            of="stiffness",
-            plausible_reason="a dashpot that holds a coil for 20 s; what is slower is creep",
+            meaning="force of the dashpot per speed",
+            plausible=200.0,
+            plausible_reason=(
+                "stiff grease (100 Pa s at a rate of 10 1/s) on 1 cm^2 in a gap of 0.05 mm; air and the metal's own "
+                "friction are far below"
+            ),
             is_amplitude=True,
         ),
     ),

@@ -15,6 +15,7 @@ CANDIDATE = CandidateTerm(
             0.0,
             1.0,
             "1: exchanged",
+            meaning="factor 0 or 1: whether the channels are exchanged",
             plausible=1.0,
             plausible_reason="exchanged or not",
             is_amplitude=True,

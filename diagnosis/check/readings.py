@@ -19,7 +19,7 @@ from diagnosis.recording.noise import estimate_noise
 HONEST = 2.0
 #: Neighbouring increments on each side whose mean an increment is compared with, and whose scatter.
 SIDE, WIDE = 4, 12
-#: Largest steps that are left out where the tail of the noise is told: two stretches with two ends.
+#: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
 TAILS = (2.5, 3.0, 4.0, 6.0, 10.0, 30.0, 1000.0)

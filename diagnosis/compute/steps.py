@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 #: Least time between two lines [s]: as often as a line can be read.
 PAUSE = 0.5
-#: Time that a count must have run before the time left is told [s].
+#: Time that a count must have run before the time left is shown [s].
 SETTLED = 2.0
 
 
@@ -50,7 +50,7 @@ class Count:
 class Steps:
     """Told stages, as `on_progress` is, and counts within them; tells a line of both.
 
-    Counts may lie within each other: the outermost is told, and how far it is takes the inner ones into account.
+    Counts may lie within each other: the outermost is shown, and how far it is takes the inner ones into account.
 
     Args:
         tell: Told a line.
@@ -133,7 +133,7 @@ _WATCHED: ContextVar[Steps | None] = ContextVar("watched", default=None)
 
 @contextmanager
 def watched(steps: Steps) -> Iterator[Steps]:
-    """Counts are told these steps until the end."""
+    """Counts are reported to these steps until the end."""
     token = _WATCHED.set(steps)
     try:
         yield steps

@@ -94,7 +94,7 @@ def _pooled(variance: Array, bins: Bins) -> Array:
 def calibrated_scatter(members: Array, bins: Bins, seed: int = 0) -> Array:
     """Covariance as in `scatter_covariance`, widened where the members themselves are farther apart than it says.
 
-    Every member is foretold from the others; what its mean squared residual exceeds 1 by is made good.
+    Every member is predicted from the others; what its mean squared residual exceeds 1 by is made good.
 
     Args:
         members: Shape (members, bins); with no more than `FEWEST` of them nothing can be left out.
@@ -128,5 +128,5 @@ class Whitening:
         self._factor = cholesky(scatter + np.diag(noise**2), lower=True)
 
     def __call__(self, differences: Array) -> Array:
-        """Residuals of differences, shape (rows, bins) or (bins,); bin by bin, what earlier bins did not foretell."""
+        """Residuals of differences, shape (rows, bins) or (bins,); bin by bin, what earlier bins did not predict."""
         return np.asarray(solve_triangular(self._factor, differences.T, lower=True).T)

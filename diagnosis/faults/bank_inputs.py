@@ -23,7 +23,8 @@ _WITHIN = "(share_after(begin, t_begin, t_end) - share_after(end, t_begin, t_end
 
 def gain() -> TermParameter:
     """Strength of a wrong input: off altogether at -1, twice as much at 1."""
-    return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=ACCURACY)
+    return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=ACCURACY,
+                         meaning="change of the input in the interval, as a share of what was stated")  # fmt: skip
 
 
 def _candidate(identifier: str, hook: str, lines: str) -> CandidateTerm:

@@ -16,7 +16,9 @@ FEWEST_EQUAL = 8
 #: Times that one sensor may be off in one way within one recording.
 OCCASIONS = 2
 #: Strength of a fault that is there or not.
-WHOLLY = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True)
+WHOLLY = TermParameter(
+    "share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it holds one reading"
+)
 _INTERVAL = "box(t) = 1 from begin to end, else 0"
 
 
@@ -129,7 +131,10 @@ def fault_term(law: FaultLaw, label: str, strength: TermParameter, span: Span, r
         span: When it may be.
         recording: Number of the recording that it belongs to.
     """
-    edges = tuple(TermParameter(n, "s", span.begin, span.end, (), is_instant=True) for n in ("begin", "end"))
+    edges = tuple(
+        TermParameter(n, "s", span.begin, span.end, (), is_instant=True, meaning=f"{n} of the interval")
+        for n in ("begin", "end")
+    )
     return Term(
         law.identifier, label, "measurement", (strength, *edges), law=law.law, recording=recording, price=span.price
     )

@@ -83,7 +83,8 @@ class Readings:
     def offset(self) -> TermParameter:
         """Bounds of an offset: no larger than the readings are wide, and more than one reading scatters."""
         most = max(float(np.ptp(self.measured)), 10.0 * self.deviation)
-        return TermParameter("offset", self.unit, -most, most, (self.deviation,), negligible=self.deviation)
+        return TermParameter("offset", self.unit, -most, most, (self.deviation,), negligible=self.deviation,
+                             meaning="change of the reading in the interval")  # fmt: skip
 
 
 def readings_of(model: DiagnosisModel) -> list[Readings]:

@@ -23,12 +23,14 @@ _LOADED = frozenset({"extension", "length", "stiffness", "tension"})
 #: Quantity that may be recorded in addition to its words.
 CHANNELS = {
     "terminal_voltage": "the voltage at the supply's terminals", "supply_current": "the current of the supply",
+    "supply_power": "the power of the supply", "string_voltage": "the voltage of every string",
+    "voltage": "the voltage of every coil",
     "current": "the current of every string", "second_temperature": "a second thermometer on every coil",
     "second_extension": "a second sensor of every extension",
 }  # fmt: skip
 #: Statements about single effects and pairs, at most.
 MOST = 6
-#: Effects of which the recalibration leaves less than this share are told as absorbed.
+#: Effects of which the recalibration leaves less than this share are reported as absorbed.
 ABSORBED = 0.1
 
 
@@ -66,7 +68,10 @@ def rig_of(model: BankModel) -> Rig:
     coil_channels = [sum(1 for q, e in measured if e == c and _is_of_coil(q)) for c in range(layout.coils)]
     strings = list(range(len(layout.strings) or 1))
     of_string = [np.flatnonzero(layout.string_of_coil == s) for s in strings]
-    string_channels = [sum(coil_channels[c] for c in of_string[s]) + (("current", s) in measured) for s in strings]
+    string_channels = [
+        sum(coil_channels[c] for c in of_string[s]) + sum((q, s) in measured for q in ("current", "string_voltage"))
+        for s in strings
+    ]
     chosen = _ends(strings, string_channels)
     names, channels = {}, []
     for s in chosen:
@@ -74,9 +79,10 @@ def rig_of(model: BankModel) -> Rig:
         label = f"string[{s + 1}]"
         names[label] = [coil_label(layout, c) for c in coils]
         channels += [(q, coil_label(layout, e)) for q, e in measured if _is_of_coil(q) and e in coils]
-        channels += [("current", label)] if ("current", s) in measured else []
+        channels += [(q, label) for q in ("current", "string_voltage") if (q, s) in measured]
     channels += [("supply_current", "supply")] if any(q == "supply_current" for q, _ in measured) else []
-    channels += [("terminal_voltage", "supply")] if any(q == "terminal_voltage" for q, _ in measured) else []
+    there = {q for q, _ in measured}
+    channels += [(q, "supply") for q in ("terminal_voltage", "supply_power") if q in there]
     slope = model.runs[0].translation.parameters.base.get("resistance_temperature_coefficient", 0.0)
     is_common = layout.supply == "common"
     has_load = model.runs[0].translation.load is not None or bool(_LOADED & {q for q, _ in measured})
@@ -162,11 +168,11 @@ def _has(rig: Rig, quantity: str) -> bool:
 
 
 def _elements(rig: Rig, quantity: str) -> list[str]:
-    if quantity in ("supply_current", "terminal_voltage"):
+    if quantity in ("supply_current", "terminal_voltage", "supply_power"):
         return ["supply"] if rig.has_circuit and rig.is_common else []
-    if quantity == "current":
+    if quantity in ("current", "string_voltage"):
         return list(rig.strings) if rig.has_circuit else []
-    if quantity in ("resistance", "power") and not rig.has_circuit:
+    if quantity in ("resistance", "power", "voltage") and not rig.has_circuit:
         return []
     return [c for coils in rig.strings.values() for c in coils]
 

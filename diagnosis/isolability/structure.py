@@ -18,7 +18,13 @@ from cosim.unit import AnyArray
 VARIABLES: Mapping[str, str] = {
     "supply_current": "supply_current", "current": "current", "resistance": "R", "power": "P", "temperature": "T",
     "stiffness": "k", "extension": "x", "length": "x", "terminal_voltage": "V_terminal",
+    "voltage": "U", "string_voltage": "U_string", "supply_power": "P_supply",
     "second_temperature": "T", "second_extension": "x",
+}  # fmt: skip
+#: Quantity to what its sensor is called, where that is not element and quantity.
+SENSORS: Mapping[str, str] = {
+    "terminal_voltage": "voltage at the supply's terminals", "string_voltage": "{}.voltage",
+    "supply_power": "supply.power",
 }  # fmt: skip
 #: Kind of a fault to its words; `{}` is the element.
 WORDS: Mapping[str, str] = {
@@ -138,7 +144,7 @@ def _equations(rig: Rig) -> _Equations:
         variable = f"{VARIABLES[quantity]}:{element}"
         if variable in found.unknown:
             name = f"{element}.{quantity}" if element != "supply" else "supply.current"
-            name = "voltage at the supply's terminals" if quantity == "terminal_voltage" else name
+            name = SENSORS.get(quantity, name).format(element)
             found.add([variable], [f"y:{quantity}:{element}"], f"sensor:{quantity}:{element}", f"sensor of {name}")
     return found
 
@@ -150,6 +156,8 @@ def _circuit(rig: Rig, found: _Equations) -> None:
             ["V_terminal:supply", "supply_current:supply"], ["V"], "supply:", WORDS["supply"].format("the supply")
         )
     found.add(["supply_current:supply", *currents])
+    if rig.is_common and _is_measured(rig, "supply_power"):
+        found.add(["P_supply:supply", "V_terminal:supply", "supply_current:supply"])
     for string, coils in rig.strings.items():
         terminal = "V_terminal:supply" if rig.is_common else f"V_terminal:{string}"
         if not rig.is_common:
@@ -157,11 +165,22 @@ def _circuit(rig: Rig, found: _Equations) -> None:
             found.add([terminal], [f"V:{string}"], f"supply:{string}", words)
         resistances = [f"R:{c}" for c in coils]
         fault, words = f"string:{string}", WORDS["string"].format(string)
-        found.add([terminal, f"current:{string}", *resistances], (), fault, words)
+        if ("string_voltage", string) in rig.channels:  # over its coils, without what lies in series with them
+            across = f"U_string:{string}"
+            found.add([terminal, f"current:{string}", across], (), fault, words)
+            found.add([across, f"current:{string}", *resistances])
+        else:
+            found.add([terminal, f"current:{string}", *resistances], (), fault, words)
         for coil in coils:
             felt = [f"T:{coil}"] if rig.feels_heat else []
             found.add([f"R:{coil}", *felt], (), f"resistance:{coil}", WORDS["resistance"].format(coil))
             found.add([f"P:{coil}", f"R:{coil}", f"current:{string}"])
+            if ("voltage", coil) in rig.channels:
+                found.add([f"U:{coil}", f"R:{coil}", f"current:{string}"])
+
+
+def _is_measured(rig: Rig, quantity: str) -> bool:
+    return any(q == quantity for q, _ in rig.channels)
 
 
 def _coil(rig: Rig, coil: str, found: _Equations) -> None:

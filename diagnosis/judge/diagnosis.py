@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -32,6 +33,23 @@ class Standing(Enum):
 
 
 @dataclass(frozen=True)
+class Physical:
+    """A physical quantity with its 95 % interval.
+
+    Args:
+        unit: SI unit.
+        value: Estimate.
+        lower: Lower end.
+        upper: Upper end.
+    """
+
+    unit: str
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A parameter of a finding.
 
@@ -41,6 +59,10 @@ class Estimate:
         value: Estimate.
         lower: Lower end of the 95 % interval.
         upper: Upper end.
+        meaning: What it is, in words: a share, a factor or a change of what, or which physical quantity.
+        physical: The quantity that it stands for, where that is another: the bias of a sensor is counted in what its
+            channel typically reads. None: it is that quantity itself.
+        is_reading: Whether it is a reading and no change: 300 K are 27 degC then.
     """
 
     name: str
@@ -48,6 +70,9 @@ class Estimate:
     value: float
     lower: float
     upper: float
+    meaning: str = ""
+    physical: Physical | None = None
+    is_reading: bool = False
 
 
 @dataclass(frozen=True)
@@ -65,6 +90,21 @@ class Alternative:
     place: str
     gain: float
     probability: float
+
+
+@dataclass(frozen=True)
+class Member:
+    """A law at a place whose predictions cannot be told from those of a finding.
+
+    Args:
+        effect: Identifier of its term.
+        place: Where it would act.
+        is_named: Whether it is an effect with a name.
+    """
+
+    effect: str
+    place: str
+    is_named: bool
 
 
 @dataclass(frozen=True)
@@ -94,6 +134,8 @@ class Finding:
         doubts: Why it is no name, or not accepted, in plain words.
         recording: Title of the recording that `intervals` are times of.
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
+        members: Other laws and places whose predictions of all readings, training and held out, differ from its own by
+            less than odds of 20 to 1 ask for, whether or not the search fitted them: it is one of this class.
     """
 
     unit: str
@@ -116,6 +158,18 @@ class Finding:
     doubts: tuple[str, ...] = ()
     recording: str = ""
     held_out_gain: float = math.nan
+    members: tuple[Member, ...] = ()
+
+    @property
+    def places(self) -> str:
+        """Every place of its class: `coil[1,1] or coil[1,2]`."""
+        return class_places(self.place, self.effect, self.members)
+
+
+def class_places(place: str, effect: str, members: Sequence[Member]) -> str:
+    """Every place of a class, those of the same law first."""
+    ordered = sorted(members, key=lambda m: m.effect != effect)
+    return " or ".join(dict.fromkeys([place, *(m.place for m in ordered)]))
 
 
 @dataclass(frozen=True)
@@ -404,6 +458,8 @@ class Diagnosis:
         adequacy: How right the amended model is; None where no reading was left to judge.
         searched: What was searched.
         doubts: What the check of the recordings before the search stumbled over.
+        units: Units of channels and clocks as the user wrote them: terminal and report show quantities in them. All
+            numbers here are SI; each stands beside its unit.
     """
 
     verdict: Verdict
@@ -434,6 +490,7 @@ class Diagnosis:
     adequacy: Adequacy | None = None
     searched: Searched = Searched()
     doubts: tuple[Doubt, ...] = ()
+    units: tuple[str, ...] = ()
 
     @property
     def accepted(self) -> tuple[Finding, ...]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from diagnosis.judge.diagnosis import Estimate
+from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.switches import costs_at
@@ -104,7 +106,7 @@ def instant_interval(term: Term, fit: Fit, model: DiagnosisModel, doubt: float =
     return ends[0], ends[1]
 
 
-def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0) -> str:
+def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0, units: Units = IN_SI) -> str:
     """When a fitted term sets in, for people, as sharply as the recordings tell it; empty for one without an instant.
 
     `at 8.0 s of recording stairs`, `between 7.6 and 8.4 s of recording stairs`, or
@@ -115,18 +117,21 @@ def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0) -> st
         fit: Of the recordings.
         model: Their model.
         doubt: As in `instant_interval`.
+        units: In which instants are shown.
     """
     timeline, interval = timeline_of(model), instant_interval(term, fit, model, doubt)
     if timeline is None or interval is None:
         return ""
     (first, begin), (last, end) = (timeline.place(joint) for joint in interval)
     titles = [f"recording {timeline.recordings[n].title}" for n in (first, last)]
-    texts = [f"{begin:.1f}", f"{end:.1f}"]
+    scale = units.scale(end, "s")
+    decimals = 1 + max(round(-math.log10(scale.factor)), 0)  # a tenth of a second, in any unit
+    texts = [f"{scale(instant):.{decimals}f}" for instant in (begin, end)]
     if first != last:
-        return f"between {texts[0]} s of {titles[0]} and {texts[1]} s of {titles[1]}"
+        return f"between {texts[0]} {scale.unit} of {titles[0]} and {texts[1]} {scale.unit} of {titles[1]}"
     if texts[0] == texts[1]:
-        return f"at {texts[0]} s of {titles[0]}"
-    return f"between {texts[0]} and {texts[1]} s of {titles[0]}"
+        return f"at {texts[0]} {scale.unit} of {titles[0]}"
+    return f"between {texts[0]} and {texts[1]} {scale.unit} of {titles[0]}"
 
 
 def local_estimates(

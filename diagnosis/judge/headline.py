@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Standing, Verdict
 from diagnosis.judge.doubts import MEASURED, faults, of_another_experiment
-from diagnosis.report.display import clean, difference, moved, number
+from diagnosis.report.display import clean, moved, number, user_unit
+from diagnosis.report.user_units import IN_SI, Units
 
 #: Findings that are named in one sentence.
 TOLD = 3
@@ -18,7 +19,7 @@ LEAST_SHARE = 0.005
 
 def headline(
     verdict: Verdict, found: Sequence[Finding], adequacy: Adequacy | None, reasons: Sequence[str] = (),
-    doubts: Sequence[Doubt] = (),
+    doubts: Sequence[Doubt] = (), units: Units = IN_SI,
 ) -> str:  # fmt: skip
     """Both answers: what was found, and how right the model is now.
 
@@ -28,6 +29,7 @@ def headline(
         adequacy: How right the accepted model is; None where nothing was simulated.
         reasons: Why it cannot be told, where it cannot.
         doubts: About the recordings.
+        units: In which quantities are shown.
     """
     if verdict is Verdict.RECORDING_FAULT:
         serious = [d.statement.rstrip(".") for d in of_another_experiment(doubts)]
@@ -55,9 +57,9 @@ def headline(
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, any(f.is_accepted for f in found)))
+        parts.append(how_right(adequacy, any(f.is_accepted for f in found), units))
     elif adequacy.day:
-        parts.append(f"That takes for granted: {day_of(adequacy)}.")
+        parts.append(f"That takes for granted: {day_of(adequacy, units)}.")
     return " ".join(parts)
 
 
@@ -76,7 +78,7 @@ def _noise(adequacy: Adequacy) -> str:
     return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
 
 
-def how_right(adequacy: Adequacy, is_amended: bool) -> str:
+def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI) -> str:
     """What the model explains of the mismatch, and what it leaves.
 
     A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
@@ -84,6 +86,7 @@ def how_right(adequacy: Adequacy, is_amended: bool) -> str:
     Args:
         adequacy: How right it is.
         is_amended: Whether anything was added to it; else it was recalibrated alone.
+        units: In which quantities are shown.
     """
     name = "The amended model" if is_amended else "The recalibrated model"
     before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
@@ -99,23 +102,25 @@ def how_right(adequacy: Adequacy, is_amended: bool) -> str:
         if is_amended and adequacy.by_recalibration >= LEAST_SHARE:
             text += f" (recalibration alone {100.0 * min(adequacy.by_recalibration, adequacy.explained):.0f} %)"
     if adequacy.is_rejected and adequacy.worst is not None:
-        text += f"; {what_stays(adequacy)}: something else is missing or wrong"
+        text += f"; {what_stays(adequacy, units)}: something else is missing or wrong"
     elif before > 1.0:
         text += f"; what is left is not more than {_noise(adequacy)}"
-    given = f" That takes for granted: {day_of(adequacy)}." if adequacy.day else ""
+    given = f" That takes for granted: {day_of(adequacy, units)}." if adequacy.day else ""
     return f"{text}.{given}"
 
 
-def what_stays(adequacy: Adequacy) -> str:
-    """What is left where most is left, in its unit and in multiples of the noise."""
+def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:
+    """What is left where most is left, in the user's unit and in multiples of the noise."""
     assert adequacy.worst is not None
     worst = adequacy.worst
-    factor, unit = difference(worst.unit)
+    factor, unit = units.difference(worst.unit)
     size = f"{number(factor * worst.rmse, 2)} {unit}".strip()
     times = worst.rmse / worst.noise if worst.noise > 0.0 else float("inf")
     return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise"
 
 
-def day_of(adequacy: Adequacy) -> str:
+def day_of(adequacy: Adequacy, units: Units = IN_SI) -> str:
     """What was taken for granted of the day: how far its own numbers were moved."""
-    return "; ".join(moved(m.name, m.amount, m.is_factor, m.unit) for m in adequacy.day)
+    return "; ".join(
+        moved(m.name, m.amount, m.is_factor, m.unit, user_unit(m.unit, units.written)) for m in adequacy.day
+    )

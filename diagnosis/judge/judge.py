@@ -15,18 +15,23 @@ from diagnosis.judge.diagnosis import (
     Doubt,
     Estimate,
     Finding,
+    Member,
     Moved,
+    Physical,
     Searched,
     Standing,
     Verdict,
+    class_places,
 )
 from diagnosis.judge.doubts import MEASURED, faults
 from diagnosis.judge.events import event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
+from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import raw_residuals
 from diagnosis.report.display import words
+from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
@@ -48,7 +53,7 @@ DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 #: Chi-square per reading below which errors of the model are smaller than the noise; share of what recalibration
 #: leaves that may stay where they are larger.
 BURIED, MOST_LEFT = 2.0, 0.1
-#: A parameter that moved by more prior deviations than this is told.
+#: A parameter that moved by more prior deviations than this is reported.
 MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0
@@ -148,7 +153,10 @@ def bends_into(rival: Explanation, best: Explanation) -> bool:
     return all(t.is_named for t in best.terms) and not all(t.is_named for t in rival.terms)
 
 
-def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str]) -> tuple[Finding, ...]:
+def findings(
+    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str], units: Units = IN_SI,
+    judge: DiagnosisModel | None = None,
+) -> tuple[Finding, ...]:  # fmt: skip
     """Effects that were accepted, the largest gain first; then those that are suggested alone.
 
     Args:
@@ -156,6 +164,8 @@ def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles
         outcome: Of the search.
         accepted: What of it is accepted.
         titles: Of the training recordings.
+        units: In which sentences show quantities.
+        judge: Model of the held-out recordings; None where there are none.
     """
     found = []
     for explanation, terms, is_accepted in (
@@ -163,30 +173,34 @@ def findings(model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles
         (accepted.headline, tuple(accepted.reasons), False),
     ):
         ordered = sorted(terms, key=lambda t: -explanation.gains.get(t, 0.0))
-        found += [_finding(model, outcome, accepted, explanation, t, is_accepted, titles) for t in ordered]
+        found += [
+            _finding(model, outcome, accepted, explanation, t, is_accepted, titles, units, judge) for t in ordered
+        ]
     return tuple(found)
 
 
 def _finding(
     model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str],
+    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None,
 ) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
     fit = explanation.fit
     alternatives, probability = _alternatives(outcome, accepted, term)
-    likely = _open_rivals(alternatives, term, accepted)
+    members = same_response(model, fit.point, term, judge)
+    likely = _class_of(term, members, _open_rivals(alternatives, term, accepted))
+    where = class_places(place.label, term.identifier, members)
     effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
-    when = since(term, fit, model, doubt)
+    when = since(term, fit, model, doubt, units)
     found = estimates(fit, term, doubt, model.unseen(term))
     told = local_estimates(found, term, fit, model, doubt)
-    doubts = (*unidentified(term, fit, told), *implausible(term, fit.point.terms[term]))
+    doubts = (*unidentified(term, fit, told, units), *implausible(term, fit.point.terms[term], units))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
         doubts = (*doubts, unknown) if unknown else doubts
     if not is_small(accepted):
         doubts = (*doubts, _much_left(accepted))
-    standing = standing_of(term, doubts, likely, is_trusted(outcome))
+    standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:
         begin, end = (v for p, v in zip(term.parameters, fit.point.terms[term]) if p.is_instant)
@@ -196,12 +210,12 @@ def _finding(
     return Finding(
         unit=term.unit,
         place=place.label,
-        elements=_elements(model, term),
+        elements=_class_elements(model, term, members),
         intervals=intervals,
         channels=_channels(model, effect),
         effect=term.identifier,
         is_named=standing is not Standing.UNNAMED,
-        statement=statement(candidate.name, place.label, standing, likely) + (f", {when}" if when else ""),
+        statement=statement(candidate.name, where, standing, likely) + (f", {when}" if when else ""),
         law=candidate.law,
         parameters=told,
         gain=explanation.gains.get(term, 0.0),
@@ -214,7 +228,21 @@ def _finding(
         doubts=(*accepted.reasons.get(term, ()), *doubts),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
+        members=members,
     )
+
+
+def _class_of(term: Term, members: Sequence[Member], rivals: Sequence[str]) -> tuple[str, ...]:
+    """Other effects of a finding's class: those that respond the same, named ones first, then those within the odds."""
+    alike = sorted((m for m in members if m.effect != term.identifier), key=lambda m: not m.is_named)
+    return tuple(dict.fromkeys([*(m.effect for m in alike), *rivals]))
+
+
+def _class_elements(model: DiagnosisModel, term: Term, members: Sequence[Member]) -> tuple[str, ...]:
+    """Elements concerned by a finding or by any member of its class."""
+    every = {(t.identifier, model.where(t)[1].label): t for t in model.terms()} if members else {}
+    found = [term, *(every[m.effect, m.place] for m in members)]
+    return tuple(dict.fromkeys(element for t in found for element in _elements(model, t)))
 
 
 def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
@@ -313,7 +341,12 @@ def estimates(fit: Fit, term: Term, doubt: float = 1.0, unseen: Sequence[float] 
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
         seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
         half = NORMAL_95 * float(np.hypot(seen, value * unseen[i] if unseen else 0.0))
-        found.append(Estimate(p.name, p.unit, value, max(value - half, p.lower), min(value + half, p.upper)))
+        lower, upper = max(value - half, p.lower), min(value + half, p.upper)
+        physical = None
+        if p.physical is not None:
+            factor, offset, unit = p.physical
+            physical = Physical(unit, *(factor * v + offset for v in (value, lower, upper)))
+        found.append(Estimate(p.name, p.unit, value, lower, upper, p.meaning, physical, p.is_reading))
     return tuple(found)
 
 

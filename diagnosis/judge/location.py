@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 
@@ -118,6 +119,8 @@ class Remainder:
         end: End of the window [s].
         z: Standardised sum of the residuals in it.
         limit: Size of z that noise alone passes in one of a hundred recordings.
+        unit: SI unit of the channel; empty of a group whose channels have several.
+        mean: Mean of measured minus simulated in the window [unit]; NaN where it is not known.
     """
 
     channel: str
@@ -125,3 +128,5 @@ class Remainder:
     end: float
     z: float
     limit: float
+    unit: str = ""
+    mean: float = math.nan

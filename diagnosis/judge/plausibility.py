@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Sequence
 
 from diagnosis.candidates.candidate import NEEDS, CandidateTerm
+from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.problem import Term, TermParameter
 
 #: Share of the largest believed size within which a fit was held there.
@@ -26,7 +27,7 @@ _ELSEWHERE = {
 }
 
 
-def implausible(term: Term, values: Sequence[float]) -> list[str]:
+def implausible(term: Term, values: Sequence[float], units: Units = IN_SI) -> list[str]:
     """Sentences on sizes that no real rig is believed to have; empty where all are believed.
 
     A finding with such a size stands in for something else: it is not to be called by its name.
@@ -34,6 +35,7 @@ def implausible(term: Term, values: Sequence[float]) -> list[str]:
     Args:
         term: The law at its place.
         values: Values of its parameters.
+        units: In which quantities are shown.
 
     Raises:
         ValueError: The number of values is not that of the parameters.
@@ -41,16 +43,21 @@ def implausible(term: Term, values: Sequence[float]) -> list[str]:
     found = []
     for parameter, value in zip(term.parameters, values, strict=True):
         most = parameter.plausible
-        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
         reason = f" ({parameter.plausible_reason})" if parameter.plausible_reason else ""
+        factor, _, unit = parameter.physical or (1.0, 0.0, parameter.unit)
         if _is_held(parameter, value):
-            found.append(f"{parameter.name} lies at {most:.3g}{unit}, the most that is believed{reason}")
+            scale = units.scale(factor * most, unit)
+            at = f"{scale(factor * most):.3g} {scale.unit}".rstrip()
+            found.append(f"{parameter.name} lies at {at}, the most that is believed{reason}")
         elif math.isfinite(most) and not abs(value) <= most:
             # Three digits, or as many as it takes to see that one is more than the other.
-            digits = next((d for d in range(3, 10) if f"{abs(value):.{d}g}" != f"{most:.{d}g}"), 17)
+            scale = units.scale(factor * value, unit)
+            size, bound = scale(factor * value), scale(factor * most)
+            digits = next((d for d in range(3, 10) if f"{abs(size):.{d}g}" != f"{bound:.{d}g}"), 17)
+            told = f" {scale.unit}".rstrip()
             found.append(
-                f"{parameter.name} would have to be {value:.{digits}g}{unit}; "
-                f"{most:.{digits}g}{unit} is the most that is believed{reason}"
+                f"{parameter.name} would have to be {size:.{digits}g}{told}; "
+                f"{bound:.{digits}g}{told} is the most that is believed{reason}"
             )
     return found
 

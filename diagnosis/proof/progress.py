@@ -37,7 +37,7 @@ class Progress:
     _made: int = 0
 
     def finished(self, case: str, note: str) -> None:
-        """A case is done; what went wrong is told at once."""
+        """A case is done; what went wrong is printed at once."""
         self._made += 1
         now = clock.perf_counter() - self._begin
         is_last = self.kept + self._made == self.total

@@ -111,6 +111,7 @@ class Recording:
         day: Recordings with the same name are of one day; empty: a day of its own.
         order: Place among the recordings in time, from 1; None: as given, those held out last.
         cycles_before: Full cycles that the rig had made before.
+        units: Units of its channels and its clock, as written: a report shows quantities in them.
     """
 
     path: Path
@@ -126,6 +127,7 @@ class Recording:
     day: str = ""
     order: int | None = None
     cycles_before: float = 0.0
+    units: tuple[str, ...] = ()
 
 
 def load_recording(path: str | Path) -> Recording:
@@ -190,7 +192,7 @@ class _Reader:
         return Recording(
             self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
             sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain, beginning, sidecar.day, sidecar.order,
-            float(sidecar.cycles_before),
+            float(sidecar.cycles_before), (*(c.unit for c in sidecar.channels.values()), sidecar.time.unit),
         )  # fmt: skip
 
     def _table(self, name: str | None) -> Table:

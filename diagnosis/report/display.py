@@ -86,7 +86,7 @@ def interval(value: float, lower: float, upper: float, unit: str) -> str:
     return f"{texts[0]} {symbol(unit)}".strip() + f" ({texts[1]} to {texts[2]})"
 
 
-#: Scales of temperature and the unit in which differences on them are told.
+#: Scales of temperature and the unit in which differences on them are shown.
 _TEMPERATURES = {"K": "K", "degC": "K", "celsius": "K", "degree_Celsius": "K", "degF": "°F", "fahrenheit": "°F"}
 _BASE_UNIT = re.compile(r"[^\W\d_]+")
 

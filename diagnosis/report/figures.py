@@ -19,10 +19,11 @@ from cosim.figures.style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
 from cosim.unit import Array
 from diagnosis.judge.diagnosis import Finding
 from diagnosis.judge.location import Remainder
-from diagnosis.report.display import axis, clean, difference
+from diagnosis.report.display import clean
 from diagnosis.report.fits import is_channel
 from diagnosis.report.network import Network, concerned
 from diagnosis.report.series import Series
+from diagnosis.report.user_units import IN_SI, Units
 
 #: One colour for each finding, in their order.
 FINDING_COLOURS = (HOT, COLD, RECOOLED, "#b7791f", "#6b46c1")
@@ -120,21 +121,25 @@ def _shortened(text: str, most: int = 44) -> str:
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
-def series_figure(series: Series, findings: Sequence[Finding], left: Sequence[Remainder] = ()) -> str:
+def series_figure(
+    series: Series, findings: Sequence[Finding], left: Sequence[Remainder] = (), units: Units = IN_SI
+) -> str:  # fmt: skip
     """Measured values and the models' above, what the last two models leave below; shaded: findings, what is left."""
-    return drawn(lambda f: _paint_series(f, series, findings, left), 8.4, 4.4)
+    return drawn(lambda f: _paint_series(f, series, findings, left, units), 8.4, 4.4)
 
 
-def _paint_series(figure: Figure, series: Series, findings: Sequence[Finding], left: Sequence[Remainder]) -> None:
+def _paint_series(
+    figure: Figure, series: Series, findings: Sequence[Finding], left: Sequence[Remainder], units: Units
+) -> None:  # fmt: skip
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     curves = series.curves
-    scaled = axis(series.measured, series.unit)
+    scaled = units.axis(series.measured, series.unit)
     keep = thinned(series.measured)
     upper.plot(series.times[keep], scaled(series.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
     for name, values in curves.items():
         keep = thinned(values)
         upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **_STAGES[name])
-    factor, of_difference = difference(series.unit)
+    factor, of_difference = units.difference(series.unit)
     noise = 2.0 * factor * np.broadcast_to(np.asarray(series.deviation, dtype=np.float64), series.times.shape)
     keep = np.array([0, -1]) if np.ndim(series.deviation) == 0 else thinned(noise)
     lower.fill_between(

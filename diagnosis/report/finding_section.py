@@ -5,24 +5,26 @@ from __future__ import annotations
 import math
 
 from diagnosis.judge.diagnosis import Estimate, Finding
-from diagnosis.report.display import UNKNOWN, clean, interval, listed, number, percent, symbol, words
+from diagnosis.report.display import UNKNOWN, clean, listed, number, percent, words
 from diagnosis.report.figures import colour
 from diagnosis.report.fits import plain_channel
-from diagnosis.report.markup import Html, element, folded, joined, listing, table
+from diagnosis.report.markup import Html, element, folded, joined, listing, table, wrapped
 from diagnosis.report.sentences import ambiguity, decisive, what, when, where
+from diagnosis.report.user_units import IN_SI, Units
 
 
-def finding_section(order: int, finding: Finding) -> Html:
+def finding_section(order: int, finding: Finding, units: Units = IN_SI) -> Html:
     """Section of a finding.
 
     Args:
         order: Its place among the findings, from 0; gives its colour.
         finding: What was found.
+        units: In which quantities are shown.
     """
     title = f"Finding {order + 1}" if finding.is_accepted else f"Suggestion {order + 1}, not accepted"
     facts = [
         ("Where", where(finding)),
-        ("When", when(finding, 12)),
+        ("When", when(finding, 12, units)),
         ("Shows in", listed(list(dict.fromkeys(plain_channel(c) for c in finding.channels)), 12) or UNKNOWN),
         ("What", what(finding)),
         ("Law", element("code", finding.law)),
@@ -33,7 +35,7 @@ def finding_section(order: int, finding: Finding) -> Html:
         "section",
         element("h2", f"{title}: {finding.statement}"),
         element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
-        _parameters(finding.parameters),
+        _parameters(finding.parameters, units),
         element("p", ambiguity(finding)),
         _decisive(finding),
         _alternatives(finding),
@@ -50,11 +52,11 @@ def _gain(finding: Finding) -> str:
     return f"{told}, -2 log likelihood of the readings that judge by {number(finding.held_out_gain)}"
 
 
-def _parameters(estimates: tuple[Estimate, ...]) -> Html:
+def _parameters(estimates: tuple[Estimate, ...], units: Units) -> Html:
     if not estimates:
         return Html("")
-    rows = [(element("code", p.name), interval(p.value, p.lower, p.upper, ""), symbol(p.unit)) for p in estimates]
-    return table(("parameter", "estimate (95 % interval)", "unit"), rows)
+    rows = [(element("code", p.name), units.estimate(p), wrapped(p.meaning or UNKNOWN)) for p in estimates]
+    return table(("parameter", "estimate (95 % interval)", "what it is"), rows)
 
 
 def _decisive(finding: Finding) -> Html:

@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 
 from diagnosis.judge.diagnosis import ChannelFit, ChannelSpread, Spread
-from diagnosis.report.display import UNKNOWN, difference, number
+from diagnosis.report.display import UNKNOWN, number
 from diagnosis.report.fits import STAGES, Row, rows, worst_first
 from diagnosis.report.markup import Html, element, folded, table
+from diagnosis.report.user_units import IN_SI, Units
 
 TITLE = "How much better"
 #: Chi-square per sample up to which a channel counts as met, and above which it counts as missed.
@@ -17,13 +18,16 @@ _FIGURES = (*STAGES, *STAGES, *STAGES)
 _GROUPS = (("RMSE", 3), ("chi-square per sample", 3), ("whiteness", 3))
 
 
-def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = (), title: str = TITLE) -> Html:
+def fit_section(
+    fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = (), title: str = TITLE, units: Units = IN_SI
+) -> Html:  # fmt: skip
     """Section with a row for each recording and quantity; every channel for itself is folded away.
 
     Args:
         fits: Of every channel of every recording.
         spread: Of every channel over recordings.
         title: Of the section.
+        units: In which quantities are shown.
     """
     if not fits:
         return element("section", element("h2", title), element("p", "No recording was judged."))
@@ -40,24 +44,24 @@ def fit_section(fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = ()
         element("h2", title),
         warning,
         table(("recording", "quantity", *_FIGURES, "after"),
-              [_grouped(r) for r in rows(fits)], (("", 2), *_GROUPS, ("RMSE by channel", 1))),
+              [_grouped(r, units) for r in rows(fits)], (("", 2), *_GROUPS, ("RMSE by channel", 1))),
         element("p", note, class_="note"),
         folded(f"All {len(fits)} channels, the worst after recalibration first",
-               table(("recording", "channel", *_FIGURES), [_single(f) for f in worst_first(fits)],
+               table(("recording", "channel", *_FIGURES), [_single(f, units) for f in worst_first(fits)],
                      (("", 2), *_GROUPS))),
-        _over_recordings(spread),
+        _over_recordings(spread, units),
     )  # fmt: skip
 
 
-def _over_recordings(spread: Sequence[ChannelSpread]) -> Html:
+def _over_recordings(spread: Sequence[ChannelSpread], units: Units) -> Html:
     """Mean and range over recordings, where there are several of a part."""
     several = [s for s in spread if s.recordings > 1]
     if not several:
         return Html("")
     head = ("channel", "recordings", "samples", *STAGES, *STAGES)
     rows = [
-        [_part(s), str(s.recordings), str(s.samples),
-         *(_range(s.rmse.get(g), difference(s.unit)[0]) for g in STAGES),
+        [_part(s, units), str(s.recordings), str(s.samples),
+         *(_range(s.rmse.get(g), units.difference(s.unit)[0]) for g in STAGES),
          *(_range(s.chi_square.get(g), 1.0) for g in STAGES)]
         for s in several
     ]  # fmt: skip
@@ -65,8 +69,8 @@ def _over_recordings(spread: Sequence[ChannelSpread]) -> Html:
     return folded("Spread over recordings", table(head, rows, groups))
 
 
-def _part(spread: ChannelSpread) -> str:
-    _, unit = difference(spread.unit)
+def _part(spread: ChannelSpread, units: Units) -> str:
+    _, unit = units.difference(spread.unit)
     name = f"{spread.channel} [{unit}]" if unit else spread.channel
     return f"{name} ({'held out' if spread.is_held_out else 'training'})"
 
@@ -78,25 +82,25 @@ def _range(spread: Spread | None, factor: float) -> str:
     return f"{mean} ({low} to {high})"
 
 
-def _grouped(row: Row) -> list[str]:
-    factor, unit = difference(row.unit)
+def _grouped(row: Row, units: Units) -> list[str]:
+    factor, unit = units.difference(row.unit)
     name = f"{row.quantity} [{unit}]" if unit else row.quantity
     least, most = (number(factor * v) for v in row.spread)
     return [
         _titled(row.recording, row.is_held_out),
         name if row.channels == 1 else f"{name}, {row.channels} channels",
-        *_cells(row.rmse, row.unit, row.chi_square, row.whiteness),
+        *_cells(row.rmse, factor, row.chi_square, row.whiteness),
         "" if row.channels == 1 else f"{least} to {most}",
     ]
 
 
-def _single(fit: ChannelFit) -> list[str]:
-    _, unit = difference(fit.unit)
+def _single(fit: ChannelFit, units: Units) -> list[str]:
+    factor, unit = units.difference(fit.unit)
     name = f"{fit.channel} [{unit}]" if unit else fit.channel
     return [
         _titled(fit.recording, fit.is_held_out),
         name,
-        *_cells(fit.rmse, fit.unit, fit.chi_square, fit.whiteness),
+        *_cells(fit.rmse, factor, fit.chi_square, fit.whiteness),
     ]
 
 
@@ -105,9 +109,8 @@ def _titled(recording: str, is_held_out: bool) -> str:
 
 
 def _cells(
-    rmse: Mapping[str, float], unit: str, chi_square: Mapping[str, float], whiteness: Mapping[str, float]
+    rmse: Mapping[str, float], factor: float, chi_square: Mapping[str, float], whiteness: Mapping[str, float]
 ) -> list[str]:
-    factor, _ = difference(unit)
     return [
         *(number(factor * rmse.get(s, math.nan)) for s in STAGES),
         *(_marked(chi_square.get(s, math.nan)) for s in STAGES),

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diagnosis.judge.diagnosis import ChannelFit
+from diagnosis.judge.held_out import root_mean_square
 
 #: The models that are compared: as the scenario has it, recalibrated, amended.
 STAGES = ("before", "recalibrated", "after")
@@ -86,7 +87,7 @@ def _row(members: Sequence[ChannelFit]) -> Row:
         quantity=quantity(first.channel),
         unit=first.unit,
         channels=len(members),
-        rmse=_by_stage([m.rmse for m in members], _root_mean_square),
+        rmse=_by_stage([m.rmse for m in members], lambda sizes: root_mean_square(np.array(sizes))),
         chi_square=_by_stage([m.chi_square for m in members], np.mean),
         whiteness=_by_stage([m.whiteness for m in members], np.max),
         spread=(min(last, default=math.nan), max(last, default=math.nan)),
@@ -95,10 +96,6 @@ def _row(members: Sequence[ChannelFit]) -> Row:
 
 def _by_stage(values: Sequence[dict[str, float]], summary: Callable[[list[float]], float]) -> dict[str, float]:
     return {stage: float(summary([v.get(stage, math.nan) for v in values])) for stage in STAGES}
-
-
-def _root_mean_square(values: Sequence[float]) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def _known(value: float) -> float:

@@ -6,14 +6,16 @@ from collections.abc import Sequence
 
 from diagnosis.judge.location import Location, Remainder, Waveform
 from diagnosis.report.course_figures import waveform_figure
-from diagnosis.report.display import UNKNOWN, clean, listed, number, span
+from diagnosis.report.display import UNKNOWN, clean, listed, number
 from diagnosis.report.markup import Html, element, image, table, wrapped
+from diagnosis.report.undecided import mean_left
+from diagnosis.report.user_units import IN_SI, Units
 
 #: Lines of the table and waveforms that are shown; the rest is in diagnosis.json.
 _LINES, _WAVEFORMS = 10, 4
 
 
-def location_section(locations: Sequence[Location]) -> Html:
+def location_section(locations: Sequence[Location], units: Units = IN_SI) -> Html:
     """Table of units that were driven alone; nothing where none was."""
     if not locations:
         return Html("")
@@ -22,18 +24,18 @@ def location_section(locations: Sequence[Location]) -> Html:
         "largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 recordings."
     )
     head = ("unit", "equation", "element", "channel", "window", "z", "limit", "goes with")
-    rows = [_line(one) for one in locations[:_LINES]]
+    rows = [_line(one, units) for one in locations[:_LINES]]
     more = len(locations) - _LINES
     rest = element("p", f"And {more} more in diagnosis.json.", class_="note") if more > 0 else ""
     return element("section", element("h2", "Each unit driven alone"), table(head, rows), rest,
                    element("p", note, class_="note"))  # fmt: skip
 
 
-def _line(one: Location) -> list[str]:
+def _line(one: Location, units: Units) -> list[str]:
     goes = listed([f"{d.variable} ({d.correlation:+.2f})" for d in one.depends_on], 2) or UNKNOWN
     z = element("td", number(abs(one.z)), class_="met" if one.is_noise else "missed")
     return [one.unit, wrapped(clean(one.equation)), clean(one.element), wrapped(clean(one.channel)),
-            span(one.begin, one.end), z, number(one.limit), wrapped(goes)]  # fmt: skip
+            units.span(one.begin, one.end), z, number(one.limit), wrapped(goes)]  # fmt: skip
 
 
 def waveform_section(waveforms: Sequence[Waveform]) -> Html:
@@ -53,11 +55,17 @@ def waveform_section(waveforms: Sequence[Waveform]) -> Html:
     return element("section", element("h2", "The missing input"), *drawn, element("p", note, class_="note"))
 
 
-def remainder_section(left: Sequence[Remainder]) -> Html:
+def remainder_section(left: Sequence[Remainder], units: Units = IN_SI) -> Html:
     """What no model explains; nothing where only noise is left."""
     if not left:
         return Html("")
-    rows = [(clean(r.channel), span(r.begin, r.end), number(r.z), number(r.limit)) for r in left]
-    note = "Standardised sums of what the last model leaves; noise alone stays below the limit in 99 of 100 recordings."
-    return element("section", element("h2", "What is left"), table(("channel", "window", "z", "limit"), rows),
+    rows = [
+        (clean(r.channel), units.span(r.begin, r.end), mean_left(r, units) or UNKNOWN, number(r.z), number(r.limit))
+        for r in left
+    ]
+    note = (
+        "z: standardised sums of what the last model leaves; noise alone stays below the limit in 99 of 100 recordings."
+    )
+    head = ("channel", "window", "measured - simulated, mean", "z", "limit")
+    return element("section", element("h2", "What is left"), table(head, rows),
                    element("p", note, class_="note"))  # fmt: skip

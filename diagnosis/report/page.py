@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
-from diagnosis.report.display import clean, listed, number, span
+from diagnosis.report.display import clean, listed, number
 from diagnosis.report.experiment_section import experiment_section, isolability_section
 from diagnosis.report.figures import is_left_in, network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
@@ -31,10 +31,11 @@ from diagnosis.report.sentences import (
 )
 from diagnosis.report.series import Series
 from diagnosis.report.undecided import departing, model_note, remainder, suggested, what_decides
+from diagnosis.report.user_units import Units
 
 #: Looks of the page; no font and no picture comes from elsewhere.
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
-#: Windows in which something is left that are told at the top.
+#: Windows in which something is left that are shown at the top.
 _LEFT = 3
 #: Forbids the page to load anything, whatever a recording's title says.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
@@ -66,20 +67,21 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         element("style", Html(STYLE)),
     )
     # Where nothing was found, what is left is the answer.
-    left, is_first = [remainder_section(diagnosis.left)], not diagnosis.findings
+    units = Units(diagnosis.units)
+    left, is_first = [remainder_section(diagnosis.left, units)], not diagnosis.findings
     body = element(
         "body",
         _answer(diagnosis, name),
         _place_and_time(diagnosis, series, network),
-        *(finding_section(n, f) for n, f in enumerate(diagnosis.findings)),
+        *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
         *left[:is_first],
         _figures(diagnosis, series),
         waveform_section(diagnosis.waveforms),
         experiment_section(diagnosis.next_experiment),
         *left[is_first:],
-        fit_section(diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits"),
+        fit_section(diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits", units),
         _certainty(diagnosis),
-        location_section(diagnosis.locations),
+        location_section(diagnosis.locations, units),
         isolability_section(diagnosis.isolability),
         _rests_on(diagnosis),
         element("footer", effort(diagnosis)),
@@ -117,18 +119,19 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
 def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """Where, when, what and how much better; how much better alone where nothing was found."""
     better, told = ("How much better", improvement(diagnosis)), diagnosis.accepted
-    others = [("Suggested", suggested(f)) for f in diagnosis.suggestions]
+    others = [("Suggested", suggested(f, Units(diagnosis.units))) for f in diagnosis.suggestions]
     if not told:
         return [*others, better]
     open_ones = [("Open", _each([ambiguity(f) for f in told]))] if any(f.ambiguous_with for f in told) else []
-    return [("Where", _each([where(f) for f in told])), ("When", _each([when(f) for f in told])),
+    times = [when(f, units=Units(diagnosis.units)) for f in told]
+    return [("Where", _each([where(f) for f in told])), ("When", _each(times)),
             ("What", _each([what(f) for f in told])), *open_ones, *others, better]  # fmt: skip
 
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
-    facts = [("Suggested", suggested(f)) for f in diagnosis.suggestions]
-    left = [remainder(r) for r in diagnosis.left[:_LEFT]]
+    facts = [("Suggested", suggested(f, Units(diagnosis.units))) for f in diagnosis.suggestions]
+    left = [remainder(r, Units(diagnosis.units)) for r in diagnosis.left[:_LEFT]]
     facts += [("What is left", _each(left))] if left else []
     alone = departing(diagnosis)
     facts += [("Units", alone)] if alone else []
@@ -162,7 +165,7 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
                   element("p", _caption(diagnosis, network), class_="note")]  # fmt: skip
     begin, end = _extent(diagnosis, series)
     if end > begin:
-        about = f"intervals in which each finding shows, {number(begin)} to {number(end)} s"
+        about = f"intervals in which each finding shows, {Units(diagnosis.units).span(begin, end)}"
         note = "Bars: where an effect is at least a tenth of its largest, in the recording that shows it most."
         parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
     return _section("Where and when" if diagnosis.accepted else "Where and when it would act", *parts)
@@ -191,7 +194,10 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     for one in series:
         part = "held out" if one.is_held_out else "training"
         caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
-        picture = image(series_figure(one, diagnosis.findings, diagnosis.left), f"{caption}: measured and simulated")
+        picture = image(
+            series_figure(one, diagnosis.findings, diagnosis.left, Units(diagnosis.units)),
+            f"{caption}: measured and simulated",
+        )
         drawn.append(element("figure", element("figcaption", caption), picture))
     told = (
         "Those in which findings show most or most is left, and those that are met worst. Above: measured and "
@@ -206,14 +212,15 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
     """Scenario and recordings."""
     if not diagnosis.recordings:
         return Html("")
-    rows = [(clean(r.title), "held out" if r.is_held_out else "training", span(r.begin, r.end), str(len(r.channels)),
-             clean(r.path)) for r in diagnosis.recordings]  # fmt: skip
+    units = Units(diagnosis.units)
+    rows = [(clean(r.title), "held out" if r.is_held_out else "training", units.span(r.begin, r.end),
+             str(len(r.channels)), clean(r.path)) for r in diagnosis.recordings]  # fmt: skip
     told = table(("recording", "part", "time", "channels", "folder"), rows)
     return _section("What it rests on", element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told)
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
-    moved = [moved_text(m) for m in diagnosis.recalibration]
+    moved = [moved_text(m, Units(diagnosis.units)) for m in diagnosis.recalibration]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Verdict
-from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, span, words
+from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, user_unit, words
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
+from diagnosis.report.user_units import IN_SI, Units
 
 #: What follows from a verdict.
 ADVICE = {
@@ -23,14 +24,14 @@ ADVICE = {
 
 def where(finding: Finding) -> str:
     """Unit, place, and elements unless the place names them; what has no name is only described there."""
-    elements = listed([e for e in finding.elements if e != finding.place], 6)
-    told = f"{finding.unit}: {clean(finding.place)}" + (f" ({elements})" if elements else "")
+    elements = listed([e for e in finding.elements if e not in finding.places.split(" or ")], 6)
+    told = f"{finding.unit}: {clean(finding.places)}" + (f" ({elements})" if elements else "")
     return f"described at {told}" if finding.standing is Standing.UNNAMED else told
 
 
-def when(finding: Finding, most: int = 4) -> str:
+def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
     """Intervals of a finding, in the recording that shows it most."""
-    told = listed([span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
     return f"{told} of {clean(finding.recording)}" if finding.recording else told
 
 
@@ -46,6 +47,11 @@ def what(finding: Finding) -> str:
 
 def ambiguity(finding: Finding) -> str:
     """What the data cannot tell from a finding."""
+    if finding.members:
+        told = [f"{words(m.effect)} at {clean(m.place)}" for m in finding.members]
+        others = [words(e) for e in finding.ambiguous_with if e not in {m.effect for m in finding.members}]
+        more = f" Nor from: {listed(others, 6)}." if others else ""
+        return f"The recorded channels show the same of: {listed(told, 6)}.{more}"
     if not finding.ambiguous_with:
         return "Every other effect that was fitted in its place has odds of less than 1 to 20."
     return f"The recordings cannot tell it from: {listed([words(e) for e in finding.ambiguous_with], 6)}."
@@ -115,10 +121,11 @@ def effort(diagnosis: Diagnosis) -> str:
     return f"{duration(diagnosis.seconds)}, {diagnosis.simulations} simulations, seed {diagnosis.seed}"
 
 
-def moved_text(moved: Moved) -> str:
+def moved_text(moved: Moved, units: Units = IN_SI) -> str:
     """How far a number was moved: by which factor, or what was added."""
     far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
-    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit)} ({far})"
+    preferred = user_unit(moved.unit, units.written)
+    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit, preferred)} ({far})"
 
 
 def doubt_text(doubt: Doubt) -> str:

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
 from diagnosis.judge.next_experiment import NextExperiment
-from diagnosis.report.display import clean, difference, interval, number
+from diagnosis.report.display import clean, number
 from diagnosis.report.fits import STAGES, Row, rows
 from diagnosis.report.sentences import (
     ambiguity,
@@ -27,6 +27,7 @@ from diagnosis.report.sentences import (
     where,
 )
 from diagnosis.report.undecided import model_note, remainder, what_decides
+from diagnosis.report.user_units import Units
 
 #: Lines that a summary has at most.
 LINES = 40
@@ -69,11 +70,12 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
 
 
 def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
+    units = Units(diagnosis.units)
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
-        yield from _finding(order, finding, width)
+        yield from _finding(order, finding, width, units)
     more = len(diagnosis.findings) - len(told)
     if more > 0:
         yield f"  and {more} more in report.html"
@@ -86,9 +88,9 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     yield from _wrapped("sure     ", sureness(diagnosis), width, 4)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
     for rest in diagnosis.left[:_STATEMENTS]:
-        yield from _wrapped("left in  ", remainder(rest), width, 2)
+        yield from _wrapped("left in  ", remainder(rest, units), width, 2)
     for moved in diagnosis.recalibration[:_STATEMENTS]:
-        yield from _wrapped("moved    ", moved_text(moved), width, 2)
+        yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 2)
 
@@ -98,31 +100,34 @@ def _next(experiment: NextExperiment) -> str:
     return experiment.statement + where
 
 
-def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
+def _finding(order: int, finding: Finding, width: int, units: Units) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
-    yield from _wrapped("  when   ", when(finding), width, 1)
+    yield from _wrapped("  when   ", when(finding, units=units), width, 1)
     prefix = "" if finding.is_accepted else "suggested, not accepted: "
     yield from _wrapped("  what   ", prefix + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
-    told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
-    yield from _wrapped("         ", ", ".join(told), width, 2)
+    told = [
+        f"{clean(p.name)} = {units.estimate(p)}{f', {clean(p.meaning)}' if p.meaning else ''}"
+        for p in finding.parameters
+    ]
+    yield from _wrapped("         ", "; ".join(told), width, 3)
     for doubt in finding.doubts[:_STATEMENTS]:
         yield from _wrapped("  doubt  " if finding.is_accepted else "  why not ", doubt, width, 3)
-    if finding.ambiguous_with:
+    if finding.ambiguous_with or finding.members:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))
 
 
 def _fit(diagnosis: Diagnosis, width: int) -> Iterator[str]:
-    found = rows(diagnosis.fit)
+    found, units = rows(diagnosis.fit), Units(diagnosis.units)
     for row in found[:_ROWS]:
-        yield from _wrapped("         ", _fit_row(row), width, 1)
+        yield from _wrapped("         ", _fit_row(row, units), width, 1)
     if len(found) > _ROWS:
         yield f"         and {len(found) - _ROWS} more rows in report.html"
 
 
-def _fit_row(row: Row) -> str:
-    factor, unit = difference(row.unit)
+def _fit_row(row: Row, units: Units) -> str:
+    factor, unit = units.difference(row.unit)
     told = " -> ".join(number(factor * row.rmse[stage]) for stage in STAGES)
     part = "held out" if row.is_held_out else "training"
     return f"{part}, {row.quantity}: RMSE {told} {unit} ({clean(row.recording)})"

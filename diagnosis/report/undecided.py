@@ -1,11 +1,14 @@
-"""What is told where nothing is accepted: what is left or suggested, why it is open, and what would decide."""
+"""What is said where nothing is accepted: what is left or suggested, why it is open, and what would decide."""
 
 from __future__ import annotations
 
+import math
+
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
 from diagnosis.judge.location import Remainder
-from diagnosis.report.display import clean, number, span, words
+from diagnosis.report.display import clean, number, words
 from diagnosis.report.sentences import when, where
+from diagnosis.report.user_units import IN_SI, Units
 
 #: What would decide about findings that other readings do not confirm.
 _UNCONFIRMED = (
@@ -20,16 +23,26 @@ _UNEXPLAINED = (
 )
 
 
-def suggested(finding: Finding) -> str:
+def suggested(finding: Finding, units: Units = IN_SI) -> str:
     """A finding that is not accepted: effect, place and time, and why it is not accepted."""
     name = "an effect without a name" if finding.standing is Standing.UNNAMED else words(finding.effect)
-    return f"{name}; {where(finding)}; {when(finding)}: {'; '.join(finding.doubts)}"
+    return f"{name}; {where(finding)}; {when(finding, units=units)}: {'; '.join(finding.doubts)}"
 
 
-def remainder(left: Remainder) -> str:
-    """Where something is left, and how far it is beyond noise."""
-    place = f"{clean(left.channel)}, {span(left.begin, left.end)}"
-    return f"{place}: {number(abs(left.z))} deviations, noise stays below {number(left.limit)}"
+def remainder(left: Remainder, units: Units = IN_SI) -> str:
+    """Where something is left, how much in the user's unit, and how far it is beyond noise."""
+    place = f"{clean(left.channel)}, {units.span(left.begin, left.end)}"
+    told = mean_left(left, units)
+    size = f"{told} on average, " if told else ""
+    return f"{place}: {size}{number(abs(left.z))} deviations, noise stays below {number(left.limit)}"
+
+
+def mean_left(left: Remainder, units: Units) -> str:
+    """Mean of measured minus simulated where something is left; empty where it is not known."""
+    if not (left.unit and math.isfinite(left.mean)):
+        return ""
+    factor, unit = units.difference(left.unit)
+    return f"{factor * left.mean:+.3g} {unit}".strip()
 
 
 def departing(diagnosis: Diagnosis) -> str:

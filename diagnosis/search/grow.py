@@ -36,7 +36,7 @@ INSTANTS = 40
 LATE = (-3.0, -2.0, -1.4, -1.0, -0.7, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0)
 #: Faults with begin and end that are fitted beside the laws, the best scores first, and how often an interval moves.
 FAULTS, MOVED_INTERVALS = 3, 4
-#: Fall of -2 log posterior for which an interval is moved: less is told by no reading.
+#: Fall of -2 log posterior for which an interval is moved: less than that no reading shows.
 WORTH = 1.0
 #: Nulls that say what chance gives to the best of all terms.
 DRAWS = 96

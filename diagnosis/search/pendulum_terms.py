@@ -72,12 +72,26 @@ _BENCH_ARM = Arm(BENCH[0] * _GRAVITY * BENCH[1], math.sqrt(_GRAVITY / BENCH[1]))
 _DRIES_UP = "a tenth of the weight's moment lets the arm rest 6 degrees off: that is seen before a run"
 
 
+#: What each number is, by its name.
+_MEANINGS = {
+    "coulomb_friction": "torque of dry friction", "viscous_damping": "torque per rate",
+    "stiction": "torque of stiction at rest, beyond the dry friction",
+    "stribeck_speed": "rate at which stiction has fallen to 37 %", "quadratic_drag": "torque per square of the rate",
+    "backlash": "play from end to end", "tilt": "angle of the stand", "cubic_drag": "torque per cube of the rate",
+    "spring_stiffness": "torque per angle", "spring_rest": "angle without torque",
+    "band_damping": "torque per rate in the middle of the band", "band_width": "half width of the band",
+    "periodic_torque": "largest torque", "periodic_rate": "rate of the phase", "periodic_phase": "phase at time 0",
+    "constant_torque": "torque",
+}  # fmt: skip
+
+
 def _size(
     name: str, unit: str, upper: float, most: float, why: str, count: int = ONE_SIGN, lower: float = 0.0
 ) -> TermParameter:  # fmt: skip
     """A number that takes sizes of one sign, tried by the rule of `diagnosis.candidates.sizes`."""
     most = min(most, upper)
-    return TermParameter(name, unit, lower, upper, _starts(most, lower, count), plausible=most, plausible_reason=why)
+    return TermParameter(name, unit, lower, upper, _starts(most, lower, count), plausible=most, plausible_reason=why,
+                         meaning=_MEANINGS[name])  # fmt: skip
 
 
 def _starts(most: float, lower: float, count: int) -> tuple[float, ...]:
@@ -88,7 +102,8 @@ def _signed(name: str, unit: str, upper: float, most: float, why: str, count: in
     """A number of either sign."""
     most = min(most, upper)
     starts = signed_sizes(most, count=count)
-    return TermParameter(name, unit, -upper, upper, starts, plausible=most, plausible_reason=why)
+    return TermParameter(name, unit, -upper, upper, starts, plausible=most, plausible_reason=why,
+                         meaning=_MEANINGS[name])  # fmt: skip
 
 
 def _laws(arm: Arm) -> tuple[_Law, ...]:
@@ -140,7 +155,7 @@ def _unnamed(arm: Arm) -> tuple[_Law, ...]:
              "torque = -spring_stiffness * (angle - spring_rest)",
              (_size("spring_stiffness", "N*m", 0.05, 0.3 * moment, "a third of the weight's own stiffness", 2),
               TermParameter("spring_rest", "rad", _HANGING - 2.0, _HANGING + 2.0,
-                            places(1.0, origin=_HANGING, is_signed=True)))),
+                            places(1.0, origin=_HANGING, is_signed=True), meaning=_MEANINGS["spring_rest"]))),
         _Law("torque_of_rate_in_a_band", "torque with the rate near the lowest position",
              "torque = -band_damping * exp(-((angle - pi) / band_width)**2) * w",
              (_size("band_damping", _DAMPING, 0.05, moment / rate, "it stops the arm where it hangs", 2),
@@ -148,9 +163,10 @@ def _unnamed(arm: Arm) -> tuple[_Law, ...]:
         _Law("periodic_torque", "torque that comes and goes",
              "torque = periodic_torque * sin(periodic_rate * t + periodic_phase)",
              (_signed("periodic_torque", "N*m", 0.02, 0.1 * moment, tenth, 1),
-              TermParameter("periodic_rate", "rad/s", 0.3, 30.0, _RATES),
+              TermParameter("periodic_rate", "rad/s", 0.3, 30.0, _RATES, meaning=_MEANINGS["periodic_rate"]),
               # A sine and a cosine together are every phase.
-              TermParameter("periodic_phase", "rad", -7.0, 7.0, (0.0, 0.5 * math.pi)))),
+              TermParameter("periodic_phase", "rad", -7.0, 7.0, (0.0, 0.5 * math.pi),
+                            meaning=_MEANINGS["periodic_phase"]))),
         _Law("constant_torque", "steady torque", "torque = constant_torque",
              (_signed("constant_torque", "N*m", 0.02, 0.1 * moment, tenth),)),
     )  # fmt: skip
@@ -167,13 +183,16 @@ _TWINS = {
 SENSOR_TERMS: Mapping[str, tuple[str, str, TermParameter]] = {
     "sensor_gain": ("gain of a sensor", "value = pi + (1 + gain) * (truth - pi)",
                     TermParameter("gain", "1", -0.3, 0.3, signed_sizes(0.1, 0.002, 1), negligible=0.002, plausible=0.1,
-                                  plausible_reason="an encoder read with another count is off by far more")),
+                                  plausible_reason="an encoder read with another count is off by far more",
+                                  meaning="change of the sensor's factor: 0.01 reads 1 % too much")),
     "sensor_lag": ("lag of a sensor", "lag_time * d(value) = truth - value",
                    TermParameter("lag_time", "s", 0.0, 1.0, sizes(0.1, 0.001, 2), negligible=0.001, plausible=0.1,
-                                 plausible_reason="an encoder with a filter of 0.1 s no longer follows a swing")),
+                                 plausible_reason="an encoder with a filter of 0.1 s no longer follows a swing",
+                                 meaning="time constant of the sensor")),
     "sensor_clock_offset": ("clock of a sensor", "value(t) = truth(t - offset)",
                             TermParameter("offset", "s", -1.0, 1.0, signed_sizes(0.5, 0.001, 1), negligible=0.001,
-                                          plausible=0.5, plausible_reason="a hand starts two clocks within 0.5 s")),
+                                          plausible=0.5, plausible_reason="a hand starts two clocks within 0.5 s",
+                                          meaning="time by which the clock is late")),
 }  # fmt: skip
 
 

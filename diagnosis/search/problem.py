@@ -62,6 +62,10 @@ class TermParameter:
         plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
         plausible_reason: Why.
         scan: Instants from which a fit may begin; empty: evenly spread within the bounds.
+        meaning: What it is, in words: a share, a factor or a change of what, or which physical quantity.
+        physical: Factor, offset and SI unit of the physical quantity that it stands for, where that is another: the
+            bias of a sensor is counted in what its channel typically reads.
+        is_reading: Whether it is a reading and no change: 300 K are 27 degC then.
     """
 
     name: str
@@ -75,6 +79,9 @@ class TermParameter:
     plausible: float = math.inf
     plausible_reason: str = ""
     scan: tuple[float, ...] = ()
+    meaning: str = ""
+    physical: tuple[float, float, str] | None = None
+    is_reading: bool = False
 
 
 @dataclass(frozen=True)

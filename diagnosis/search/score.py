@@ -77,7 +77,7 @@ class Projection:
         self._pull = cho_solve(self._factor, slope)
 
     def noise(self, draws: int, seed: int) -> None:
-        """Draw nulls: noise of residuals and prior, against which `chance` is reckoned."""
+        """Draw nulls: noise of residuals and prior, from which `chance` is computed."""
         self.draws = draws
         kind = self._jacobian.dtype
         noise, rng = null_noise(len(self.residuals), draws, seed)

@@ -19,7 +19,7 @@ from diagnosis.search.problem import Model, Parameter, Point, Term
 from diagnosis.search.score import Scoring
 from diagnosis.search.structure import Structure, structure
 
-#: Pairs of elements from which their scatter is told, and how many stated deviations it may grow to.
+#: Pairs of elements from which their scatter is estimated, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
 #: Stated deviations beyond which a clock or a lag may be a wrong minimum.
 LATE = 1.5

@@ -1,4 +1,4 @@
-"""Which explanation foretells what it was not fitted to, within the training recordings alone.
+"""Which explanation predicts what it was not fitted to, within the training recordings alone.
 
 Where a model is wrong by more than noise, a fit says little about it: many terms bend a curve through the readings.
 Each explanation is therefore fitted with one stretch of time left out, and runs freely through it; this goes round.
@@ -30,7 +30,7 @@ VALIDATED = 6
 SMALLEST = 1e-6
 #: Share of the largest gain that an explanation must have to be validated.
 WORTH = 0.3
-#: A search goes on through so many terms that do not foretell better by themselves: some effects show in pairs alone.
+#: A search goes on through so many terms that do not predict better by themselves: some effects show in pairs alone.
 PATIENCE = 2
 #: Most steps of a fit to a part, which starts from the fit to the whole, and how often it takes derivatives anew.
 ITERATIONS, REFRESHES = 8, 0
@@ -48,8 +48,8 @@ def blocks(layout: Layout, count: int = BLOCKS) -> list[AnyArray]:
 
 
 @dataclass(frozen=True)
-class Foretold:
-    """How well an explanation foretells.
+class Validated:
+    """How well an explanation predicts.
 
     Args:
         explanation: It.
@@ -88,11 +88,11 @@ class Validation:
         self._stretches = blocks(model.layout)
         self._parts = [hiding(~stretch) for stretch in self._stretches]
         #: Everything that was validated.
-        self.all: list[Foretold] = []
+        self.all: list[Validated] = []
         self._losses: list[float] = []
 
-    def foretold(self, explanation: Explanation) -> Foretold:
-        """How well an explanation foretells each stretch from the others."""
+    def validated(self, explanation: Explanation) -> Validated:
+        """How well an explanation predicts each stretch from the others."""
         residuals = np.zeros(len(self._model.layout.time))
         losses = []
         for part, stretch in counted(list(zip(self._parts, self._stretches)), "stretches left out in turn"):
@@ -101,15 +101,15 @@ class Validation:
             own = bounded(self._model.residuals([point])[0][stretch])
             residuals[stretch] = own
             losses.append(float(np.mean(own**2)))
-        return Foretold(explanation, residuals, np.array(losses))
+        return Validated(explanation, residuals, np.array(losses))
 
     def select(self, before: Explanation, grown: Sequence[Explanation]) -> list[Explanation]:
-        """Explanations, the most probable first; none once two more terms have not helped any of them to foretell.
+        """Explanations, the most probable first; none once two more terms have not helped any of them to predict.
 
-        What foretells badly may be half of what foretells best: it is judged at the end (`chosen`).
+        What predicts badly may be half of what predicts best: it is judged at the end (`chosen`).
         """
         if not self._losses:
-            self.all.append(self.foretold(before))
+            self.all.append(self.validated(before))
             self._losses.append(self.all[0].loss)
         found = []
         most = before.fit.cost - grown[0].fit.cost if grown else 0.0
@@ -117,7 +117,7 @@ class Validation:
         if hopeful:
             self._on_progress("validating explanations by stretches of time that they were not fitted to")
         for explanation in counted(hopeful, "explanations validated"):
-            found.append(self.foretold(explanation))
+            found.append(self.validated(explanation))
         self.all += found
         self._losses.append(min((f.loss for f in found), default=np.inf))
         if not found or min(self._losses[-PATIENCE:]) >= min(self._losses[:-PATIENCE], default=np.inf):
@@ -132,8 +132,8 @@ def _seen(whole: Fit, seen: AnyArray) -> Fit:
     return replace(whole, residuals=residuals, columns=Columns.of(values, whole.columns.at, residuals))
 
 
-def chosen(found: Sequence[Foretold], plain: Collection[Term], margin: float) -> Foretold:
-    """Of those that foretell as well as the best: the most probable of those with the fewest terms that are not plain.
+def chosen(found: Sequence[Validated], plain: Collection[Term], margin: float) -> Validated:
+    """Of those that predict as well as the best: the most probable of those with the fewest terms that are not plain.
 
     Few stretches tell little: one that asks for more than the others hold (two heaters on at once, which happens there
     alone) outweighs the rest. They may refute an explanation; among those that they leave the readings decide, each
@@ -146,14 +146,14 @@ def chosen(found: Sequence[Foretold], plain: Collection[Term], margin: float) ->
     """
     best = min(found, key=lambda f: f.loss)
 
-    def simplicity(one: Foretold) -> tuple[int, float]:
+    def simplicity(one: Validated) -> tuple[int, float]:
         terms = one.explanation.terms
         return sum(t not in plain for t in terms), one.explanation.cost + margin * len(terms)
 
     return min((f for f in found if _within(f, best)), key=simplicity)
 
 
-def _within(one: Foretold, best: Foretold) -> bool:
-    """Whether an explanation foretells as well as the best, within the standard error of the difference."""
+def _within(one: Validated, best: Validated) -> bool:
+    """Whether an explanation predicts as well as the best, within the standard error of the difference."""
     difference = np.log(one.losses + SMALLEST) - np.log(best.losses + SMALLEST)
     return bool(np.mean(difference) <= np.std(difference, ddof=1) / np.sqrt(len(difference)))

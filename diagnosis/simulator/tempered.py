@@ -62,7 +62,7 @@ class TemperedModel(WrappedModel):
 
 
 def untempered(model: DiagnosisModel) -> DiagnosisModel:
-    """The model with the noise of the sensors as it is: what is left is told in that."""
+    """The model with the noise of the sensors as it is: what is left is stated in that."""
     return model.inner if isinstance(model, TemperedModel) else model
 
 

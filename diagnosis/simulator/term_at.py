@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.places import SCALES, Place
-from diagnosis.candidates.candidate import CandidateTerm, Scope
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, Scope
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.simulator.rig_scales import believed, rig_scales
 from diagnosis.simulator.runs import LONGEST_LAG, Run, Series
@@ -57,10 +57,40 @@ def term_at(
         believable = believed(candidate, p, own, scales)
         free.append(
             TermParameter(
-                p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible, *believable, scan
+                p.name,
+                p.unit,
+                lower,
+                upper,
+                starts,
+                p.is_switch,
+                p.is_instant,
+                negligible,
+                *believable,
+                scan,
+                p.meaning,
+                physical(p, own),
+                p.physical == "reading" or (p.unit == "K" and p.is_position),
             )
         )
     return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+
+
+def physical(parameter: Parameter, own: Sequence[Series]) -> tuple[float, float, str] | None:
+    """Factor, offset and SI unit of the quantity that a number counted in typical readings stands for.
+
+    Args:
+        parameter: Of an effect on channels.
+        own: Series of these channels, all of one quantity; there may be none.
+
+    Returns:
+        None where the number is a quantity itself, or no such channel was recorded.
+    """
+    if not (parameter.physical and own) or own[0].quantity not in SCALES:
+        return None
+    (scale, pivot), unit = SCALES[own[0].quantity], own[0].channel.unit
+    if parameter.physical == "rate":
+        return scale / 60.0, 0.0, f"{unit}/s"
+    return scale, pivot if parameter.physical == "reading" else 0.0, unit
 
 
 def _instants(timeline: Timeline, count: int, scope: Scope) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ from diagnosis.model_error import search_with_model_error
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Settings, search
-from diagnosis.search.validation import BLOCKS, Foretold, Validation, blocks, chosen
+from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
 from diagnosis.simulator.tempered import TemperedModel, correlation_time, inflation
 from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
 
@@ -75,8 +75,8 @@ def test_stretches_are_equal_shares_of_time_and_hold_every_sample_once():
     assert np.array_equal(sum(b.astype(int) for b in found), np.ones(200))
 
 
-def test_a_law_that_holds_foretells_and_a_gap_filler_does_not():
-    """A sine of three periods is foretold from the rest; a bend at the end alone helps nowhere else."""
+def test_a_law_that_holds_predicts_and_a_gap_filler_does_not():
+    """A sine of three periods is predicted from the rest; a bend at the end alone helps nowhere else."""
     readings = 4.0 * np.sin(TIMES) + np.random.default_rng(2).standard_normal(200)
     model = Curves(readings)
     validation = Validation(model, lambda seen: Curves(readings, seen))
@@ -89,39 +89,39 @@ def test_a_law_that_holds_foretells_and_a_gap_filler_does_not():
     assert losses[()] > 5.0
 
 
-def test_of_two_that_foretell_alike_the_plain_one_is_taken():
+def test_of_two_that_predict_alike_the_plain_one_is_taken():
     readings = np.random.default_rng(2).standard_normal(200)
     start = Explanation(fit(Curves(readings), Point(np.zeros(2))))
     other = Explanation(fit(Curves(readings), start.fit.point.plus(term("bend"), (0.1,))))
     losses = np.array([1.0, 1.2, 0.9, 1.1, 1.0])
-    far = Foretold(start, readings, losses + 1.0)
-    plain, special = Foretold(other, readings, losses + 0.01), Foretold(start, readings, losses * 0.98)
-    assert chosen([far, plain, special], set(other.terms), 20.0) is special  # fewer terms, and it foretells better
+    far = Validated(start, readings, losses + 1.0)
+    plain, special = Validated(other, readings, losses + 0.01), Validated(start, readings, losses * 0.98)
+    assert chosen([far, plain, special], set(other.terms), 20.0) is special  # fewer terms, and it predicts better
     assert chosen([far, plain], set(other.terms), 20.0) is plain
 
 
 def test_one_stretch_that_asks_for_what_it_alone_holds_does_not_outvote_the_others():
     readings = np.random.default_rng(2).standard_normal(200)
     start = Explanation(fit(Curves(readings), Point(np.zeros(2))))
-    better = Foretold(start, readings, np.array([1.0, 1.0, 1.0, 1.0, 30.0]))
-    worse = Foretold(start, readings, np.array([4.0, 4.0, 4.0, 4.0, 4.0]))
+    better = Validated(start, readings, np.array([1.0, 1.0, 1.0, 1.0, 30.0]))
+    worse = Validated(start, readings, np.array([4.0, 4.0, 4.0, 4.0, 4.0]))
     assert np.mean(better.losses) > np.mean(worse.losses)
     assert better.loss == pytest.approx(30.0**0.2, rel=1e-4)  # fifth root of the product
     assert better.loss < worse.loss
 
 
-def test_among_those_that_foretell_alike_the_readings_decide_and_each_term_pays_the_margin():
+def test_among_those_that_predict_alike_the_readings_decide_and_each_term_pays_the_margin():
     readings = 4.0 * np.sin(TIMES) + np.random.default_rng(2).standard_normal(200)
     start = Explanation(fit(Curves(readings), Point(np.zeros(2))))
     bend = Explanation(fit(Curves(readings), start.fit.point.plus(term("bend"), (0.1,))))
     gain = start.cost - bend.cost
     assert gain > 100.0  # 200 readings, errors of 4 / sqrt(2) against noise of 1, bounded
     losses = np.array([1.0, 1.2, 0.9, 1.1, 1.0])
-    both = [Foretold(start, readings, losses), Foretold(bend, readings, losses * [1.02, 0.98, 1.03, 0.99, 1.0])]
+    both = [Validated(start, readings, losses), Validated(bend, readings, losses * [1.02, 0.98, 1.03, 0.99, 1.0])]
     plain = set(bend.terms)
     assert chosen(both, plain, 0.9 * gain).explanation is bend
     assert chosen(both, plain, 1.1 * gain).explanation is start
-    refuted = Foretold(bend, readings, losses * 3.0)
+    refuted = Validated(bend, readings, losses * 3.0)
     assert chosen([both[0], refuted], plain, 20.0).explanation is start
 
 

@@ -75,7 +75,8 @@ def test_numbers_that_are_not_finite_become_null_and_are_not_known_when_read(tmp
     content = json.loads(read_page(tmp_path / "d.json"))
     jsonschema.Draft202012Validator(schema()).validate(content)
     assert content["findings"][0]["parameters"][0] == {
-        "name": "R_contact", "unit": "ohm", "value": 0.3, "lower": None, "upper": None,
+        "name": "R_contact", "unit": "ohm", "value": 0.3, "lower": None, "upper": None, "meaning": "",
+        "physical": None, "is_reading": False,
     }  # fmt: skip
     again = read_json(tmp_path / "d.json")
     assert math.isnan(again.margin)
@@ -89,7 +90,7 @@ def test_the_published_schema_is_the_one_the_code_makes() -> None:
 def test_the_schema_describes_every_key_and_refuses_others() -> None:
     made = schema()
     objects = [made, *(d for d in made["$defs"].values() if d["type"] == "object")]
-    assert len(objects) == 26
+    assert len(objects) == 28
     for one in objects:
         assert all(len(about["description"]) > 3 for about in one["properties"].values())
     content = json.loads(json.dumps({**_content(), "surprise": 1}))
@@ -171,7 +172,7 @@ def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
 def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -> None:
     write_html(diagnosis(Verdict.MISSING_PHYSICS), [], tmp_path / "report.html")
     text = Page(read_page(tmp_path / "report.html")).text
-    assert "0.312 (0.281 to 0.350)" in text
+    assert "0.312 ohm (0.281 to 0.350)" in text
     assert "5.00 to 42.5 s, 60.0 to 88.0 s" in text
     assert "The recordings cannot tell it from: the model's own reference resistance." in text
     assert "the voltage of one coil decides" in text

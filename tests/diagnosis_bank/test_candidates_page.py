@@ -24,13 +24,18 @@ def section(identifier):
 def test_a_person_finds_bounds_reason_and_starts_of_a_parameter():
     """Facts of the effects themselves: a sensor follows, it does not foresee; a surface that cools stays one."""
     share = next(line for line in section("insulation_when_off").splitlines() if line.startswith("- `share`"))
-    assert share.startswith("- `share` [1], 0 to 0.95: heat transfer stays positive; believed up to 0.8: a fan that")
-    assert "tried from 0.037, 0.126, 0.433; below 0.02 it is no finding" in share
-    assert "- `lag_time` [s], 0 to 60: a sensor follows, it does not foresee;" in section("sensor_lag")
-    assert (
-        "`C2` [J/K], 0.001 to 100: a heat capacity is positive; believed up to 30 times the coil's heat capacity"
-        in (section("second_mass"))
+    assert share.startswith(
+        "- `share` [1], share of the heat transfer (h A) that is held back while the power is off; 0 to 0.95: "
+        "heat transfer stays positive; believed up to 0.8: a fan that"
     )
+    assert "tried from 0.037, 0.126, 0.433; below 0.02 it is no finding" in share
+    assert "- `lag_time` [s], time constant of the sensor; 0 to 60: a sensor follows, it does not foresee;" in section(
+        "sensor_lag"
+    )
+    assert (
+        "`C2` [J/K], heat capacity of the second mass; 0.001 to 100: a heat capacity is positive; "
+        "believed up to 30 times the coil's heat capacity"
+    ) in section("second_mass")
     assert "- `other` [1]: given with the place" in section("wrong_identity")
     assert "- needs one of: current, voltage, power, resistance" in section("shared_supply_droop")
     assert "- needs at least 2 coils or heaters" in section("shared_supply_droop")
@@ -41,7 +46,7 @@ def test_every_parameter_that_is_fitted_has_its_bounds_on_the_page():
     for term in catalogue():
         for p in term.parameters if term.is_named else ():
             if not (p.is_fixed or p.is_instant):
-                begin = f"- `{p.name}` [{p.unit}], {p.lower:g} to {p.upper:g}: {p.reason}; believed up to "
+                begin = f"- `{p.name}` [{p.unit}], {p.meaning}; {p.lower:g} to {p.upper:g}: {p.reason}; believed up to "
                 assert any(line.startswith(begin) for line in lines), begin
 
 

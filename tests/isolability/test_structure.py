@@ -86,3 +86,42 @@ def test_classes_have_the_same_order_in_every_process():
     }  # fmt: skip
     assert len(told) == 1
     assert "sensor of supply.current" in told.pop()
+
+
+def with_channels(own, quantity, elements):
+    return Rig(own.strings, True, True, own.channels | {(quantity, e) for e in elements}, own.feels_heat, own.has_load)
+
+
+def test_a_voltage_of_every_coil_tells_a_coil_from_its_string_and_from_its_neighbour():
+    """By Ohm's law of each coil; the current alone knows the sum of what lies in the string."""
+    own = rig("current")
+    one, other = "resistance of coil[1,1]", "resistance of coil[1,2]"
+    found = analyse(own)
+    assert not apart(found, one, other)
+    assert not apart(found, one, STRING)
+    found = analyse(with_channels(own, "voltage", COILS))
+    assert apart(found, one, other)
+    assert apart(found, one, STRING)
+
+
+def test_a_voltage_across_the_coils_of_a_string_tells_them_from_their_wires():
+    own = rig("current")
+    found = analyse(with_channels(own, "string_voltage", STRINGS))
+    assert apart(found, "resistance of coil[1,1]", STRING)
+    assert not apart(found, "resistance of coil[1,1]", "resistance of coil[1,2]")
+
+
+def test_the_power_of_a_supply_tells_its_voltage_from_the_sensor_of_its_current():
+    """Power over current is the voltage."""
+    own = rig("supply_current")
+    supply, sensor = "voltage of the supply", "sensor of supply.current"
+    assert not apart(analyse(own), supply, sensor)
+    found = analyse(with_channels(own, "supply_power", ["supply"]))
+    assert "sensor of supply.power" in found.faults
+    assert apart(found, STRING, sensor)
+
+
+def test_voltages_are_among_the_channels_that_may_be_recorded_in_addition():
+    own = rig("current")
+    offered = {c.channel for c in extra_channels(own, analyse(own))}
+    assert {"voltage of every coil", "voltage of every string"} <= offered

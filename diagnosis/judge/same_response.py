@@ -1,0 +1,166 @@
+"""Laws and places that the recorded channels cannot tell from a finding, whether or not the search fitted them.
+
+Currents alone do not say which coil of a string broke: the string carries none in either case. The search fits some of
+these explanations and drops others early, so its list of rivals is not the class. Here every other place of the same
+law, and every law that differs in its strength alone, is simulated at the values that were fitted. What differs by less
+than odds of 20 to 1 ask for, on all readings together, training and held out, is of one class.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cosim.unit import Array
+from diagnosis.judge.diagnosis import Member
+from diagnosis.judge.held_out import carried_over
+from diagnosis.judge.plausibility import implausible
+from diagnosis.judge.unfitted import raw_residuals
+from diagnosis.search.problem import Point, Term
+from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel, timeline_of
+from diagnosis.simulator.tempered import untempered
+
+#: Sum of squared differences, in deviations of the noise, that odds of 20 to 1 ask for: 2 ln 20.
+APART = 2.0 * float(np.log(20.0))
+#: Sizes of a strength that are tried first, and how often the best one is searched between its neighbours.
+SIZES, ROUNDS = 17, 4
+#: Share of the law's own response beyond which a law of the best of these sizes is another response altogether: sizes
+#: next to each other differ by a factor of 2, the best one by at most 1.41, which leaves (0.41)^2 of it.
+OTHER = 0.25
+
+
+def same_response(
+    model: DiagnosisModel, point: Point, term: Term, judge: DiagnosisModel | None = None
+) -> tuple[Member, ...]:  # fmt: skip
+    """Members of the class of a term, without the term itself; empty where each simulation takes seconds.
+
+    Args:
+        model: Model of the training recordings.
+        point: A fit with the term.
+        term: One of its terms.
+        judge: Model of the held-out recordings; None where there are none.
+    """
+    if _bank(model) is None or term.recording is not None or term.unit == "measurement":
+        return ()
+    seen = _seen(model, point, term)
+    own = _rows(model, [point, point.without(term)], seen)
+    if float(np.sum((own[1] - own[0]) ** 2)) < APART:
+        return ()  # its own response does not show: everything small would be like it
+    found = []
+    for other in model.terms():
+        if other == term or other.recording is not None or other in point.terms or other.unit != term.unit:
+            continue
+        if _is_same_place(model, term, other):
+            continue
+        values = _values(model, point, term, other, own, seen)
+        if values is None or implausible(other, values):
+            continue
+        there = point.without(term).plus(other, values)
+        if _distance(model, point, there, seen) + _held_out(judge, model, point, there) < APART:
+            found.append(Member(other.identifier, model.where(other)[1].label, other.is_named))
+    return tuple(found)
+
+
+def _bank(model: object) -> BankModel | None:
+    while hasattr(model, "inner"):
+        model = model.inner
+    return model if isinstance(model, BankModel) else None
+
+
+def _is_same_place(model: DiagnosisModel, one: Term, other: Term) -> bool:
+    """Whether two terms are one law on the same elements: `all coils` of a rig that has one."""
+    masks = [getattr(model.where(t)[1], "mask", None) for t in (one, other)]
+    first, second = masks
+    if one.identifier != other.identifier or first is None or second is None:
+        return False
+    return bool(np.array_equal(first, second))
+
+
+def _values(
+    model: DiagnosisModel, point: Point, term: Term, other: Term, own: Array, seen: Array
+) -> tuple[float, ...] | None:  # fmt: skip
+    """Values at which another law is most like a term; None where it differs in more than its strength."""
+    values = point.terms[term]
+    if other.identifier == term.identifier:
+        return values
+    shape = {p.name: v for p, v in zip(term.parameters[1:], values[1:])}
+    if {p.name for p in other.parameters[1:]} != set(shape) or not all(p.is_instant for p in other.parameters[1:]):
+        return None
+    rest = tuple(shape[p.name] for p in other.parameters[1:])
+    without, size = point.without(term), float(np.sum((own[1] - own[0]) ** 2))
+    tried = np.array(list(_sizes(other)))
+    for number in range(1 + ROUNDS):
+        points = [without.plus(other, (float(s), *rest)) for s in tried]
+        distances = np.sum((_rows(model, points, seen) - own[0]) ** 2, axis=1)
+        best = int(np.argmin(distances))
+        if number == 0 and distances[best] > OTHER * size:
+            return None
+        found = float(tried[best])
+        if distances[best] < 0.01 * APART:
+            break
+        low, high = tried[max(best - 1, 0)], tried[min(best + 1, len(tried) - 1)]
+        tried = np.linspace(low, high, 9)
+    return (found, *rest)
+
+
+def _sizes(term: Term) -> Iterator[float]:
+    """Strengths within the bounds, rising, each twice as large as the one before; and the bounds themselves."""
+    strength = term.parameters[0]
+    most = max(abs(strength.lower), abs(strength.upper))
+    steps = most * 0.5 ** np.arange(SIZES)
+    # A share acts by what is left of it: 1 - 0.5^n are the sizes next to 1.
+    near = [strength.upper * (1.0 - 0.5**n) for n in range(1, SIZES)] if strength.unit == "1" else []
+    every = {strength.lower, strength.upper, *steps.tolist(), *(-steps).tolist(), *near}
+    yield from sorted(s for s in every if strength.lower <= s <= strength.upper and s != 0.0)
+
+
+def _seen(model: DiagnosisModel, point: Point, term: Term) -> Array:
+    """1 for readings that can part two laws, 0 for those of the steps of the simulation around an instant.
+
+    Within a step a resistance is its mean: what sets in there is spread over the step, by each law in its own way, and
+    that is an error of the fast simulation and nothing that a rig does.
+    """
+    bank, seen = _bank(model), _used(model)
+    assert bank is not None
+    joint = next((v for p, v in zip(term.parameters, point.terms[term]) if p.is_instant), None)
+    timeline = timeline_of(model)
+    if joint is None or timeline is None:
+        return seen
+    number, instant = timeline.place(joint)
+    ends, begin = np.asarray(bank.runs[number].inputs.time), 0
+    k = int(np.searchsorted(ends, instant))
+    first, last = float(ends[max(k - 2, 0)]), float(ends[min(k + 1, len(ends) - 1)])
+    for run in range(number + 1):
+        for series in bank.runs[run].series:
+            times = series.channel.times[-len(series.samples) :]
+            if run == number:
+                seen[begin : begin + len(times)][(times >= first) & (times <= last)] = 0.0
+            begin += len(times)
+    return seen
+
+
+def _distance(model: DiagnosisModel, one: Point, other: Point, seen: Array) -> float:
+    first, second = _rows(model, [one, other], seen)
+    return float(np.sum((first - second) ** 2))
+
+
+def _rows(model: DiagnosisModel, points: Sequence[Point], seen: Array) -> Array:
+    """(measured - simulated) / noise, 0 where a reading does not count, shape (points, readings).
+
+    Zeros of channels are not taken away: what differs at readings that do not count must not spread over the others.
+    """
+    inner = untempered(model)
+    return np.array([raw_residuals(inner, p) * seen for p in points])
+
+
+def _used(model: DiagnosisModel) -> Array:
+    """1 for readings that count, else 0, shape (readings,)."""
+    return np.concatenate([s.used for run in model.runs for s in run.series]).astype(np.float64)
+
+
+def _held_out(judge: DiagnosisModel | None, model: DiagnosisModel, one: Point, other: Point) -> float:
+    if judge is None:
+        return 0.0
+    return _distance(judge, carried_over(one, model, judge), carried_over(other, model, judge), _used(judge))
