@@ -94,6 +94,7 @@ class Finding:
         doubts: Why it is no name, or not accepted, in plain words.
         recording: Title of the recording that `intervals` are times of.
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
+        judged_by: Which readings these are: `held-out recordings`, or, of what no other recording has, others of its own.
     """
 
     unit: str
@@ -116,6 +117,7 @@ class Finding:
     doubts: tuple[str, ...] = ()
     recording: str = ""
     held_out_gain: float = math.nan
+    judged_by: str = ""
 
 
 @dataclass(frozen=True)
@@ -133,6 +135,7 @@ class Doubt:
         begin: Begin of the stretch concerned [s]; that of the recording where it is all of it.
         end: End of the stretch [s].
         z: Size of the evidence in deviations of the noise.
+        is_far: Whether a start is farther off than the start of any day may be moved.
     """
 
     recording: str
@@ -144,6 +147,7 @@ class Doubt:
     begin: float
     end: float
     z: float
+    is_far: bool = False
 
 
 @dataclass(frozen=True)
@@ -266,6 +270,7 @@ class Left:
         noise: Standard deviation of the sensor's noise, as stated or from neighbouring readings [unit].
         chi_square: Per reading.
         limit: Noise alone exceeds it in one of a thousand diagnoses.
+        scatter: Root mean square of what is left as far as it changes from one reading to the next [unit].
     """
 
     recording: str
@@ -275,6 +280,7 @@ class Left:
     noise: float
     chi_square: float
     limit: float
+    scatter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -316,6 +322,8 @@ class Adequacy:
         is_nominal_rejected: Whether the readings reject the scenario as it is.
         is_training_rejected: Whether the training recordings reject the model as well.
         is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
+        is_irregular: Whether every channel that rejects the model does so by what changes from one reading to the next
+            alone, as a noise does that is larger than stated.
     """
 
     basis: str
@@ -332,6 +340,7 @@ class Adequacy:
     is_nominal_rejected: bool
     is_training_rejected: bool
     is_recalibration_worse: bool
+    is_irregular: bool = False
 
 
 @dataclass(frozen=True)

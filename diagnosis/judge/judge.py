@@ -20,8 +20,8 @@ from diagnosis.judge.diagnosis import (
     Standing,
     Verdict,
 )
-from diagnosis.judge.doubts import faults
-from diagnosis.judge.events import event_of, local_estimates, since
+from diagnosis.judge.doubts import far_starts, faults
+from diagnosis.judge.events import between_samples, event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.standing import standing_of, unidentified
@@ -31,7 +31,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.search.shares import departures
+from diagnosis.search.shares import departures, of_title
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import untempered
 
@@ -72,7 +72,7 @@ def verdict(
     """
     accepted = [f for f in found if f.is_accepted]
     physics = [f for f in accepted if f.unit not in ("measurement", "input")]
-    if (accepted or faults(doubts)) and not physics:
+    if faults(doubts) and not physics or accepted and not physics and not is_stopgap(accepted, adequacy):
         return Verdict.MEASUREMENT_FAULT
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)
@@ -83,17 +83,31 @@ def verdict(
     return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
 
 
+def is_stopgap(measured: Sequence[Finding], adequacy: Adequacy) -> bool:
+    """Whether accepted faults of sensors and inputs only fill a gap of the model: none has a name, and much is left.
+
+    An offset, a gain or a box in time brings a wrong model nearer to any readings. That alone accuses no sensor.
+    """
+    return adequacy.is_rejected and all(f.standing is Standing.UNNAMED for f in measured)
+
+
 def why_open(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
 ) -> tuple[str, ...]:  # fmt: skip
-    """Why it cannot be told whether something is missing, where nothing is accepted; empty if the model agrees."""
-    reasons = []
+    """Why it cannot be told whether something is missing, where no physics is accepted; empty if the model agrees."""
+    reasons = [_start(d) for d in far_starts(doubts)[:1]]
     if not searched.has_physics:
         reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
-    unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
-    if adequacy.is_rejected:
+    law = "no law that is confirmed" if found else "no law that was tried"
+    unexplained = f", and {law} explains what is left" if searched.has_physics else ""
+    if adequacy.is_irregular and (adequacy.is_rejected or adequacy.is_training_rejected):
+        reasons.append(
+            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from one "
+            "reading to the next, as a larger noise does"
+        )
+    elif adequacy.is_rejected:
         reasons.append(f"the readings reject the model{unexplained}")
     elif adequacy.is_training_rejected:
         reasons.append(f"the training readings reject the model{unexplained}")
@@ -106,6 +120,12 @@ def why_open(
         those = "a parameter" if strained == 1 else f"{strained} parameters"
         reasons.append(f"{those} had to move by more than {STRAINED:.0f} times the stated uncertainty")
     return tuple(reasons)
+
+
+def _start(doubt: Doubt) -> str:
+    """Why nothing is concluded from a recording that begins elsewhere than it says."""
+    where = f"{doubt.recording}, {doubt.subject}"
+    return f"{where}: {doubt.statement.rstrip('.')}, and what follows from that is not told from physics"
 
 
 def is_small(accepted: Accepted) -> bool:
@@ -177,7 +197,7 @@ def _finding(
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     when = since(term, fit, model, doubt)
     found = estimates(fit, term, doubt, model.unseen(term))
-    told = local_estimates(found, term, fit, model, doubt)
+    told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
     doubts = (*unidentified(term, fit, told), *implausible(term, fit.point.terms[term]))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
@@ -212,6 +232,7 @@ def _finding(
         doubts=(*accepted.reasons.get(term, ()), *doubts),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
+        judged_by=accepted.judged_by.get(term, ""),
     )
 
 
@@ -351,14 +372,14 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
-def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
-    """Parameters that moved by more than `MOVED` prior deviations, the farthest first."""
+def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -> tuple[Moved, ...]:
+    """Parameters that moved by more than `MOVED` prior deviations, the farthest first; recordings by their titles."""
     names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
     units = {p.name: p.unit for p in model.parameters}
     relative = {p.name for p in model.parameters if p.is_relative}
     found = [
         Moved(
-            name,
+            of_title(name, titles),
             "1" if name in relative else units.get(name, ""),
             float(np.exp(amount)) if name in relative else amount,
             name in relative,

@@ -71,6 +71,8 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
 def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
+    if len(diagnosis.doubts) > _FINDINGS:
+        yield f"         and {len(diagnosis.doubts) - _FINDINGS} more doubts in diagnosis.json"
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
         yield from _finding(order, finding, width)
@@ -107,7 +109,7 @@ def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
     told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
     yield from _wrapped("         ", ", ".join(told), width, 2)
     for doubt in finding.doubts[:_STATEMENTS]:
-        yield from _wrapped("  why not" if not finding.is_accepted else "  doubt  ", f" {doubt}", width, 3)
+        yield from _wrapped("  doubt  " if finding.is_accepted else "  why not ", doubt, width, 3)
     if finding.ambiguous_with:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))
