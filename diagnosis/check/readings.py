@@ -20,7 +20,7 @@ HONEST = 2.0
 #: Neighbouring increments on each side whose mean an increment is compared with, and whose scatter.
 SIDE, WIDE = 4, 12
 #: Readings over which a course may go over from one line to another, and is no step then.
-RAMPS = (3.0, 5.0, 8.0)
+RAMPS = (5.0, 8.0)
 #: Largest steps that are left out where the tail of the noise is told: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.

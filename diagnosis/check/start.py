@@ -67,8 +67,8 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     simulated = measured - off
     end = float(beside.channel.times[len(values) - 1])
     text = (
-        f"its first {len(values)} readings ({time:.4g} to {end:.4g} s) begin at {values[0] - 273.15:.4g} degC and are "
-        f"{measured - 273.15:.4g} degC on average, where {simulated - 273.15:.4g} degC is simulated"
+        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings ({time:.4g} to {end:.4g} s) "
+        f"are {measured - 273.15:.4g} degC on average, where {simulated - 273.15:.4g} degC is simulated"
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "

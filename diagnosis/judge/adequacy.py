@@ -38,8 +38,16 @@ def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> 
         by_recalibration=_share(before, recalibrated),
         worst=None
         if worst is None
-        else Left(worst.recording, worst.channel, worst.unit, worst.rmse, worst.noise, worst.chi_square, worst.limit,
-                  worst.scatter),
+        else Left(
+            worst.recording,
+            worst.channel,
+            worst.unit,
+            worst.rmse,
+            worst.noise,
+            worst.chi_square,
+            worst.limit,
+            worst.scatter,
+        ),
         rejected=(sum(c.is_rejected for c in now.channels), len(now.channels)),
         day=day,
         wild=now.wild,

@@ -1,7 +1,7 @@
 """Whether readings reject a model, by the noise of their sensors.
 
-Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality. Scatter from
-successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
+Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
+Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class Agreement:
     def excess(self) -> float:
         """Sum of squares beyond what noise gives, at least 0.
 
-        Of what is printed as root mean square: a zero that is off counts here, so that shares agree with the rows of fits.
+        Of what is printed as root mean square: a zero that is off counts, so that shares agree with the rows of fits.
         """
         return max(sum(c.samples * (c.multiple**2 - 1.0) for c in self.channels), 0.0)
 

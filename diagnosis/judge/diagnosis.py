@@ -94,7 +94,7 @@ class Finding:
         doubts: Why it is no name, or not accepted, in plain words.
         recording: Title of the recording that `intervals` are times of.
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
-        judged_by: Which readings these are: `held-out recordings`, or, of what no other recording has, others of its own.
+        judged_by: Which readings these are: `held-out recordings`, or others of its own recording.
     """
 
     unit: str

@@ -50,7 +50,7 @@ def far_starts(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 
 def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Finding, ...]:
-    """Findings, some as suggestions: physics beside a fault or a start that no finding explains, too many faults at once.
+    """Findings, some as suggestions: physics beside a fault or start that no finding explains, too many faults at once.
 
     A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does.
 
@@ -69,7 +69,7 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
 
 
 def _is_explained(doubt: Doubt, finding: Finding) -> bool:
-    """Whether a finding is the fault that a doubt is about: the same channel, and, of a fault of a stretch, recording."""
+    """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording."""
     is_there = not finding.effect.endswith(_IN_INTERVAL) or finding.recording in ("", doubt.recording)
     return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
 

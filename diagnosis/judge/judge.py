@@ -72,7 +72,7 @@ def verdict(
     """
     accepted = [f for f in found if f.is_accepted]
     physics = [f for f in accepted if f.unit not in ("measurement", "input")]
-    if faults(doubts) and not physics or accepted and not physics and not is_stopgap(accepted, adequacy):
+    if not physics and (faults(doubts) or (accepted and not is_stopgap(accepted, adequacy))):
         return Verdict.MEASUREMENT_FAULT
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)
@@ -95,7 +95,9 @@ def why_open(
     outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
 ) -> tuple[str, ...]:  # fmt: skip
     """Why it cannot be told whether something is missing, where no physics is accepted; empty if the model agrees."""
-    reasons = [_start(d) for d in far_starts(doubts)[:1]]
+    if far_starts(doubts):
+        return (_start(far_starts(doubts)[0]),)
+    reasons = []
     if not searched.has_physics:
         reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
     if any(not f.is_accepted for f in found):
@@ -104,8 +106,8 @@ def why_open(
     unexplained = f", and {law} explains what is left" if searched.has_physics else ""
     if adequacy.is_irregular and (adequacy.is_rejected or adequacy.is_training_rejected):
         reasons.append(
-            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from one "
-            "reading to the next, as a larger noise does"
+            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from "
+            "one reading to the next, as a larger noise does"
         )
     elif adequacy.is_rejected:
         reasons.append(f"the readings reject the model{unexplained}")
@@ -124,8 +126,7 @@ def why_open(
 
 def _start(doubt: Doubt) -> str:
     """Why nothing is concluded from a recording that begins elsewhere than it says."""
-    where = f"{doubt.recording}, {doubt.subject}"
-    return f"{where}: {doubt.statement.rstrip('.')}, and what follows from that is not told from physics"
+    return f"{doubt.recording} does not begin as it says; {doubt.subject}: {doubt.statement.rstrip('.')}"
 
 
 def is_small(accepted: Accepted) -> bool:

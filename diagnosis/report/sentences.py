@@ -70,7 +70,9 @@ def decisive(finding: Finding) -> list[str]:
 
 def improvement(diagnosis: Diagnosis) -> str:
     """Chi-square per sample of the recordings that judge: of all channels, and of those in which findings show."""
-    lasting = [f for f in diagnosis.findings if not f.effect.endswith("_in_interval")]  # others are in no other recording
+    lasting = [
+        f for f in diagnosis.findings if not f.effect.endswith("_in_interval")
+    ]  # others are in no other recording
     shown = {plain_channel(channel) for finding in lasting for channel in finding.channels}
     for is_held_out, name in ((True, "held out"), (False, "in training; none was held out")):
         mean = mean_chi_square(diagnosis.fit, is_held_out)
