@@ -357,7 +357,7 @@ def _is_sudden(values: Array, noise: float) -> AnyArray:
         share = np.clip(index / length + 0.5, 0.0, 1.0)
         basis = np.column_stack([np.ones(2 * width), index, np.maximum(index, 0.0), share])
         q, _ = np.linalg.qr(basis)
-        return np.sum((windows - (windows @ q) @ q.T) ** 2, axis=1) / noise**2
+        return np.asarray(np.sum((windows - (windows @ q) @ q.T) ** 2, axis=1) / noise**2)
 
     least = left(1e-9)
     return np.asarray(np.min([left(length) for length in RAMPS], axis=0) - least > 2.0 * np.log(20.0 * len(RAMPS)))

@@ -23,7 +23,7 @@ def start_doubts(compared: Compared) -> list[Doubt]:
     """Temperatures that begin elsewhere than simulated, beyond noise, stated uncertainty and bias.
 
     No such doubt is serious: a start that is stated wrongly can be stated rightly. It is far where it would take more
-    than `STRAINED` deviations of a start; then it is no start of that day, and what follows is not of the model's making.
+    than `STRAINED` deviations of a start; then it is no start of that day, and says nothing of the model.
     A recording that begins when the simulated rig has been driven already has no start to compare: what it begins with
     is the model's doing.
     """
@@ -67,8 +67,8 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     simulated = measured - off
     end = float(beside.channel.times[len(values) - 1])
     text = (
-        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings ({time:.4g} to {end:.4g} s) "
-        f"are {measured - 273.15:.4g} degC on average, where {simulated - 273.15:.4g} degC is simulated"
+        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings "
+        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, where {simulated - 273.15:.4g} degC is simulated"
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
