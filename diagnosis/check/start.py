@@ -68,7 +68,8 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     end = float(beside.channel.times[len(values) - 1])
     text = (
         f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings "
-        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, where {simulated - 273.15:.4g} degC is simulated"
+        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, "
+        f"where {simulated - 273.15:.4g} degC is simulated"
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
