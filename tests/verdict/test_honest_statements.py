@@ -16,6 +16,7 @@ from diagnosis.judge.events import between_samples
 from diagnosis.judge.headline import headline, how_right
 from diagnosis.judge.judge import is_stopgap, why_open
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
+from diagnosis.report.undecided import what_decides
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.shares import of_title
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
@@ -50,6 +51,11 @@ def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
     noisy = replace(ADEQUACY, is_irregular=True, day=())
     assert "something else is missing" not in how_right(noisy, False)
     assert "noise is larger than it is taken to be" in how_right(noisy, False)
+
+
+def test_a_larger_noise_is_corrected_and_no_recording_is_repeated_for_it() -> None:
+    told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(), adequacy=replace(ADEQUACY, is_irregular=True))
+    assert what_decides(told).startswith("Correct `noise`")
 
 
 def test_nothing_is_explained_to_100_per_cent_while_a_channel_rejects() -> None:
