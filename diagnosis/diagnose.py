@@ -146,9 +146,10 @@ def diagnose(
     units = written_units([r.units for r in both])
     found = doubted(findings(model, outcome, accepted, [r.title for r in training], units, judge), doubts)
     tried = searched(model, scenario, means.without)
-    day = () if judge is None else moved_day(accepted.after, judge.parameters)
+    day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day)
-    word = verdict(outcome, found, right, tried, recalibration(model, outcome.base), doubts)
+    titles = [r.title for r in training]
+    word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
         on_progress("finding out what these channels can tell apart")
@@ -160,7 +161,7 @@ def diagnose(
     first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
-        statement=headline(word, found, right, why_open(outcome, found, right, tried), doubts, units),
+        statement=headline(word, found, right, why_open(outcome, found, right, tried, doubts), doubts, units),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
@@ -168,7 +169,7 @@ def diagnose(
         false_alarm_rate=outcome.false_alarm_rate,
         structure_before=structure(first, model.layout, model.groups()).z,
         structure_after=structure(left, model.layout, model.groups()).z,
-        recalibration=recalibration(model, accepted.explanation.fit),
+        recalibration=recalibration(model, accepted.explanation.fit, titles),
         isolability=told_apart,
         amended_model=None,
         seconds=clock.perf_counter() - begin,

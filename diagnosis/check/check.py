@@ -15,6 +15,7 @@ from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.doubts import faults
 from diagnosis.recording.recording import Recording
 
 
@@ -52,6 +53,8 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
         found += [*relation, *units, *reading_doubts(one, not relation)]
         if not relation and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
+    stuck = {d.recording for d in faults(found)}  # readings that stand still move beside every programme
+    found = [d for d in found if not (d.kind == "programme" and d.recording in stuck)]
     return tuple(sorted(found, key=lambda d: (not d.is_serious, -d.z)))
 
 

@@ -19,6 +19,8 @@ from diagnosis.recording.noise import estimate_noise
 HONEST = 2.0
 #: Neighbouring increments on each side whose mean an increment is compared with, and whose scatter.
 SIDE, WIDE = 4, 12
+#: Readings over which a course may go over from one line to another, and is no step then.
+RAMPS = (5.0, 8.0)
 #: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
@@ -313,7 +315,8 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     The generalised likelihood ratio of a step at a known instant between two lines, over all instants (Basseville,
     Nikiforov, Detection of Abrupt Changes, 1993, ch. 2). Where a line does not fit within the noise (chi-square),
     the signal bends and
-    nothing is said; the step itself must happen from one reading to the next.
+    nothing is said; the step itself must happen from one reading to the next: a ramp over some readings between the
+    same two lines must explain them worse.
 
     Args:
         values: Shape (samples,).
@@ -334,9 +337,30 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     limit = far(sizes, deviation, tests, width)
     most = float(chi2.isf(LEVEL, width - 2))
     sharp = np.abs(np.diff(values)[width - 1 : count - width] - sizes) < 0.5 * np.abs(sizes) + 3.0 * noise
+    sharp &= _is_sudden(values, noise)
     good = (np.abs(sizes) > limit) & (left[before] < most) & (left[after] < most) & sharp
     every = [Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation)) for k in np.flatnonzero(good)]
     return _apart(every, width // 2)
+
+
+def _is_sudden(values: Array, noise: float) -> AnyArray:
+    """Whether a step between two lines explains `WIDE` readings before and after better than a course without one.
+
+    A course that goes over in the same place within `RAMPS` readings, with its two lines, must lose by the likelihood
+    ratio: twice the logarithm of the odds of 20 to 1, for as many as are tried. Shape (count - 2 WIDE + 1,).
+    """
+    width = WIDE
+    windows = np.lib.stride_tricks.sliding_window_view(values, 2 * width)
+    index = np.arange(2 * width) - width + 0.5
+
+    def left(length: float) -> Array:
+        share = np.clip(index / length + 0.5, 0.0, 1.0)
+        basis = np.column_stack([np.ones(2 * width), index, np.maximum(index, 0.0), share])
+        q, _ = np.linalg.qr(basis)
+        return np.asarray(np.sum((windows - (windows @ q) @ q.T) ** 2, axis=1) / noise**2)
+
+    least = left(1e-9)
+    return np.asarray(np.min([left(length) for length in RAMPS], axis=0) - least > 2.0 * np.log(20.0 * len(RAMPS)))
 
 
 def _merged(sudden: Sequence[Jump], shifts: Sequence[Jump]) -> list[Jump]:

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.stats import norm
 
 from cosim.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL
+from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.search.shares import RIG_START
+
+#: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
+STRAINED = 4.0
 
 
 def start_doubts(compared: Compared) -> list[Doubt]:
     """Temperatures that begin elsewhere than simulated, beyond noise, stated uncertainty and bias.
 
-    No such doubt is serious: a start that is stated wrongly can be stated rightly.
+    No such doubt is serious: a start that is stated wrongly can be stated rightly. It is far where it would take more
+    than `STRAINED` deviations of a start; then it is no start of that day, and says nothing of the model.
+    A recording that begins when the simulated rig has been driven already has no start to compare: what it begins with
+    is the model's doing.
     """
     uncertain = compared.recording.uncertain.items()
     stated = [v.number * conversion(v.unit or "K", "K")[0] for key, v in uncertain if "temperature" in key]
@@ -23,29 +33,46 @@ def start_doubts(compared: Compared) -> list[Doubt]:
     found = []
     members = [b for b in compared.channels.values() if b.channel.unit == "K" and b.simulated is not None]
     limit = float(norm.isf(LEVEL / (2.0 * max(len(members), 1))))
+    usual = max(spread, RIG_START)
     for beside in members:
+        if _is_driven_before(beside):
+            continue
         off, deviation = _off(beside)
         total = float(np.sqrt(deviation**2 + spread**2))
         if abs(off) > limit * total + beside.channel.bias_bound:
-            found.append(_doubt(compared, beside, off, abs(off) / total))
+            most = STRAINED * float(np.hypot(deviation, usual)) + beside.channel.bias_bound
+            is_far = abs(off) > most and not compared.recording.beginning
+            found.append(replace(_doubt(compared, beside, off, abs(off) / total), is_far=is_far))
     return found
+
+
+def _is_driven_before(beside: Beside) -> bool:
+    """Whether the simulated channel has moved between the begin of the simulation and the first reading."""
+    simulated = beside.simulated
+    assert simulated is not None
+    course = simulated.values[simulated.times <= beside.channel.times[0]]
+    return bool(course.size and np.ptp(course) > beside.floor)
 
 
 def _off(beside: Beside) -> tuple[float, float]:
     """First readings less the simulated ones, and the deviation of that [K]."""
     values, _ = first(beside)
     course = beside.at(beside.channel.times[: len(values)])
-    return float(np.mean(values - course)), beside.floor / np.sqrt(len(values))
+    return float(np.mean(values - course)), max(beside.floor, measured_noise(beside)) / np.sqrt(len(values))
 
 
 def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     values, time = first(beside)
     measured = float(np.mean(values))
     simulated = measured - off
-    text = f"begins at {measured - 273.15:.4g} degC ({time:.4g} s), where {simulated - 273.15:.4g} degC is simulated"
+    end = float(beside.channel.times[len(values) - 1])
+    text = (
+        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings "
+        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, "
+        f"where {simulated - 273.15:.4g} degC is simulated"
+    )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
         "are unknown under `uncertain`"
     )
-    end = float(beside.channel.times[len(values) - 1])
     return Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)

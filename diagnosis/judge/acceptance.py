@@ -7,7 +7,7 @@ many terms. Then terms that do not gain, or that make a channel worse, go one by
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -53,6 +53,7 @@ class Accepted:
         agreement_before: Of the scenario as it is with the unfitted readings.
         agreement_recalibrated: Of the recalibrated model with them.
         basis: Which readings judged.
+        judged_by: Term to which readings judged it: others of its own recording where no other one has it.
     """
 
     headline: Explanation
@@ -69,6 +70,7 @@ class Accepted:
     agreement_before: Agreement
     agreement_recalibrated: Agreement
     basis: str
+    judged_by: Mapping[Term, str] = field(default_factory=dict)
 
 
 class _Judge:
@@ -142,12 +144,14 @@ def accept(
     if current.terms and gain(before, after, readings).is_loss:
         reasons |= dict.fromkeys(current.terms, (_DISTORTED,))
         current, after = Explanation(outcome.base), recalibrated
+    own = judge.local.basis if judge.local is not None else unfitted.basis
+    judged_by = {t: own if is_local(t) else unfitted.basis for t in gains}
     fitted = training.predict(current.fit.point, is_fitted=False)
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
         gain(before, recalibrated, readings), agreement(after.residuals, readings),
         agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
-        agreement(recalibrated.residuals, readings), unfitted.basis,
+        agreement(recalibrated.residuals, readings), unfitted.basis, judged_by,
     )  # fmt: skip
 
 

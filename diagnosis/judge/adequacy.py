@@ -9,6 +9,7 @@ from diagnosis.judge.agreement import Agreement
 from diagnosis.judge.diagnosis import Adequacy, Left, Moved
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.search.problem import Parameter
+from diagnosis.search.shares import of_title
 
 #: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
@@ -37,7 +38,16 @@ def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> 
         by_recalibration=_share(before, recalibrated),
         worst=None
         if worst is None
-        else Left(worst.recording, worst.channel, worst.unit, worst.rmse, worst.noise, worst.chi_square, worst.limit),
+        else Left(
+            worst.recording,
+            worst.channel,
+            worst.unit,
+            worst.rmse,
+            worst.noise,
+            worst.chi_square,
+            worst.limit,
+            worst.scatter,
+        ),
         rejected=(sum(c.is_rejected for c in now.channels), len(now.channels)),
         day=day,
         wild=now.wild,
@@ -45,19 +55,23 @@ def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> 
         is_nominal_rejected=before.is_rejected,
         is_training_rejected=accepted.training.is_rejected,
         is_recalibration_worse=accepted.recalibration.is_loss or bool(accepted.recalibration.worse),
+        is_irregular=now.is_irregular if now.is_rejected else accepted.training.is_irregular,
     )
 
 
-def moved_day(predicted: Predicted, parameters: Sequence[Parameter]) -> tuple[Moved, ...]:
+def moved_day(
+    predicted: Predicted, parameters: Sequence[Parameter], titles: Sequence[str] = ()
+) -> tuple[Moved, ...]:  # fmt: skip
     """Numbers of the day that were moved by more than `TOLD` of what is usual: name to how far.
 
     Args:
         predicted: Of the accepted model.
         parameters: Of the model that judges.
+        titles: Of its recordings, in their order: a number says nothing to who gave recordings of two kinds.
     """
     usual = {p.name: p for p in parameters}
     return tuple(
-        Moved(name, usual[name].unit, moved, False, moved / usual[name].deviation)
+        Moved(of_title(name, titles), usual[name].unit, moved, False, moved / usual[name].deviation)
         for name, moved in predicted.day.items()
         if abs(moved) > TOLD * usual[name].deviation
     )

@@ -1,6 +1,7 @@
 """Whether readings reject a model, by the noise of their sensors.
 
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
+Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ class ChannelAgreement:
         chi_square: Per reading.
         limit: Of that: noise alone exceeds it in one of a thousand diagnoses.
         samples: Readings that count.
+        scatter: Root mean square of what is left as far as it changes from one reading to the next, as white noise does
+            [unit]; `rmse` where there is a single reading.
     """
 
     channel: str
@@ -43,11 +46,20 @@ class ChannelAgreement:
     chi_square: float
     limit: float
     samples: int
+    scatter: float = 0.0
 
     @property
     def is_rejected(self) -> bool:
         """Whether noise does not explain what is left."""
         return self.chi_square > self.limit
+
+    @property
+    def is_irregular(self) -> bool:
+        """Whether what is left would be no more than noise, were the noise as large as neighbouring readings scatter.
+
+        An error of the model that lasts for several readings is not: successive differences leave it out.
+        """
+        return self.rmse**2 <= self.limit * self.scatter**2
 
     @property
     def multiple(self) -> float:
@@ -74,6 +86,12 @@ class Agreement:
     channels: tuple[ChannelAgreement, ...]
 
     @property
+    def is_irregular(self) -> bool:
+        """Whether all channels that reject the model do so by what changes from one reading to the next alone."""
+        rejected = [c for c in self.channels if c.is_rejected]
+        return bool(rejected) and all(c.is_irregular for c in rejected)
+
+    @property
     def is_rejected(self) -> bool:
         """Whether the readings reject the model."""
         return self.chi_square > self.limit or any(c.is_rejected for c in self.channels)
@@ -85,8 +103,11 @@ class Agreement:
 
     @property
     def excess(self) -> float:
-        """Sum of squares beyond what noise gives, at least 0."""
-        return max(self.chi_square - 1.0, 0.0) * self.samples
+        """Sum of squares beyond what noise gives, at least 0.
+
+        Of what is printed as root mean square: a zero that is off counts, so that shares agree with the rows of fits.
+        """
+        return max(sum(c.samples * (c.multiple**2 - 1.0) for c in self.channels), 0.0)
 
 
 def agreement(residuals: Array, readings: Readings) -> Agreement:
@@ -113,6 +134,7 @@ def agreement(residuals: Array, readings: Readings) -> Agreement:
             ChannelAgreement(
                 channel.name, readings.titles[readings.of_channel[n]], channel.unit,
                 noise * float(np.sqrt(np.mean(own**2))), noise, total / count, limit, count,
+                noise * float(np.sqrt(0.5 * np.mean(np.diff(own) ** 2) if count > 1 else np.mean(own**2))),
             )
         )  # fmt: skip
         squares += total

@@ -136,6 +136,7 @@ class Finding:
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
         members: Other laws and places whose predictions of all readings, training and held out, differ from its own by
             less than odds of 20 to 1 ask for, whether or not the search fitted them: it is one of this class.
+        judged_by: Which readings these are: `held-out recordings`, or others of its own recording.
     """
 
     unit: str
@@ -159,6 +160,7 @@ class Finding:
     recording: str = ""
     held_out_gain: float = math.nan
     members: tuple[Member, ...] = ()
+    judged_by: str = ""
 
     @property
     def places(self) -> str:
@@ -187,6 +189,7 @@ class Doubt:
         begin: Begin of the stretch concerned [s]; that of the recording where it is all of it.
         end: End of the stretch [s].
         z: Size of the evidence in deviations of the noise.
+        is_far: Whether a start is farther off than the start of any day may be moved.
     """
 
     recording: str
@@ -198,6 +201,7 @@ class Doubt:
     begin: float
     end: float
     z: float
+    is_far: bool = False
 
 
 @dataclass(frozen=True)
@@ -320,6 +324,7 @@ class Left:
         noise: Standard deviation of the sensor's noise, as stated or from neighbouring readings [unit].
         chi_square: Per reading.
         limit: Noise alone exceeds it in one of a thousand diagnoses.
+        scatter: Root mean square of what is left as far as it changes from one reading to the next [unit].
     """
 
     recording: str
@@ -329,6 +334,7 @@ class Left:
     noise: float
     chi_square: float
     limit: float
+    scatter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -370,6 +376,8 @@ class Adequacy:
         is_nominal_rejected: Whether the readings reject the scenario as it is.
         is_training_rejected: Whether the training recordings reject the model as well.
         is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
+        is_irregular: Whether every channel that rejects the model does so by what changes from one reading to the next
+            alone, as a noise does that is larger than stated.
     """
 
     basis: str
@@ -386,6 +394,7 @@ class Adequacy:
     is_nominal_rejected: bool
     is_training_rejected: bool
     is_recalibration_worse: bool
+    is_irregular: bool = False
 
 
 @dataclass(frozen=True)

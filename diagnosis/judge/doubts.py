@@ -44,8 +44,15 @@ def faults(doubts: Sequence[Doubt]) -> list[Doubt]:
     return [d for d in doubts if d.is_serious and d.kind in OF_A_STRETCH]
 
 
+def far_starts(doubts: Sequence[Doubt]) -> list[Doubt]:
+    """Doubts about recordings that begin far from where they are said to begin."""
+    return [d for d in doubts if d.kind == "start" and d.is_far]
+
+
 def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Finding, ...]:
-    """Findings, some as suggestions: physics beside a fault that no finding explains, and too many faults at once.
+    """Findings, some as suggestions: physics beside a fault or start that no finding explains, too many faults at once.
+
+    A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does.
 
     Args:
         findings: Of a search.
@@ -53,16 +60,17 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
     """
     told = _one_cause(findings)
     accepted = [f for f in told if f.is_accepted and f.unit in MEASURED]
-    left = [d for d in faults(doubts) if not any(_is_explained(d, f) for f in accepted)]
+    left = [d for d in (*faults(doubts), *far_starts(doubts)) if not any(_is_explained(d, f) for f in accepted)]
     if not left:
         return told
-    why = f"first the fault has to be cleared: {left[0].statement.rstrip('.')}"
+    what = "the start has to be stated" if left[0].is_far else "the fault has to be cleared"
+    why = f"first {what}: {left[0].recording}, {left[0].subject}: {left[0].statement.rstrip('.')}"
     return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
 
 
 def _is_explained(doubt: Doubt, finding: Finding) -> bool:
-    """Whether a finding is the fault that a doubt is about: the same channel, and the recording where both name one."""
-    is_there = finding.recording in ("", doubt.recording)
+    """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording."""
+    is_there = not finding.effect.endswith(_IN_INTERVAL) or finding.recording in ("", doubt.recording)
     return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
 
 

@@ -134,6 +134,34 @@ def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0, units
     return f"between {texts[0]} and {texts[1]} {scale.unit} of {titles[0]}"
 
 
+def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisModel) -> tuple[Estimate, ...]:
+    """Estimates of a fault of a sensor, with begin and end known to half a sampling interval at best.
+
+    A reading says how the sensor is at its instant; when it changed before that, no reading says. In the fit a sample
+    stands for the time to halfway to its neighbours, so the curvature alone would tell begin and end more sharply than
+    the sensor was read. What acts on the rig itself shows in the course afterwards and needs no such width.
+
+    Args:
+        estimates: One for each parameter of the term, in order.
+        term: Any term.
+        model: Model of the recordings that were fitted, wrapped or not.
+    """
+    place = model.where(term)[1]
+    channels = getattr(place, "channels", None) if term.recording is not None else None
+    if not channels or len(channels) != 1:
+        return tuple(estimates)
+    layout = model.layout
+    times = np.unique(np.asarray(layout.time)[np.asarray(layout.channel) == channels[0]])
+    if len(times) < 2:
+        return tuple(estimates)
+    found = []
+    for e, p in zip(estimates, term.parameters):
+        after = int(np.clip(np.searchsorted(times, e.value), 1, len(times) - 1))
+        half = 0.5 * float(times[after] - times[after - 1]) if p.is_instant else 0.0
+        found.append(replace(e, lower=e.lower - half, upper=e.upper + half))
+    return tuple(found)
+
+
 def local_estimates(
     estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
 ) -> tuple[Estimate, ...]:  # fmt: skip

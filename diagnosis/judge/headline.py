@@ -41,8 +41,8 @@ def headline(
     suggested = _listed([f for f in found if not f.is_accepted])
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
-        Verdict.CONSISTENT: f"The model as it is agrees with the {adequacy.basis} within {_noise(adequacy)}.",
-        Verdict.RECALIBRATED: f"The model agrees with the {adequacy.basis} within {_noise(adequacy)} once its own "
+        Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within {_noise(adequacy)}.",
+        Verdict.RECALIBRATED: f"The model agrees with the {_basis(adequacy)} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
         Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(measured, doubts)}.",
         Verdict.MISSING_PHYSICS: f"The model leaves out: {physics}.",
@@ -57,7 +57,7 @@ def headline(
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, any(f.is_accepted for f in found), units))
+        parts.append(how_right(adequacy, bool(physics), units, bool(at_fault) and not physics))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy, units)}.")
     return " ".join(parts)
@@ -74,11 +74,16 @@ def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
     return accepted or "; ".join(d.statement.rstrip(".") for d in faults(doubts)[:2])
 
 
+def _basis(adequacy: Adequacy) -> str:
+    """Which readings judged, within a sentence: a clause at its end is closed by a comma."""
+    return f"{adequacy.basis}," if "," in adequacy.basis else adequacy.basis
+
+
 def _noise(adequacy: Adequacy) -> str:
     return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
 
 
-def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI) -> str:
+def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_faults: bool = False) -> str:
     """What the model explains of the mismatch, and what it leaves.
 
     A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
@@ -87,22 +92,30 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI) -> str
         adequacy: How right it is.
         is_amended: Whether anything was added to it; else it was recalibrated alone.
         units: In which quantities are shown.
+        has_faults: Whether faults of sensors or inputs were fitted with it, and nothing was added to the model itself.
     """
     name = "The amended model" if is_amended else "The recalibrated model"
+    name = f"With that taken into account, the {name[4:]}" if has_faults else name
     before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
     share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
     if before <= 1.0 and not adequacy.is_rejected:
         text = f"The {adequacy.basis} are met within {_noise(adequacy)}, before and after"
     elif adequacy.explained < 0.0:
-        text = f"{name} predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> "
-        text += number(now)
+        text = f"{name} predicts the {_basis(adequacy)} worse"
+        text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
     else:
-        share = "more than 99 %" if ALL < adequacy.explained < 1.0 else share
+        is_whole = adequacy.explained >= 1.0 and not adequacy.is_rejected
+        share = "more than 99 %" if adequacy.explained > ALL and not is_whole else share
         text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
-        if is_amended and adequacy.by_recalibration >= LEAST_SHARE:
+        if (is_amended or has_faults) and adequacy.by_recalibration >= LEAST_SHARE:
             text += f" (recalibration alone {100.0 * min(adequacy.by_recalibration, adequacy.explained):.0f} %)"
     if adequacy.is_rejected and adequacy.worst is not None:
-        text += f"; {what_stays(adequacy, units)}: something else is missing or wrong"
+        cause = (
+            "as much as it changes from one reading to the next, so that noise is larger than it is taken to be"
+            if adequacy.is_irregular
+            else "something else is missing or wrong"
+        )
+        text += f"; {what_stays(adequacy, units)}: {cause}"
     elif before > 1.0:
         text += f"; what is left is not more than {_noise(adequacy)}"
     given = f" That takes for granted: {day_of(adequacy, units)}." if adequacy.day else ""

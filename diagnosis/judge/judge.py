@@ -23,8 +23,8 @@ from diagnosis.judge.diagnosis import (
     Verdict,
     class_places,
 )
-from diagnosis.judge.doubts import MEASURED, faults
-from diagnosis.judge.events import event_of, local_estimates, since
+from diagnosis.judge.doubts import MEASURED, far_starts, faults
+from diagnosis.judge.events import between_samples, event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
@@ -36,7 +36,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.search.shares import departures
+from diagnosis.search.shares import departures, of_title
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import untempered
 
@@ -80,18 +80,28 @@ def verdict(
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)
         return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
-    if any(f.standing is not Standing.UNNAMED for f in accepted) or faults(doubts):
+    if faults(doubts) or (accepted and not is_stopgap(accepted)):
         return Verdict.MEASUREMENT_FAULT
-    if why_open(outcome, found, adequacy, searched):
+    if why_open(outcome, found, adequacy, searched, doubts):
         return Verdict.CANNOT_TELL
     is_needed = moved or adequacy.is_nominal_rejected or adequacy.day
     return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
 
 
+def is_stopgap(measured: Sequence[Finding]) -> bool:
+    """Whether accepted laws of sensors and inputs only fill a gap of the model: none has a name.
+
+    An offset, a gain or a box in time brings a wrong model nearer to any readings. That alone accuses no sensor.
+    """
+    return all(f.standing is Standing.UNNAMED for f in measured)
+
+
 def why_open(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched
+    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
 ) -> tuple[str, ...]:  # fmt: skip
-    """Why it cannot be told whether something is missing, where nothing is accepted; empty if the model agrees."""
+    """Why it cannot be told whether something is missing, where no physics is accepted; empty if the model agrees."""
+    if far_starts(doubts):
+        return (_start(far_starts(doubts)[0]),)
     reasons = []
     if any(f.is_accepted and f.standing is Standing.UNNAMED and f.unit in MEASURED for f in found):
         reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
@@ -99,8 +109,14 @@ def why_open(
         reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
-    unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
-    if adequacy.is_rejected:
+    law = "no law that is confirmed" if found else "no law that was tried"
+    unexplained = f", and {law} explains what is left" if searched.has_physics else ""
+    if adequacy.is_irregular and (adequacy.is_rejected or adequacy.is_training_rejected):
+        reasons.append(
+            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from "
+            "one reading to the next, as a larger noise does"
+        )
+    elif adequacy.is_rejected:
         reasons.append(f"the readings reject the model{unexplained}")
     elif adequacy.is_training_rejected:
         reasons.append(f"the training readings reject the model{unexplained}")
@@ -113,6 +129,11 @@ def why_open(
         those = "a parameter" if strained == 1 else f"{strained} parameters"
         reasons.append(f"{those} had to move by more than {STRAINED:.0f} times the stated uncertainty")
     return tuple(reasons)
+
+
+def _start(doubt: Doubt) -> str:
+    """Why nothing is concluded from a recording that begins elsewhere than it says."""
+    return f"{doubt.recording} does not begin as it says; {doubt.subject}: {doubt.statement.rstrip('.')}"
 
 
 def is_small(accepted: Accepted) -> bool:
@@ -193,7 +214,7 @@ def _finding(
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     when = since(term, fit, model, doubt, units)
     found = estimates(fit, term, doubt, model.unseen(term))
-    told = local_estimates(found, term, fit, model, doubt)
+    told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
     doubts = (*unidentified(term, fit, told, units), *implausible(term, fit.point.terms[term], units))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
@@ -229,6 +250,7 @@ def _finding(
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
+        judged_by=accepted.judged_by.get(term, ""),
     )
 
 
@@ -386,14 +408,14 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
-def recalibration(model: DiagnosisModel, fit: Fit) -> tuple[Moved, ...]:
-    """Parameters that moved by more than `MOVED` prior deviations, the farthest first."""
+def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -> tuple[Moved, ...]:
+    """Parameters that moved by more than `MOVED` prior deviations, the farthest first; recordings by their titles."""
     names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
     units = {p.name: p.unit for p in model.parameters}
     relative = {p.name for p in model.parameters if p.is_relative}
     found = [
         Moved(
-            name,
+            of_title(name, titles),
             "1" if name in relative else units.get(name, ""),
             float(np.exp(amount)) if name in relative else amount,
             name in relative,

@@ -13,7 +13,7 @@ import numpy as np
 from cosim.errors import InputError
 from cosim.quantity import PhysicalValue
 from cosim.unit import AnyArray, Array
-from diagnosis.recording.noise import estimate_noise
+from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
 from diagnosis.recording.series import MOST
 from diagnosis.recording.sidecar import ChannelEntry, Clock, InputEntry, Sidecar, load_sidecar
@@ -270,6 +270,8 @@ class _Reader:
         limits = self._limits(entry, unit, key)
         quantum = self._difference(entry.quantum, unit, f"{key}.quantum")
         given = self._difference(entry.noise, unit, f"{key}.noise")
+        if given and entry.quantum is None:  # a noise that is estimated holds the rounding already
+            quantum = find_quantum(values)
         return Channel(
             name, Target(target.kind, target.element, target.quantity, unit), times, values,
             given or estimate_noise(times, values, quantum), bool(given), quantum, limits,

@@ -77,7 +77,10 @@ def decisive(finding: Finding) -> list[str]:
 
 def improvement(diagnosis: Diagnosis) -> str:
     """Chi-square per sample of the recordings that judge: of all channels, and of those in which findings show."""
-    shown = {plain_channel(channel) for finding in diagnosis.findings for channel in finding.channels}
+    lasting = [
+        f for f in diagnosis.findings if not f.effect.endswith("_in_interval")
+    ]  # others are in no other recording
+    shown = {plain_channel(channel) for finding in lasting for channel in finding.channels}
     for is_held_out, name in ((True, "held out"), (False, "in training; none was held out")):
         mean = mean_chi_square(diagnosis.fit, is_held_out)
         if mean:
@@ -90,6 +93,8 @@ def improvement(diagnosis: Diagnosis) -> str:
 
 
 def _course(mean: Mapping[str, float]) -> str:
+    if len({mean.get(stage) for stage in STAGES}) == 1:  # nothing was fitted
+        return f"{number(mean[STAGES[0]])} as the scenario is"
     return ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES if stage in mean)
 
 
@@ -98,18 +103,25 @@ _STAGE = {"before": "before", "recalibrated": "recalibrated only", "after": "aft
 
 def sureness(diagnosis: Diagnosis) -> str:
     """What an effect had to gain, in training and on readings that it was not fitted to."""
+    if diagnosis.verdict is Verdict.RECORDING_FAULT:
+        return "Nothing was fitted and nothing was searched."
     margin = f"In training an effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
     if not diagnosis.findings:
         return f"{margin}; none did."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
-    judged = listed([number(f.held_out_gain) for f in diagnosis.findings], 4)
-    basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
+    usual = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
+    told: dict[str, list[str]] = {}
+    for f in diagnosis.findings:
+        told.setdefault(f.judged_by or usual, []).append(number(f.held_out_gain))
+    judged = "; ".join(f"on {basis}{',' * (',' in basis)} by {listed(gains, 4)}" for basis, gains in told.items())
     chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
-    return f"{margin}: {gains}; {chance}. On {basis} -2 log likelihood falls by {judged}."
+    return f"{margin}: {gains}; {chance}. -2 log likelihood falls {judged}."
 
 
 def structure(diagnosis: Diagnosis) -> str:
     """What is left in the residuals."""
+    if diagnosis.verdict is Verdict.RECORDING_FAULT:
+        return "Residuals were not looked at."
     return (
         f"Largest standardised sum of residuals: {number(abs(diagnosis.structure_before))} after recalibration, "
         f"{number(abs(diagnosis.structure_after))} at the end."
@@ -131,4 +143,5 @@ def moved_text(moved: Moved, units: Units = IN_SI) -> str:
 def doubt_text(doubt: Doubt) -> str:
     """What the check of a recording saw, and what to do about it."""
     remedy = clean(doubt.remedy)
-    return f"{clean(doubt.recording)}: {clean(doubt.statement).rstrip('.')}. {remedy[:1].upper()}{remedy[1:]}"
+    where = f"{clean(doubt.recording)}, {clean(doubt.subject)}" if doubt.subject else clean(doubt.recording)
+    return f"{where}: {clean(doubt.statement).rstrip('.')}. {remedy[:1].upper()}{remedy[1:]}"

@@ -73,6 +73,8 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     units = Units(diagnosis.units)
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
+    if len(diagnosis.doubts) > _FINDINGS:
+        yield f"         and {len(diagnosis.doubts) - _FINDINGS} more doubts in diagnosis.json"
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
         yield from _finding(order, finding, width, units)

@@ -16,6 +16,8 @@ _UNCONFIRMED = (
     "predicts it worse too, the rig has changed since the training; if better, the law holds for that programme alone "
     "and stands for something else."
 )
+#: What would decide where the readings scatter more than their noise is taken to be.
+_NOISIER = "Correct `noise` of these channels in recording.yaml, or leave it out: then it is estimated. Diagnose again."
 #: What would decide about structure that no effect explains.
 _UNEXPLAINED = (
     "Repeat that recording: what comes back in the same channel and window belongs to the rig, what does not was a "
@@ -59,6 +61,8 @@ def what_decides(diagnosis: Diagnosis) -> str:
         return ""
     if diagnosis.suggestions:
         return _UNCONFIRMED
+    if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
+        return _NOISIER
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
 
 

@@ -37,6 +37,18 @@ def own_label(name: str, number: int, day: str = "") -> str:
     return f"{name}{DAY}{day}" if day else f"{name}{OWN}{number + 1}"
 
 
+def of_title(name: str, titles: Sequence[str]) -> str:
+    """A parameter of one recording, with the recording's title in the place of its number.
+
+    >>> of_title("initial_temperature of recording 2", ("monday", "tuesday")), of_title("capacity", ("monday",))
+    ('initial_temperature of recording tuesday', 'capacity')
+    """
+    field, own, number = name.partition(OWN)
+    if not own or DAY in name or not number.isdigit() or int(number) > len(titles):
+        return name
+    return f"{field}{OWN}{titles[int(number) - 1]}"
+
+
 def is_own(name: str) -> bool:
     """Whether a parameter belongs to some recordings alone, by its name."""
     return OWN in name

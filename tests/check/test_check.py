@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from cosim.scenario import Scenario, load_scenario
+from diagnosis.check import check
 from diagnosis.check.check import check_recordings
+from diagnosis.check.readings import level_shifts
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
@@ -164,6 +166,51 @@ def test_start_of_one_coil(scenario: Scenario, tmp_path: Path) -> None:
     assert [(d.subject, d.is_serious) for d in found] == [("coil[2].temperature", False)]
     assert "begins at 24" in found[0].statement
     assert "where 21 degC is simulated" in found[0].statement
+
+
+def test_a_start_of_another_day_is_far_and_one_within_a_day_is_not(scenario: Scenario, tmp_path: Path) -> None:
+    """Of the start 0.3 K are doubted where nothing is stated: 3 K are ten times that, 1.15 K less than four times."""
+    for size, is_far in ((3.0, True), (1.15, False)):
+        values = rig.readings(rig.FIRST)
+        values[:, 1] += size
+        (found,) = [
+            d for d in doubts(scenario, rig.write(tmp_path / f"{size}", rig.FIRST, values)) if d.kind == "start"
+        ]
+        assert found.is_far == is_far
+
+
+def test_a_recording_that_begins_while_the_rig_is_hot_has_no_start_to_compare(
+    scenario: Scenario, tmp_path: Path
+) -> None:  # fmt: skip
+    """From 200 s on both heaters have been on for long: what the readings begin with is the model's doing."""
+    folder = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
+    text = (folder / "recording.yaml").read_text()
+    (folder / "recording.yaml").write_text(text + "begin: 200 s\n")
+    assert [d for d in doubts(scenario, folder) if d.kind == "start"] == []
+
+
+def test_readings_that_stood_still_say_nothing_of_the_programme(
+    scenario: Scenario, tmp_path: Path, monkeypatch: Any
+) -> None:  # fmt: skip
+    """Where a sensor stands still, switches at other instants describe its readings better than the programme does."""
+    values = rig.readings(rig.FIRST)
+    values[130:170, 0] = values[130, 0]
+    folder = rig.write(tmp_path / "a", rig.FIRST, values)
+    title = load_recording(folder).title
+    other = Doubt(title, "drive.power_1", "programme", "the readings change elsewhere", "", True, 0.0, 600.0, 99.0)
+    monkeypatch.setattr(check, "_relation", lambda one, others: [other])
+    assert [d.kind for d in doubts(scenario, folder) if d.is_serious] == ["sensor"]
+
+
+@pytest.mark.parametrize(("over", "is_step"), [(1, True), (6, False)])
+def test_a_course_that_goes_over_within_some_readings_is_no_step(over: int, is_step: bool) -> None:
+    """10 deviations, from one reading to the next or within six; 20 drawn noises each."""
+    index = np.arange(600.0)
+    course = 10.0 * np.clip((index - 299.5) / over + 0.5, 0.0, 1.0)
+    found = [
+        bool(level_shifts(course + np.random.default_rng(seed).standard_normal(600), 1.0, 400.0)) for seed in range(20)
+    ]
+    assert all(found) if is_step else not any(found)
 
 
 def test_order_of_recordings_and_channels_changes_nothing(scenario: Scenario, tmp_path: Path) -> None:

@@ -52,6 +52,18 @@ def test_units_become_si_and_differences_stay_differences(tmp_path):
     assert found.is_clipped.sum() == np.sum(TIMES >= 15.0)
 
 
+def test_a_rounding_step_is_found_beside_a_stated_noise(tmp_path):
+    """Readings in steps of 0.5 K, a thermometer said to be good to 0.1 K: their errors are 0.5 / sqrt(12) at least."""
+    random = np.random.default_rng(3)
+    times = np.arange(0.0, 100.0, 0.5)
+    smooth = 20.0 + 0.1 * times + 0.1 * random.standard_normal(len(times))
+    for values, step in ((np.round(smooth / 0.5) * 0.5, 0.5), (smooth, 0.0)):
+        table = {"time": times, "T": values}
+        found = load_recording(folder(tmp_path, table, channels=channel(noise="0.1 degC")))
+        assert found.channels["coil[1].temperature"].quantum == pytest.approx(step, abs=1e-9)
+        assert found.channels["coil[1].temperature"].deviation == pytest.approx(0.1, rel=1e-12)
+
+
 def test_channels_at_other_rates_and_clocks_come_onto_the_clock_of_the_scenario(tmp_path):
     ticks = np.arange(0.0, 20000.0, 137.0)
     pd.DataFrame({"ms": 5000.0 + ticks, "mA": np.sin(ticks)}).to_csv(tmp_path / "fast.csv", index=False)

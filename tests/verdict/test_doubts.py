@@ -22,7 +22,9 @@ FAULT = replace(
 def test_physics_is_suggested_alone_beside_a_fault_that_nothing_explains() -> None:
     (told,) = doubted([CONTACT], [STEP])
     assert not told.is_accepted
-    assert told.doubts[0] == "first the fault has to be cleared: The readings step by 2 K"
+    assert (
+        told.doubts[0] == "first the fault has to be cleared: monday, coil[1,2].temperature: The readings step by 2 K"
+    )
 
 
 def test_physics_stands_beside_a_fault_that_was_found_too() -> None:

@@ -1,0 +1,130 @@
+"""Answers say no more than readings show: against residuals that are drawn here, and recordings that are made here."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diagnosis.judge.agreement import agreement
+from diagnosis.judge.diagnosis import Doubt, Estimate, Standing, Verdict
+from diagnosis.judge.doubts import doubted
+from diagnosis.judge.events import between_samples
+from diagnosis.judge.headline import headline, how_right
+from diagnosis.judge.judge import is_stopgap, why_open
+from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
+from diagnosis.report.undecided import what_decides
+from diagnosis.search.problem import Term, TermParameter
+from diagnosis.search.shares import of_title
+from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
+from tests.verdict.test_gain_and_agreement import COUNT, readings
+
+START = Doubt("monday", "coil[1].temperature", "start", "begins at 35 degC, where 21 degC is simulated", "state it",
+              False, 0.0, 9.0, 90.0, is_far=True)  # fmt: skip
+
+
+def test_a_noise_that_is_larger_than_stated_is_told_from_an_error_that_lasts() -> None:
+    """Twice the noise, white; a wave of the same size; and both."""
+    drawn = np.random.default_rng(4).standard_normal(COUNT)
+    wave = np.sin(np.linspace(0.0, 25.0, COUNT))
+    for residuals, is_irregular in (
+        (2.0 * drawn, True),
+        (drawn + 2.5 * wave, False),
+        (2.0 * drawn + 2.0 * wave, False),
+    ):
+        found = agreement(residuals, readings())
+        assert found.is_rejected
+        assert found.is_irregular == is_irregular
+    assert not agreement(drawn, readings()).is_irregular  # nothing rejects
+
+
+def test_shares_are_those_of_the_errors_that_are_printed() -> None:
+    """A sensor's zero that is off by 4 deviations counts in full: the sum of squares beyond that of noise."""
+    off = np.random.default_rng(5).standard_normal(COUNT) + 4.0
+    assert agreement(off, readings()).excess == pytest.approx(off @ off - COUNT, rel=1e-12)
+
+
+def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
+    noisy = replace(ADEQUACY, is_irregular=True, day=())
+    assert "something else is missing" not in how_right(noisy, False)
+    assert "noise is larger than it is taken to be" in how_right(noisy, False)
+
+
+def test_a_larger_noise_is_corrected_and_no_recording_is_repeated_for_it() -> None:
+    told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(), adequacy=replace(ADEQUACY, is_irregular=True))
+    assert what_decides(told).startswith("Correct `noise`")
+
+
+def test_nothing_is_explained_to_100_per_cent_while_a_channel_rejects() -> None:
+    assert "more than 99 %" in how_right(replace(ADEQUACY, explained=1.0), True)
+    assert "100 %" not in how_right(replace(ADEQUACY, explained=1.0), True)
+
+
+def test_faults_without_a_name_in_a_model_that_is_wrong_accuse_no_sensor() -> None:
+    stopgap = replace(LAG, standing=Standing.UNNAMED)
+    assert is_stopgap([stopgap])
+    assert not is_stopgap([stopgap, LAG])
+    told = headline(Verdict.CANNOT_TELL, [stopgap], ADEQUACY, ["the readings reject the model"])
+    assert "is at fault" not in told
+    assert "the rig, a sensor or an input may do" in told
+
+
+def test_physics_waits_until_a_far_start_is_stated() -> None:
+    (told,) = doubted([CONTACT], [START])
+    assert not told.is_accepted
+    assert told.doubts[0].startswith("first the start has to be stated: monday, coil[1].temperature: begins at 35 degC")
+    (stands,) = doubted([CONTACT], [replace(START, is_far=False)])
+    assert stands.is_accepted
+    bias = replace(LAG, effect="sensor_bias", channels=("coil[1].temperature",), recording="tuesday")
+    assert all(f.is_accepted for f in doubted([bias, CONTACT], [START]))  # a sensor that reads too much explains it
+
+
+def test_a_far_start_is_the_reason_that_is_told() -> None:
+    searched: Any = SimpleNamespace(has_physics=True, untried=())
+    outcome: Any = None
+    assert why_open(outcome, [], ADEQUACY, searched, [START]) == (
+        "monday does not begin as it says; coil[1].temperature: begins at 35 degC, where 21 degC is simulated",
+    )
+
+
+def test_numbers_of_a_day_carry_the_title_of_their_recording() -> None:
+    assert of_title("initial_temperature of recording 1", ["tuesday"]) == "initial_temperature of recording tuesday"
+    assert of_title("ambient_offset of recording day 1", ["tuesday"]) == "ambient_offset of recording day 1"
+
+
+@pytest.mark.parametrize("spacing", [0.5, 4.0])
+def test_begin_and_end_of_a_sensor_fault_are_no_sharper_than_its_readings(spacing: float) -> None:
+    """An offset from 50 s on: the readings at 50 s and one spacing before are all that is known."""
+    times = np.arange(0.0, 100.0, spacing)
+    offset = TermParameter("offset", "K", -9.0, 9.0, (1.0,))
+    instant = TermParameter("begin", "s", 0.0, 100.0, (1.0,), is_instant=True)
+    term = Term("sensor_offset_in_interval", "T1", "measurement", (offset, instant), recording=0)
+    layout = SimpleNamespace(time=times, channel=np.zeros(len(times)))
+    model: Any = SimpleNamespace(where=lambda t: (None, SimpleNamespace(channels=(0,))), layout=layout)
+    edge = 50.0 - 0.5 * spacing  # where the box of the fit begins
+    size, begin = between_samples((Estimate("offset", "K", 2.0, 1.9, 2.1), Estimate("begin", "s", edge, edge, edge)),
+                                  term, model)  # fmt: skip
+    assert (size.lower, size.upper) == (1.9, 2.1)
+    assert (begin.lower, begin.upper) == pytest.approx((50.0 - spacing, 50.0), abs=1e-9)
+
+
+def test_a_fault_of_one_recording_was_not_judged_by_others() -> None:
+    fault = replace(LAG, effect="sensor_offset_in_interval", judged_by="every other reading, left out of a fit",
+                    held_out_gain=50.0)  # fmt: skip
+    told = sureness(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault, CONTACT)))
+    assert "on every other reading, left out of a fit, by 50" in told
+    assert "where findings show most" not in improvement(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault,)))
+
+
+def test_where_nothing_was_fitted_nothing_is_said_of_a_fit() -> None:
+    stopped = diagnosis(Verdict.RECORDING_FAULT)
+    for text in (sureness(stopped), structure(stopped)):
+        assert "none did" not in text
+        assert "after recalibration" not in text
+
+
+def test_a_doubt_names_its_channel() -> None:
+    assert doubt_text(replace(DOUBT, subject="coil[2].temperature")).startswith("steps, coil[2].temperature: ")
