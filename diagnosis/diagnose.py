@@ -145,7 +145,7 @@ def diagnose(
     found = doubted(findings(model, outcome, accepted, [r.title for r in training]), doubts)
     tried = searched(model, scenario, means.without)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
-    right = adequacy(accepted, readings, day)
+    right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:

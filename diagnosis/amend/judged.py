@@ -71,13 +71,15 @@ def _judged(
     inner, fitted = unwrapped(training, points[0])
     if isinstance(inner, ClosedLoopModel):
         path = amend_closed_loop(scenario, inner, fitted["after"], folder)
-        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS)
+        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS if judge is not None else "")
     if isinstance(inner, FabricModel):
+        by = BY_BULLET if judge is not None else ""
         try:
             path = amend_fabric(scenario, inner, fitted["after"], folder)
         except CannotAmend as reason:
-            return replace(diagnosis, held_out_by=f"{BY_BULLET}; there is no amended scenario: {reason}")
-        return replace(diagnosis, amended_model=str(path), held_out_by=BY_BULLET)
+            by = "; ".join(filter(None, (by, f"there is no amended scenario: {reason}")))
+            return replace(diagnosis, held_out_by=by)
+        return replace(diagnosis, amended_model=str(path), held_out_by=by)
     if not isinstance(inner, BankModel):
         return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
     try:

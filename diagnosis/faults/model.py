@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.faults.law import INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
+from diagnosis.faults.law import AGAIN, INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.search.fit import Fit
@@ -48,7 +48,7 @@ class FaultyModel(WrappedModel):
         self.sensor_terms: dict[Term, Readings] = {}
         for readings in self.readings:
             for again in range(OCCASIONS):
-                label = readings.label + (", again" if again else "")
+                label = readings.label + (AGAIN if again else "")
                 for law, strength in ((OFFSET, readings.offset()), (STUCK, WHOLLY)):
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
@@ -62,6 +62,10 @@ class FaultyModel(WrappedModel):
         while isinstance(found, WrappedModel):
             found = found.inner
         return found
+
+    def faults(self) -> tuple[Term, ...]:
+        """Every fault that the search tries beside the laws."""
+        return (*self.sensor_terms, *self.input_terms)
 
     def inside(self, point: Point) -> Point:
         """The point without faults of sensors."""

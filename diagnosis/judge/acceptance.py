@@ -7,7 +7,7 @@ many terms. Then terms that do not gain, or that make a channel worse, go one by
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -53,6 +53,7 @@ class Accepted:
         agreement_before: Of the scenario as it is with the unfitted readings.
         agreement_recalibrated: Of the recalibrated model with them.
         basis: Which readings judged.
+        bases: Term to the readings that judged it.
     """
 
     headline: Explanation
@@ -69,6 +70,7 @@ class Accepted:
     agreement_before: Agreement
     agreement_recalibrated: Agreement
     basis: str
+    bases: Mapping[Term, str] = field(default_factory=dict)
 
 
 class _Judge:
@@ -91,6 +93,10 @@ class _Judge:
         """What one fit gains over another; of a term that belongs to a stretch of a day on other readings of it."""
         source = self.local if is_local and self.local is not None else self.unfitted
         return gain(self.predict(without.point, is_local), self.predict(with_it.point, is_local), source.readings)
+
+    def basis(self, is_local: bool) -> str:
+        """Which readings judge a term, in plain words."""
+        return (self.local if is_local and self.local is not None else self.unfitted).basis
 
 
 def accept(
@@ -147,7 +153,7 @@ def accept(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
         gain(before, recalibrated, readings), agreement(after.residuals, readings),
         agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
-        agreement(recalibrated.residuals, readings), unfitted.basis,
+        agreement(recalibrated.residuals, readings), unfitted.basis, {t: judge.basis(is_local(t)) for t in gains},
     )  # fmt: skip
 
 
@@ -193,7 +199,7 @@ def _judged(
     others = current.fit.point.without(term)
     without = outcome.base if not others.terms else fit(judge.model, others, near=current.fit)
     found = judge.evidence(without, current.fit, is_local)
-    where = (judge.local if is_local and judge.local is not None else judge.unfitted).basis
+    where = judge.basis(is_local)
     reasons = []
     data = float(np.sum(loss(without.residuals)) - np.sum(loss(current.fit.residuals)))
     if data < LEAST:

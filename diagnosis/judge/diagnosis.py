@@ -94,6 +94,7 @@ class Finding:
         doubts: Why it is no name, or not accepted, in plain words.
         recording: Title of the recording that `intervals` are times of.
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
+        judged_by: Which readings these are, in plain words; of a fault of one recording other readings of that one.
     """
 
     unit: str
@@ -116,6 +117,7 @@ class Finding:
     doubts: tuple[str, ...] = ()
     recording: str = ""
     held_out_gain: float = math.nan
+    judged_by: str = ""
 
 
 @dataclass(frozen=True)
@@ -316,6 +318,8 @@ class Adequacy:
         is_nominal_rejected: Whether the readings reject the scenario as it is.
         is_training_rejected: Whether the training recordings reject the model as well.
         is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
+        is_recalibrated: Whether the model has any number that could be fitted.
+        has_scatter: Whether the noise holds what the simulation scatters by itself (contacts), beside the sensors'.
     """
 
     basis: str
@@ -332,6 +336,8 @@ class Adequacy:
     is_nominal_rejected: bool
     is_training_rejected: bool
     is_recalibration_worse: bool
+    is_recalibrated: bool = True
+    has_scatter: bool = False
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ def headline(
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(physics)))
+        parts.append(how_right(adequacy, bool(physics), bool(measured)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy)}.")
     return " ".join(parts)
@@ -67,33 +67,47 @@ def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
 
 
 def _noise(adequacy: Adequacy) -> str:
-    return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    noise = "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    return f"{noise} and the scatter of the contacts" if adequacy.has_scatter else noise
 
 
-def how_right(adequacy: Adequacy, is_amended: bool) -> str:
+def _model(adequacy: Adequacy, is_amended: bool, has_fault: bool) -> str:
+    """What the model that judged is called: what was added to it, or fitted."""
+    if is_amended:
+        return "The amended model"
+    if has_fault:
+        return "The model with what was found of sensors and inputs"
+    return "The recalibrated model" if adequacy.is_recalibrated else "The model as it is"
+
+
+def how_right(adequacy: Adequacy, is_amended: bool, has_fault: bool = False) -> str:
     """What the model explains of the mismatch, and what it leaves.
 
     A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
 
     Args:
         adequacy: How right it is.
-        is_amended: Whether anything was added to it; else it was recalibrated alone.
+        is_amended: Whether anything was added to it; else it was recalibrated at most.
+        has_fault: Whether a fault of a sensor or an input was found.
     """
-    name = "The amended model" if is_amended else "The recalibrated model"
+    name, noise = _model(adequacy, is_amended, has_fault), _noise(adequacy)
+    is_changed = is_amended or has_fault or adequacy.is_recalibrated
     before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
-    share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
-    if before <= 1.0 and not adequacy.is_rejected:
-        text = f"The {adequacy.basis} are met within {_noise(adequacy)}, before and after"
+    is_met = not adequacy.is_rejected
+    if is_met and not (is_changed and adequacy.is_nominal_rejected):
+        text = f"The {adequacy.basis} are met within {noise}" + (", before and after" if is_changed else "")
+    elif is_met and before <= 1.0:  # one channel alone was missed
+        text = f"The {adequacy.basis} are met within {noise} now; the model as it is misses them"
+    elif not is_changed:
+        text = f"The model as it is misses the {adequacy.basis}"
     elif adequacy.explained < 0.0:
-        text = f"{name} predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> "
-        text += number(now)
+        text = f"{name} predicts the {adequacy.basis} worse: chi-square per reading {number(before)} -> {number(now)}"
     else:
-        share = "more than 99 %" if ALL < adequacy.explained < 1.0 else share
+        share = "more than 99 %" if ALL < adequacy.explained < 1.0 else f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
         text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
-    if adequacy.is_rejected and adequacy.worst is not None:
-        text += f"; {what_stays(adequacy)}: something else is missing or wrong"
-    elif before > 1.0:
-        text += f"; what is left is not more than {_noise(adequacy)}"
+        text += f"; what is left is not more than {noise}" if is_met else ""
+    if not is_met and adequacy.worst is not None:
+        text += f"; {what_stays(adequacy)}: something {'else ' if is_amended or has_fault else ''}is missing or wrong"
     given = f" That takes for granted: {day_of(adequacy)}." if adequacy.day else ""
     return f"{text}.{given}"
 

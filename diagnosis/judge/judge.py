@@ -89,7 +89,9 @@ def why_open(
     """Why it cannot be told whether something is missing, where nothing is accepted; empty if the model agrees."""
     reasons = []
     if not searched.has_physics:
-        reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
+        reasons.append(
+            "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
+        )
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
     unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
@@ -212,6 +214,7 @@ def _finding(
         doubts=(*accepted.reasons.get(term, ()), *doubts),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
+        judged_by=accepted.bases.get(term, accepted.basis),
     )
 
 

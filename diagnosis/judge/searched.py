@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 from cosim.components import ProgrammeComponent
 from cosim.scenario import Scenario
+from diagnosis.faults.law import AGAIN
+from diagnosis.faults.model import FaultyModel
 from diagnosis.judge.diagnosis import Domain, Searched
 from diagnosis.search.problem import Term
 from diagnosis.search.shares import is_own
@@ -21,14 +23,14 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str]) 
         without: Effects that were left out on demand.
     """
     by_domain: dict[str, list[Term]] = {}
-    for term in model.terms():
+    for term in (*model.terms(), *_faults(model)):
         by_domain.setdefault(term.unit, []).append(term)
     domains = tuple(
         Domain(
             name,
             len({t.identifier for t in terms}),
             len({t.identifier for t in terms if not t.is_named}),
-            len({t.place for t in terms}),
+            len({t.place.removesuffix(AGAIN) for t in terms}),
         )
         for name, terms in sorted(by_domain.items())
     )
@@ -39,3 +41,10 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str]) 
     if not any(not is_own(p.name) for p in model.parameters):
         untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
     return Searched(domains, tuple(untried))
+
+
+def _faults(model: object) -> tuple[Term, ...]:
+    """Faults with begin and end, which a search tries beside the laws."""
+    while not isinstance(model, FaultyModel) and hasattr(model, "inner"):
+        model = model.inner
+    return model.faults() if isinstance(model, FaultyModel) else ()

@@ -95,10 +95,13 @@ def sureness(diagnosis: Diagnosis) -> str:
     if not diagnosis.findings:
         return f"{margin}; none did."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
-    judged = listed([number(f.held_out_gain) for f in diagnosis.findings], 4)
     basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
+    by: dict[str, list[str]] = {}
+    for f in diagnosis.findings:
+        by.setdefault(f.judged_by or basis, []).append(number(f.held_out_gain))
+    judged = "; on ".join(f"{name} by {listed(falls, 4)}" for name, falls in by.items())
     chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
-    return f"{margin}: {gains}; {chance}. On {basis} -2 log likelihood falls by {judged}."
+    return f"{margin}: {gains}; {chance}. -2 log likelihood falls on {judged}."
 
 
 def structure(diagnosis: Diagnosis) -> str:

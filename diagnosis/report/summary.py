@@ -107,7 +107,7 @@ def _finding(order: int, finding: Finding, width: int) -> Iterator[str]:
     told = [f"{clean(p.name)} = {interval(p.value, p.lower, p.upper, clean(p.unit))}" for p in finding.parameters]
     yield from _wrapped("         ", ", ".join(told), width, 2)
     for doubt in finding.doubts[:_STATEMENTS]:
-        yield from _wrapped("  why not" if not finding.is_accepted else "  doubt  ", f" {doubt}", width, 3)
+        yield from _wrapped("  why not " if not finding.is_accepted else "  doubt  ", doubt, width, 3)
     if finding.ambiguous_with:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))

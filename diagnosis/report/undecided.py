@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
+from diagnosis.judge.doubts import is_of_an_interval
 from diagnosis.judge.location import Remainder
 from diagnosis.report.display import clean, number, span, words
 from diagnosis.report.sentences import when, where
@@ -12,6 +13,16 @@ _UNCONFIRMED = (
     "Record a training programme once more, with the rig as it is now, and hold that out. If what is suggested "
     "predicts it worse too, the rig has changed since the training; if better, the law holds for that programme alone "
     "and stands for something else."
+)
+#: The same where stretches of the training judged.
+_UNJUDGED = (
+    "Record another programme and hold that out: what is suggested is in the rig if it predicts that better, and "
+    "stands for something else if not."
+)
+#: What would decide about a fault with begin and end, which no other recording can show.
+_OF_ONE_RECORDING = (
+    "Repeat that recording with a second sensor beside the one that is suspected: a fault of a sensor does not come "
+    "back in both, and what does belongs to the rig."
 )
 #: What would decide about structure that no effect explains.
 _UNEXPLAINED = (
@@ -45,10 +56,16 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict is not Verdict.CANNOT_TELL:
         return ""
     if diagnosis.suggestions:
-        return _UNCONFIRMED
+        if all(is_of_an_interval(f) for f in diagnosis.suggestions):
+            return _OF_ONE_RECORDING
+        return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
 
 
 def model_note(diagnosis: Diagnosis) -> str:
     """What is in the model that was written, where that is no accepted finding."""
-    return "" if diagnosis.accepted else "recalibrated, nothing added"
+    if not all(is_of_an_interval(f) for f in diagnosis.accepted):  # faults of one recording are no part of a model
+        return ""
+    right = diagnosis.adequacy
+    is_fitted = right is None or right.is_recalibrated
+    return "recalibrated, nothing added" if is_fitted else "as it was given: nothing fitted, nothing added"
