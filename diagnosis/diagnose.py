@@ -143,7 +143,7 @@ def diagnose(
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     found = doubted(findings(model, outcome, accepted, [r.title for r in training]), doubts)
-    tried = searched(model, scenario, means.without)
+    tried = searched(model, scenario, means.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base), doubts)

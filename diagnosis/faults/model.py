@@ -63,6 +63,11 @@ class FaultyModel(WrappedModel):
             found = found.inner
         return found
 
+    @property
+    def is_fast(self) -> bool:
+        """Whether a simulation takes milliseconds."""
+        return self._is_fast
+
     def faults(self) -> tuple[Term, ...]:
         """Every fault that the search tries beside the laws."""
         return (*self.sensor_terms, *self.input_terms)

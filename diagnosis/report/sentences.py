@@ -96,12 +96,12 @@ def sureness(diagnosis: Diagnosis) -> str:
         return f"{margin}; none did."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
     basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
-    by: dict[str, list[str]] = {}
+    by: dict[str, list[str]] = {}  # readings that judge to gains on them
     for f in diagnosis.findings:
         by.setdefault(f.judged_by or basis, []).append(number(f.held_out_gain))
-    judged = "; on ".join(f"{name} by {listed(falls, 4)}" for name, falls in by.items())
+    judged = "; ".join(f"{listed(falls, 4)} ({name})" for name, falls in by.items())
     chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
-    return f"{margin}: {gains}; {chance}. -2 log likelihood falls on {judged}."
+    return f"{margin}: {gains}; {chance}. -2 log likelihood of readings that judge falls by {judged}."
 
 
 def structure(diagnosis: Diagnosis) -> str:
