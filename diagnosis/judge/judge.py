@@ -94,7 +94,8 @@ def why_open(
         )
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
-    unexplained = ", and no law that was tried explains what is left" if searched.has_physics else ""
+    is_told = searched.has_physics and all(f.is_accepted for f in found)  # else a law that was tried may explain it
+    unexplained = ", and no law that was tried explains what is left" if is_told else ""
     if adequacy.is_rejected:
         reasons.append(f"the readings reject the model{unexplained}")
     elif adequacy.is_training_rejected:

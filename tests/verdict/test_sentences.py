@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from cosim.scenario import Scenario, load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.check import check_recordings
 from diagnosis.faults.model import with_faults
-from diagnosis.judge.diagnosis import Verdict
+from diagnosis.judge.diagnosis import Domain, Searched, Verdict
 from diagnosis.judge.headline import headline, how_right
+from diagnosis.judge.judge import why_open
 from diagnosis.judge.searched import searched
 from diagnosis.recording.noise import is_unresolved
 from diagnosis.recording.recording import Recording, load_recording
@@ -23,6 +25,7 @@ from diagnosis.report.sentences import sureness
 from diagnosis.report.undecided import model_note, what_decides
 from diagnosis.search.problem import Point
 from diagnosis.search.score import Scoring
+from diagnosis.search.structure import Structure
 from diagnosis.simulator.closed_loop import ClosedLoopModel
 from diagnosis.simulator.models import model_of
 from diagnosis.simulator.runs import deviation
@@ -105,7 +108,7 @@ def test_each_gain_is_told_with_the_readings_that_judged_it() -> None:
     physics = replace(CONTACT, held_out_gain=50.0, judged_by="held-out recordings")
     told = sureness(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(physics, fault)))
     assert told.endswith(
-        f"-2 log likelihood of readings that judge falls by 50.0 (held-out recordings); 6170 ({alternate})."
+        f"-2 log likelihood of readings that judge falls by 50.0 (held-out recordings); falls by 6170 ({alternate})."
     )
 
 
@@ -153,3 +156,14 @@ def test_laws_that_no_channel_can_show_were_not_tried_and_faults_were(tmp_path: 
     arm = with_faults(ClosedLoopModel(pendulum(), [recorded(tmp_path / "swing", swing, given)]))
     measured = next(d for d in searched(arm, pendulum(), ()).domains if d.name == "measurement")
     assert measured.laws >= len({t.identifier for t in arm.faults()})
+
+
+def test_a_law_that_is_suggested_may_explain_what_is_left() -> None:
+    """The readings reject the model without it; whether a law that was tried explains them is then open."""
+    base = SimpleNamespace(point=Point(np.zeros(1)), widths=np.ones(1))
+    outcome = SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base)
+    tried, rejected = Searched((Domain("thermal", 30, 12, 37),)), replace(ADEQUACY, is_recalibration_worse=False)
+    without = why_open(outcome, (), rejected, tried)  # type: ignore[arg-type]
+    assert "the readings reject the model, and no law that was tried explains what is left" in without
+    beside = why_open(outcome, (replace(CONTACT, is_accepted=False),), rejected, tried)  # type: ignore[arg-type]
+    assert "the readings reject the model" in beside
