@@ -109,7 +109,7 @@ class FaultyModel(WrappedModel):
             for term, (strength, begin, end) in faults:
                 if term.identifier == STUCK.identifier:
                     seen *= 1.0 - strength * readings.box(begin, end)
-            if np.any(seen != 1.0):
+            if found.shape[1] and np.any(seen != 1.0):
                 own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
                 found[readings.own] = readings.residuals(own * seen).T
         return found

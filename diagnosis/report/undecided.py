@@ -45,6 +45,8 @@ def remainder(left: Remainder) -> str:
 
 def departing(diagnosis: Diagnosis) -> str:
     """Which unit departs most when it is driven alone; empty if that was not looked at."""
+    if any(one.is_whole for one in diagnosis.locations):
+        return ""
     beyond = [one for one in diagnosis.locations if not one.is_noise]
     if beyond:
         return f"driven alone, {clean(beyond[0].element)} departs most ({clean(beyond[0].unit)})"
@@ -68,4 +70,5 @@ def model_note(diagnosis: Diagnosis) -> str:
         return ""
     right = diagnosis.adequacy
     is_fitted = right is None or right.is_recalibrated
-    return "recalibrated, nothing added" if is_fitted else "as it was given: nothing fitted, nothing added"
+    note = "recalibrated, nothing added" if is_fitted else "as it was given: nothing fitted, nothing added"
+    return f"{note}: a fault of one recording is no part of a model" if diagnosis.accepted else note

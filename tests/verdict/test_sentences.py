@@ -18,11 +18,14 @@ from diagnosis.faults.model import with_faults
 from diagnosis.judge.diagnosis import Domain, Searched, Verdict
 from diagnosis.judge.headline import headline, how_right
 from diagnosis.judge.judge import why_open
+from diagnosis.judge.location import WHOLE, Location
 from diagnosis.judge.searched import searched
 from diagnosis.recording.noise import is_unresolved
 from diagnosis.recording.recording import Recording, load_recording
+from diagnosis.report.network import Network
+from diagnosis.report.page import page
 from diagnosis.report.sentences import sureness
-from diagnosis.report.undecided import model_note, what_decides
+from diagnosis.report.undecided import departing, model_note, what_decides
 from diagnosis.search.problem import Point
 from diagnosis.search.score import Scoring
 from diagnosis.search.structure import Structure
@@ -30,6 +33,8 @@ from diagnosis.simulator.closed_loop import ClosedLoopModel
 from diagnosis.simulator.models import model_of
 from diagnosis.simulator.runs import deviation
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, LAG, diagnosis
+from tests.search.line_model import TIME
+from tests.verdict.lines import Lines
 
 ROOT = Path(__file__).resolve().parents[2]
 FAULT = replace(LAG, effect="sensor_offset_in_interval", statement="sensor that was off for a while, coil[1]")
@@ -84,7 +89,7 @@ def test_what_a_fault_explains_is_not_explained_by_recalibration() -> None:
     told = headline(Verdict.MEASUREMENT_FAULT, [FAULT], replace(ADEQUACY, day=()))
     assert "The model with what was found of sensors and inputs explains 96 %" in told
     alone = replace(diagnosis(Verdict.MEASUREMENT_FAULT), findings=(FAULT,))
-    assert model_note(alone) == "recalibrated, nothing added"  # such a fault is in no amended scenario
+    assert model_note(alone) == "recalibrated, nothing added: a fault of one recording is no part of a model"
 
 
 def test_of_readings_that_reject_nothing_no_share_is_explained() -> None:
@@ -167,3 +172,45 @@ def test_a_law_that_is_suggested_may_explain_what_is_left() -> None:
     assert "the readings reject the model, and no law that was tried explains what is left" in without
     beside = why_open(outcome, (replace(CONTACT, is_accepted=False),), rejected, tried)  # type: ignore[arg-type]
     assert "the readings reject the model" in beside
+
+
+def test_where_no_unit_could_be_driven_alone_none_is_said_to_be(tmp_path: Path) -> None:
+    whole = Location("mechanical", WHOLE, "marker[3].x", "marker[3].x", 0.1, 0.3, 6.1, 4.0)
+    told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(), locations=(whole,))
+    assert departing(told) == ""
+    text = page(told, [], Network(()))
+    assert "riven alone with" not in text
+    assert "residuals of the whole simulation" in text
+
+
+def test_a_report_without_held_out_recordings_says_what_judged() -> None:
+    whole = diagnosis(Verdict.MEASUREMENT_FAULT)
+    basis = "stretches of the training recordings, each left out of a fit"
+    fault = replace(FAULT, judged_by="every other reading, left out of a fit", held_out_gain=-3.0)
+    told = replace(whole, findings=(fault,), adequacy=replace(ADEQUACY, basis=basis), held_out_by="",
+                   fit=tuple(f for f in whole.fit if not f.is_held_out))  # fmt: skip
+    text = page(told, [], Network(()))
+    assert f"<dt>Judged by</dt><dd>{basis}</dd>" in text
+    assert "readings that judge (every other reading, left out of a fit) rises by 3" in text
+
+
+class Fixed(Lines):
+    """A model without a number that could be fitted, as FMUs are whose parameters state no uncertainty."""
+
+    def __init__(self, truth: np.ndarray) -> None:
+        super().__init__(truth, 1)
+        self.parameters = []
+
+    def signal(self, point: Point) -> np.ndarray:
+        return super().signal(Point(np.zeros(2), point.terms))
+
+    def base_jacobian(self, point: Point) -> np.ndarray:
+        return np.zeros((len(TIME), 0))
+
+
+def test_a_stuck_sensor_is_fitted_where_no_parameter_is() -> None:
+    truth = 5.0 * TIME * (TIME < 0.5) + 2.5 * (TIME >= 0.5)
+    model = with_faults(Fixed(truth))
+    term = next(t for t in model.faults() if t.identifier == "sensor_stuck_in_interval")
+    point = Point(np.zeros(0), {term: (1.0, 0.5, 1.0)})
+    assert model.base_jacobian(point).shape == (len(TIME), 0)
