@@ -144,11 +144,11 @@ def diagnose(
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     units = written_units([r.units for r in both])
-    found = doubted(findings(model, outcome, accepted, [r.title for r in training], units, judge), doubts)
-    tried = searched(model, scenario, means.without)
-    day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
-    right = adequacy(accepted, readings, day)
     titles = [r.title for r in training]
+    found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
+    tried = searched(model, scenario, means.without, outcome.base.point)
+    day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
+    right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:

@@ -56,10 +56,6 @@ def judged(
     """
     begin = clock.perf_counter()
     found = _judged(diagnosis, scenario, models, points, held_out, folder)
-    faults = [t.place for t in points[0]["after"].terms if t.recording is not None]
-    if faults and found.amended_model is not None:
-        own = f"the amended scenario leaves out the faults of single recordings: {', '.join(faults)}"
-        found = replace(found, held_out_by="; ".join(filter(None, (found.held_out_by, own))))
     return replace(found, seconds=found.seconds + clock.perf_counter() - begin)
 
 
@@ -71,13 +67,15 @@ def _judged(
     inner, fitted = unwrapped(training, points[0])
     if isinstance(inner, ClosedLoopModel):
         path = amend_closed_loop(scenario, inner, fitted["after"], folder)
-        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS)
+        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS if judge is not None else "")
     if isinstance(inner, FabricModel):
+        by = BY_BULLET if judge is not None else ""
         try:
             path = amend_fabric(scenario, inner, fitted["after"], folder)
         except CannotAmend as reason:
-            return replace(diagnosis, held_out_by=f"{BY_BULLET}; there is no amended scenario: {reason}")
-        return replace(diagnosis, amended_model=str(path), held_out_by=BY_BULLET)
+            by = "; ".join(filter(None, (by, f"there is no amended scenario: {reason}")))
+            return replace(diagnosis, held_out_by=by)
+        return replace(diagnosis, amended_model=str(path), held_out_by=by)
     if not isinstance(inner, BankModel):
         return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
     try:

@@ -13,7 +13,7 @@ from cosim.unit import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, explained
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.noise import estimate_noise
+from diagnosis.recording.noise import estimate_noise, is_unresolved
 
 #: A noise is measured by its neighbours to within a factor: what filters and pickup do to neighbouring readings counts.
 HONEST = 2.0
@@ -84,6 +84,8 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     least, most = chi2.isf(1.0 - tail, degrees), chi2.isf(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
     if not is_small and not degrees * (ratio / HONEST) ** 2 > most:
+        return []
+    if not is_small and is_unresolved(channel.times, channel.values, channel.quantum):
         return []
     way = "less" if is_small else "more"
     text = (

@@ -15,6 +15,8 @@ FEWEST = 3
 FEWEST_EQUAL = 8
 #: Times that one sensor may be off in one way within one recording.
 OCCASIONS = 2
+#: End of the place of a second fault of one kind.
+AGAIN = ", again"
 #: Strength of a fault that is there or not.
 WHOLLY = TermParameter(
     "share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it holds one reading"

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit import Array
-from diagnosis.faults.law import INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
+from diagnosis.faults.law import AGAIN, INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.search.fit import Fit
@@ -48,7 +48,7 @@ class FaultyModel(WrappedModel):
         self.sensor_terms: dict[Term, Readings] = {}
         for readings in self.readings:
             for again in range(OCCASIONS):
-                label = readings.label + (", again" if again else "")
+                label = readings.label + (AGAIN if again else "")
                 for law, strength in ((OFFSET, readings.offset()), (STUCK, WHOLLY)):
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
@@ -62,6 +62,15 @@ class FaultyModel(WrappedModel):
         while isinstance(found, WrappedModel):
             found = found.inner
         return found
+
+    @property
+    def is_fast(self) -> bool:
+        """Whether a simulation takes milliseconds."""
+        return self._is_fast
+
+    def faults(self) -> tuple[Term, ...]:
+        """Every fault that the search tries beside the laws."""
+        return (*self.sensor_terms, *self.input_terms)
 
     def inside(self, point: Point) -> Point:
         """The point without faults of sensors."""
@@ -100,7 +109,7 @@ class FaultyModel(WrappedModel):
             for term, (strength, begin, end) in faults:
                 if term.identifier == STUCK.identifier:
                     seen *= 1.0 - strength * readings.box(begin, end)
-            if np.any(seen != 1.0):
+            if found.shape[1] and np.any(seen != 1.0):
                 own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
                 found[readings.own] = readings.residuals(own * seen).T
         return found

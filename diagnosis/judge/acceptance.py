@@ -16,6 +16,7 @@ from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
 from diagnosis.search.fit import Fit, fit
+from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.search import Explanation, Outcome, shrink
 from diagnosis.simulator.models import DiagnosisModel
@@ -94,6 +95,14 @@ class _Judge:
         source = self.local if is_local and self.local is not None else self.unfitted
         return gain(self.predict(without.point, is_local), self.predict(with_it.point, is_local), source.readings)
 
+    def has_stopped(self, point: Point, is_local: bool) -> bool:
+        """Whether a simulation gave no finite values, or values that run away."""
+        return bool(np.any(np.abs(self.predict(point, is_local).residuals) >= RUNAWAY))
+
+    def basis(self, is_local: bool) -> str:
+        """Which readings judge a term, in plain words."""
+        return (self.local if is_local and self.local is not None else self.unfitted).basis
+
 
 def accept(
     model: DiagnosisModel, outcome: Outcome, unfitted: Unfitted, training: Unfitted, is_local: Callable[[Term], bool],
@@ -139,19 +148,19 @@ def accept(
         worst = min(failing, key=lambda t: judged[t][0].total)
         reasons[worst] = judged[worst][1]
         current = _without(model, outcome, current, worst)
+    if not current.terms:  # where the last terms went together, their fit may have ended in another valley
+        current = Explanation(outcome.base)
     after = judge.predict(current.fit.point)
     readings = unfitted.readings
     if current.terms and gain(before, after, readings).is_loss:
         reasons |= dict.fromkeys(current.terms, (_DISTORTED,))
         current, after = Explanation(outcome.base), recalibrated
-    own = judge.local.basis if judge.local is not None else unfitted.basis
-    judged_by = {t: own if is_local(t) else unfitted.basis for t in gains}
     fitted = training.predict(current.fit.point, is_fitted=False)
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
         gain(before, recalibrated, readings), agreement(after.residuals, readings),
         agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
-        agreement(recalibrated.residuals, readings), unfitted.basis, judged_by,
+        agreement(recalibrated.residuals, readings), unfitted.basis, {t: judge.basis(is_local(t)) for t in gains},
     )  # fmt: skip
 
 
@@ -197,7 +206,7 @@ def _judged(
     others = current.fit.point.without(term)
     without = outcome.base if not others.terms else fit(judge.model, others, near=current.fit)
     found = judge.evidence(without, current.fit, is_local)
-    where = (judge.local if is_local and judge.local is not None else judge.unfitted).basis
+    where = judge.basis(is_local)
     reasons = []
     data = float(np.sum(loss(without.residuals)) - np.sum(loss(current.fit.residuals)))
     if data < LEAST:
@@ -209,6 +218,8 @@ def _judged(
         reasons.append(
             f"the readings that judge ({where}) do not show it: they are predicted alike with and without it"
         )
+    elif judge.has_stopped(current.fit.point, is_local) and not judge.has_stopped(without.point, is_local):
+        reasons.append(f"with it the simulation stops or runs away before the end of the readings that judge ({where})")
     elif found.is_loss:
         reasons.append(
             f"it predicts the readings that judge ({where}) worse: -2 log likelihood rises by {-found.total:.0f}"

@@ -15,13 +15,18 @@ from diagnosis.search.shares import of_title
 TOLD = 0.5
 
 
-def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> Adequacy:
+def adequacy(
+    accepted: Accepted, readings: Readings, day: tuple[Moved, ...], is_recalibrated: bool = True,
+    has_scatter: bool = False,
+) -> Adequacy:  # fmt: skip
     """How right the accepted model is.
 
     Args:
         accepted: What was accepted, with its agreement with unfitted and with training readings.
         readings: The unfitted ones.
         day: Numbers of the day that were moved, see `moved_day`.
+        is_recalibrated: Whether the model has any number that could be fitted.
+        has_scatter: Whether its noise holds what the simulation scatters by itself.
     """
     now, worst = accepted.agreement, accepted.agreement.worst
     before, recalibrated = accepted.agreement_before, accepted.agreement_recalibrated
@@ -56,6 +61,8 @@ def adequacy(accepted: Accepted, readings: Readings, day: tuple[Moved, ...]) -> 
         is_training_rejected=accepted.training.is_rejected,
         is_recalibration_worse=accepted.recalibration.is_loss or bool(accepted.recalibration.worse),
         is_irregular=now.is_irregular if now.is_rejected else accepted.training.is_irregular,
+        is_recalibrated=is_recalibrated,
+        has_scatter=has_scatter,
     )
 
 

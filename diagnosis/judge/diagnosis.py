@@ -136,7 +136,7 @@ class Finding:
         held_out_gain: Fall of -2 log likelihood of the readings that judge by it, all else kept.
         members: Other laws and places whose predictions of all readings, training and held out, differ from its own by
             less than odds of 20 to 1 ask for, whether or not the search fitted them: it is one of this class.
-        judged_by: Which readings these are: `held-out recordings`, or others of its own recording.
+        judged_by: Which readings these are, in plain words; of a fault of one recording other readings of that one.
     """
 
     unit: str
@@ -378,6 +378,8 @@ class Adequacy:
         is_recalibration_worse: Whether the recalibrated parameters predict worse than those of the scenario.
         is_irregular: Whether every channel that rejects the model does so by what changes from one reading to the next
             alone, as a noise does that is larger than stated.
+        is_recalibrated: Whether the model has any number that could be fitted.
+        has_scatter: Whether the noise holds what the simulation scatters by itself (contacts), beside the sensors'.
     """
 
     basis: str
@@ -395,6 +397,8 @@ class Adequacy:
     is_training_rejected: bool
     is_recalibration_worse: bool
     is_irregular: bool = False
+    is_recalibrated: bool = True
+    has_scatter: bool = False
 
 
 @dataclass(frozen=True)

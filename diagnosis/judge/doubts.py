@@ -39,6 +39,11 @@ def of_another_experiment(doubts: Sequence[Doubt]) -> list[Doubt]:
     return [d for d in doubts if is_of_another_experiment(d) and not (d.kind == "programme" and d.recording in faulty)]
 
 
+def is_of_an_interval(finding: Finding) -> bool:
+    """Whether a finding is a fault with begin and end, of one recording alone."""
+    return finding.effect.endswith(_IN_INTERVAL)
+
+
 def faults(doubts: Sequence[Doubt]) -> list[Doubt]:
     """Serious doubts about a stretch of a sensor or of an input."""
     return [d for d in doubts if d.is_serious and d.kind in OF_A_STRETCH]
@@ -78,11 +83,11 @@ def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
     """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable."""
     places: dict[str, set[str]] = {}
     for finding in findings:
-        if finding.is_accepted and finding.effect.endswith(_IN_INTERVAL):
+        if finding.is_accepted and is_of_an_interval(finding):
             places.setdefault(finding.recording, set()).add(finding.place)
     many = {recording for recording, own in places.items() if len(own) >= MANY}
     return tuple(
-        _suggested(f, _HARDLY) if f.is_accepted and f.effect.endswith(_IN_INTERVAL) and f.recording in many else f
+        _suggested(f, _HARDLY) if f.is_accepted and is_of_an_interval(f) and f.recording in many else f
         for f in findings
     )
 

@@ -57,7 +57,7 @@ def headline(
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(physics), units, bool(at_fault) and not physics))
+        parts.append(how_right(adequacy, bool(physics), units, bool(at_fault)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy, units)}.")
     return " ".join(parts)
@@ -80,46 +80,63 @@ def _basis(adequacy: Adequacy) -> str:
 
 
 def _noise(adequacy: Adequacy) -> str:
-    return "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    noise = "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    return f"{noise} and the scatter of the contacts" if adequacy.has_scatter else noise
 
 
-def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_faults: bool = False) -> str:
+def _model(adequacy: Adequacy, is_amended: bool, has_fault: bool) -> str:
+    """What the model that judged is called: what was added to it, or fitted."""
+    if is_amended:
+        return "The amended model"
+    if has_fault:
+        return "The model with what was found of sensors and inputs"
+    return "The recalibrated model" if adequacy.is_recalibrated else "The model as it is"
+
+
+def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fault: bool = False) -> str:
     """What the model explains of the mismatch, and what it leaves.
 
     A model that was not rejected leaves no more than the noise explains; that is not a proof that nothing is missing.
 
     Args:
         adequacy: How right it is.
-        is_amended: Whether anything was added to it; else it was recalibrated alone.
+        is_amended: Whether anything was added to it; else it was recalibrated at most.
         units: In which quantities are shown.
-        has_faults: Whether faults of sensors or inputs were fitted with it, and nothing was added to the model itself.
+        has_fault: Whether laws of sensors or inputs were accepted.
     """
-    name = "The amended model" if is_amended else "The recalibrated model"
-    name = f"With that taken into account, the {name[4:]}" if has_faults else name
+    name, noise = _model(adequacy, is_amended, has_fault), _noise(adequacy)
+    has_more = is_amended or has_fault
+    is_changed = has_more or adequacy.is_recalibrated
     before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
-    share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
-    if before <= 1.0 and not adequacy.is_rejected:
-        text = f"The {adequacy.basis} are met within {_noise(adequacy)}, before and after"
+    is_met = not adequacy.is_rejected
+    if is_met and not (is_changed and adequacy.is_nominal_rejected):
+        text = f"The {adequacy.basis} are met within {noise}" + (", before and after" if is_changed else "")
+    elif is_met and before <= 1.0:  # one channel alone was missed
+        text = f"The {adequacy.basis} are met within {noise} now; the model as it is misses them"
+    elif not is_changed:
+        text = f"The model as it is misses the {adequacy.basis}"
     elif adequacy.explained < 0.0:
         text = f"{name} predicts the {_basis(adequacy)} worse"
         text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
     else:
-        is_whole = adequacy.explained >= 1.0 and not adequacy.is_rejected
+        is_whole = adequacy.explained >= 1.0 and is_met
+        share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
         share = "more than 99 %" if adequacy.explained > ALL and not is_whole else share
-        text = f"{name} explains {share} of the mismatch in the {adequacy.basis}"
-        if (is_amended or has_faults) and adequacy.by_recalibration >= LEAST_SHARE:
+        text = f"{name} explains {share} of the mismatch in the {_basis(adequacy)}"
+        if has_more and adequacy.by_recalibration >= LEAST_SHARE:
             text += f" (recalibration alone {100.0 * min(adequacy.by_recalibration, adequacy.explained):.0f} %)"
-    if adequacy.is_rejected and adequacy.worst is not None:
-        cause = (
-            "as much as it changes from one reading to the next, so that noise is larger than it is taken to be"
-            if adequacy.is_irregular
-            else "something else is missing or wrong"
-        )
-        text += f"; {what_stays(adequacy, units)}: {cause}"
-    elif before > 1.0:
-        text += f"; what is left is not more than {_noise(adequacy)}"
+        text += f"; what is left is not more than {noise}" if is_met else ""
+    if not is_met and adequacy.worst is not None:
+        text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more)}"
     given = f" That takes for granted: {day_of(adequacy, units)}." if adequacy.day else ""
     return f"{text}.{given}"
+
+
+def _cause(adequacy: Adequacy, has_more: bool) -> str:
+    """Why something stays."""
+    if adequacy.is_irregular:
+        return "as much as it changes from one reading to the next, so that noise is larger than it is taken to be"
+    return f"something {'else ' if has_more else ''}is missing or wrong"
 
 
 def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:

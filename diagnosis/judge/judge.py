@@ -106,21 +106,17 @@ def why_open(
     if any(f.is_accepted and f.standing is Standing.UNNAMED and f.unit in MEASURED for f in found):
         reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
     if not searched.has_physics:
-        reasons.append("no law was tried: " + "; ".join(searched.untried or ("the model offers no place for one",)))
+        reasons.append(
+            "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
+        )
     if any(not f.is_accepted for f in found):
         reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
-    law = "no law that is confirmed" if found else "no law that was tried"
-    unexplained = f", and {law} explains what is left" if searched.has_physics else ""
-    if adequacy.is_irregular and (adequacy.is_rejected or adequacy.is_training_rejected):
-        reasons.append(
-            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from "
-            "one reading to the next, as a larger noise does"
-        )
-    elif adequacy.is_rejected:
-        reasons.append(f"the readings reject the model{unexplained}")
-    elif adequacy.is_training_rejected:
-        reasons.append(f"the training readings reject the model{unexplained}")
-    elif abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
+    unexplained = ", and no law that was tried explains what is left"
+    if not searched.has_physics or any(not f.is_accepted for f in found):  # a suggested law may explain it
+        unexplained = ""
+    reasons += _rejections(adequacy, unexplained)
+    is_open = adequacy.is_rejected or adequacy.is_training_rejected
+    if not is_open and abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse:
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
@@ -129,6 +125,18 @@ def why_open(
         those = "a parameter" if strained == 1 else f"{strained} parameters"
         reasons.append(f"{those} had to move by more than {STRAINED:.0f} times the stated uncertainty")
     return tuple(reasons)
+
+
+def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
+    """How the readings reject the model, if they do."""
+    if not (adequacy.is_rejected or adequacy.is_training_rejected):
+        return []
+    if adequacy.is_irregular:
+        return [
+            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from "
+            "one reading to the next, as a larger noise does"
+        ]
+    return [f"the {'' if adequacy.is_rejected else 'training '}readings reject the model{unexplained}"]
 
 
 def _start(doubt: Doubt) -> str:
@@ -250,7 +258,7 @@ def _finding(
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
-        judged_by=accepted.judged_by.get(term, ""),
+        judged_by=accepted.judged_by.get(term, accepted.basis),
     )
 
 

@@ -19,6 +19,10 @@ class Dependence:
     correlation: float
 
 
+#: Equation of a residual where no unit could be driven alone.
+WHOLE = "all its equations; not driven alone: the whole simulation runs by itself"
+
+
 @dataclass(frozen=True)
 class Location:
     """One line of the table of places: a residual of a unit that was driven alone with recorded inputs.
@@ -46,6 +50,11 @@ class Location:
     limit: float
     recording: str = ""
     depends_on: tuple[Dependence, ...] = ()
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether no unit could be driven alone, so that it is a residual of the whole simulation."""
+        return self.equation == WHOLE
 
     @property
     def is_noise(self) -> bool:

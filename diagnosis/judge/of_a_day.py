@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.unfitted import raw_residuals, readings_of
 from diagnosis.search.problem import Point, Term
 from diagnosis.simulator.models import DiagnosisModel
@@ -43,11 +44,13 @@ def is_shown_there_alone(
         return False
     if judge is None:
         return is_of_a_day and (is_event or getattr(place, "day", None) is not None)
-    there = {str(t): t for t in judge.terms()}
-    if str(term) not in there:
+    # A fabric is not fitted where it judges; what it has with an instant or of a day belongs to its coils.
+    asked = judge.bank if isinstance(judge, FabricModel) else judge
+    there = {str(t): t for t in asked.terms()} if asked is not None else {}
+    if asked is None or str(term) not in there:
         return True
-    nominal = Point(np.zeros(len(judge.parameters)))
-    without, with_it = judge.residuals([nominal, nominal.plus(there[str(term)], tuple(values))])
+    nominal = Point(np.zeros(len(asked.parameters)))
+    without, with_it = asked.residuals([nominal, nominal.plus(there[str(term)], tuple(values))])
     return np.array_equal(without, with_it)
 
 

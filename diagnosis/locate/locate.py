@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.bank.places import coil_label
-from diagnosis.judge.location import Location, Proposal, Waveform
+from diagnosis.judge.location import WHOLE, Location, Proposal, Waveform
 from diagnosis.locate.course import Course, course
 from diagnosis.locate.fitted import Fitted, fitted
 from diagnosis.locate.investigate import investigate
@@ -91,7 +91,7 @@ def closed(model: Model, fit: Fit) -> tuple[Location, ...]:
     for unit in dict.fromkeys(model.layout.units):
         chosen = np.array([model.layout.units[int(c)] == unit for c in model.layout.channel])
         left = structure(np.where(chosen, fit.residuals, 0.0), model.layout)
-        equation = "all its equations; not driven alone: the whole simulation runs by itself"
+        equation = WHOLE
         found.append(Location(unit, equation, left.channels, left.channels, left.begin, left.end, left.z, left.limit))
     return tuple(sorted(found, key=lambda location: -abs(location.z) / location.limit))
 

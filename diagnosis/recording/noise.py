@@ -61,6 +61,24 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     return float(max(found, floor))
 
 
+def is_unresolved(times: Array, values: Array, quantum: float = 0.0) -> bool:
+    """Whether a signal bends so much between readings that its scatter is no noise but the signal.
+
+    White noise leaves as much of polynomials of every order; where one through six neighbours leaves less than the
+    cubic through four, and that less than the line, the noise lies below what any of them says.
+
+    Args:
+        times: Shape (samples,) [s], rising.
+        values: Shape (samples,).
+        quantum: Step of a quantised reading; 0 finds it.
+    """
+    if len(values) < _ENOUGH:
+        return False
+    step, is_free = quantum or find_quantum(values), ~_is_stuck(values)
+    line, cubic, quintic = (_deviation(times, values, step, reach, is_free) for reach in (1, 2, 3))
+    return bool(cubic < (1.0 - _CURVED) * line and quintic < (1.0 - _CURVED) * cubic)
+
+
 def find_quantum(values: Array) -> float:
     """Step to which readings are rounded; 0 where neighbouring readings are hardly ever equal.
 

@@ -9,7 +9,7 @@ from diagnosis.report.display import UNKNOWN, clean, listed, number, percent, wo
 from diagnosis.report.figures import colour
 from diagnosis.report.fits import plain_channel
 from diagnosis.report.markup import Html, element, folded, joined, listing, table, wrapped
-from diagnosis.report.sentences import ambiguity, decisive, what, when, where
+from diagnosis.report.sentences import ambiguity, decisive, fall, what, when, where
 from diagnosis.report.user_units import IN_SI, Units
 
 
@@ -49,7 +49,8 @@ def _gain(finding: Finding) -> str:
     told = f"-2 log posterior of the training falls by {number(finding.gain)}"
     if math.isnan(finding.held_out_gain):
         return told
-    return f"{told}, -2 log likelihood of the readings that judge by {number(finding.held_out_gain)}"
+    by = f" ({finding.judged_by})" if finding.judged_by else ""
+    return f"{told}, -2 log likelihood of the readings that judge{by} {fall(finding.held_out_gain)}"
 
 
 def _parameters(estimates: tuple[Estimate, ...], units: Units) -> Html:

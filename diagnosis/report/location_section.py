@@ -19,15 +19,23 @@ def location_section(locations: Sequence[Location], units: Units = IN_SI) -> Htm
     """Table of units that were driven alone; nothing where none was."""
     if not locations:
         return Html("")
-    note = (
-        "Each unit was driven alone with the recorded inputs, the noise of their sensors carried along. z is the "
-        "largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 recordings."
-    )
     head = ("unit", "equation", "element", "channel", "window", "z", "limit", "goes with")
     rows = [_line(one, units) for one in locations[:_LINES]]
     more = len(locations) - _LINES
+    if any(one.is_whole for one in locations):
+        title, driven = (
+            "Where it departs",
+            "No unit could be driven alone: these are residuals of the whole simulation.",
+        )
+    else:
+        title = "Each unit driven alone"
+        driven = "Each unit was driven alone with the recorded inputs, the noise of their sensors carried along."
     rest = element("p", f"And {more} more in diagnosis.json.", class_="note") if more > 0 else ""
-    return element("section", element("h2", "Each unit driven alone"), table(head, rows), rest,
+    note = (
+        f"{driven} z is the largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 "
+        "recordings."
+    )
+    return element("section", element("h2", title), table(head, rows), rest,
                    element("p", note, class_="note"))  # fmt: skip
 
 

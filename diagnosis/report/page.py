@@ -105,7 +105,9 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
         note = model_note(diagnosis)
         facts.append(("Model", f"{diagnosis.amended_model} ({note})") if note else
                      ("Amended model", diagnosis.amended_model))  # fmt: skip
-    if diagnosis.held_out_by:
+    if diagnosis.adequacy is not None and not any(f.is_held_out for f in diagnosis.fit):
+        facts.append(("Judged by", diagnosis.adequacy.basis))
+    elif diagnosis.held_out_by:
         facts.append(("Judged by", coded(diagnosis.held_out_by)))
     return element(
         "header",

@@ -109,13 +109,18 @@ def sureness(diagnosis: Diagnosis) -> str:
     if not diagnosis.findings:
         return f"{margin}; none did."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
-    usual = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
-    told: dict[str, list[str]] = {}
+    basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
+    by: dict[str, list[str]] = {}  # readings that judge to gains on them
     for f in diagnosis.findings:
-        told.setdefault(f.judged_by or usual, []).append(number(f.held_out_gain))
-    judged = "; ".join(f"on {basis}{',' * (',' in basis)} by {listed(gains, 4)}" for basis, gains in told.items())
+        by.setdefault(f.judged_by or basis, []).append(fall(f.held_out_gain))
+    judged = "; ".join(f"{listed(falls, 4)} ({name})" for name, falls in by.items())
     chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
-    return f"{margin}: {gains}; {chance}. -2 log likelihood falls {judged}."
+    return f"{margin}: {gains}; {chance}. -2 log likelihood of readings that judge {judged}."
+
+
+def fall(gain: float) -> str:
+    """A gain as what it does to -2 log likelihood."""
+    return f"rises by {number(-gain)}" if gain < 0.0 else f"falls by {number(gain)}"
 
 
 def structure(diagnosis: Diagnosis) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
+from diagnosis.judge.doubts import is_of_an_interval
 from diagnosis.judge.location import Remainder
 from diagnosis.report.display import clean, number, words
 from diagnosis.report.sentences import when, where
@@ -18,6 +19,16 @@ _UNCONFIRMED = (
 )
 #: What would decide where the readings scatter more than their noise is taken to be.
 _NOISIER = "Correct `noise` of these channels in recording.yaml, or leave it out: then it is estimated. Diagnose again."
+#: The same where stretches of the training judged.
+_UNJUDGED = (
+    "Record another programme and hold that out: what is suggested is in the rig if it predicts that better, and "
+    "stands for something else if not."
+)
+#: What would decide about a fault with begin and end, which no other recording can show.
+_OF_ONE_RECORDING = (
+    "Repeat that recording with a second sensor beside the one that is suspected: a fault of a sensor does not come "
+    "back in both, and what does belongs to the rig."
+)
 #: What would decide about structure that no effect explains.
 _UNEXPLAINED = (
     "Repeat that recording: what comes back in the same channel and window belongs to the rig, what does not was a "
@@ -49,6 +60,8 @@ def mean_left(left: Remainder, units: Units) -> str:
 
 def departing(diagnosis: Diagnosis) -> str:
     """Which unit departs most when it is driven alone; empty if that was not looked at."""
+    if any(one.is_whole for one in diagnosis.locations):
+        return ""
     beyond = [one for one in diagnosis.locations if not one.is_noise]
     if beyond:
         return f"driven alone, {clean(beyond[0].element)} departs most ({clean(beyond[0].unit)})"
@@ -60,7 +73,9 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict is not Verdict.CANNOT_TELL:
         return ""
     if diagnosis.suggestions:
-        return _UNCONFIRMED
+        if all(is_of_an_interval(f) for f in diagnosis.suggestions):
+            return _OF_ONE_RECORDING
+        return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
         return _NOISIER
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
@@ -68,4 +83,9 @@ def what_decides(diagnosis: Diagnosis) -> str:
 
 def model_note(diagnosis: Diagnosis) -> str:
     """What is in the model that was written, where that is no accepted finding."""
-    return "" if diagnosis.accepted else "recalibrated, nothing added"
+    if not all(is_of_an_interval(f) for f in diagnosis.accepted):  # faults of one recording are no part of a model
+        return ""
+    right = diagnosis.adequacy
+    is_fitted = right is None or right.is_recalibrated
+    note = "recalibrated, nothing added" if is_fitted else "as it was given: nothing fitted, nothing added"
+    return f"{note}: a fault of one recording is no part of a model" if diagnosis.accepted else note

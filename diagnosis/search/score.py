@@ -222,8 +222,10 @@ class Scoring:
         The largest of many gains follows a Gumbel law; its scale is taken from mean and deviation of the draws.
         """
         scale = float(np.std(self.chance)) * np.sqrt(6.0) / np.pi
-        if not self.tried or scale == 0.0:
+        if not self.tried or not self.chance.size:
             return 1.0
+        if scale == 0.0:  # no null gained more than its price: one more null would be the first
+            return 1.0 if gain <= self.chance[0] else 1.0 / (len(self.chance) + 1.0)
         place = float(np.mean(self.chance)) - 0.5772156649015329 * scale
         return float(-np.expm1(-np.exp(min(-(gain - place) / scale, MOST_EXPONENT))))
 

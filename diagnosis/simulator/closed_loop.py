@@ -136,6 +136,7 @@ def _compared(recording: Recording) -> ComparedRun:
 def _with_rounding(recording: Recording) -> Recording:
     """Rounding is noise too, where the noise that is given is that of the sensor alone; it is counted once."""
     channels = {
-        name: replace(c, deviation=deviation(c), is_deviation_given=False) for name, c in recording.channels.items()
+        name: replace(c, deviation=deviation(c), quantum=0.0) if c.is_deviation_given else c
+        for name, c in recording.channels.items()
     }
     return replace(recording, channels=channels)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol, runtime_checkable
 
 from cosim.components import CircuitComponent
+from cosim.errors import InputError
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.candidates.candidate import CandidateTerm
@@ -173,16 +174,27 @@ def models_of(
         batches: See `model_of`.
 
     Raises:
-        InputError: A scenario is wrong, or a recording does not fit it.
+        InputError: A scenario is wrong, a recording does not fit it, or a held-out one of a fabric has a `beginning`.
     """
     model = model_of(scenario, training, catalogue, threads, without, batches)
     if not held_out:
         return model, None
     judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model))
+    if isinstance(judge, FabricModel):
+        _without_beginning(held_out)
     if type(judge) is type(model):
         return model, judge
     both = (ClosedLoopModel(scenario, fitting(scenario, r), without, batches) for r in (training, held_out))
     return next(both), next(both)
+
+
+def _without_beginning(recordings: Sequence[Recording]) -> None:
+    """Refuse what only a model that can be fitted to held-out recordings gives."""
+    for recording in recordings:
+        if recording.beginning > 0.0:
+            raise InputError(recording.path / "recording.yaml", "beginning",
+                             "of a fabric nothing is estimated from a first stretch: a simulation takes too long",
+                             "leave it out, and give the start in `overrides`")  # fmt: skip
 
 
 def timeline_of(model: object) -> Timeline | None:

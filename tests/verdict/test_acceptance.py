@@ -148,3 +148,29 @@ def test_the_most_probable_explanation_stands_first_though_another_was_handed_ov
 def test_a_recalibration_that_predicts_worse_is_known_as_such(tmp_path):
     _, found = judged(Lines(3.0 + 0.5 * TIME, 1), Lines(0.0 * TIME, 2), tmp_path)
     assert found.recalibration.is_loss
+
+
+def test_an_effect_with_which_the_simulation_stops_is_refused_for_that(tmp_path):
+    """A run that stops gives no values; how much worse such readings are predicted is no number."""
+
+    class Stops(Lines):
+        def predict(self, point, run):
+            return [np.full(len(TIME), np.inf)] if WAVE in point.terms else super().predict(point, run)
+
+    line = 0.3 + 0.5 * TIME
+    model = Lines(line + 0.1 * np.sin(25.0 * TIME), 1)
+    _, found = judged(model, Stops(line, 2), tmp_path, forced(model, WAVE))
+    assert found.explanation.terms == ()
+    assert found.reasons[WAVE][0] == (
+        "with it the simulation stops or runs away before the end of the readings that judge (held-out recordings)"
+    )
+
+
+def test_where_the_last_terms_go_together_the_recalibrated_model_is_left(tmp_path):
+    """What remains without the refused term is not needed either: no other fit than the recalibrated one stays."""
+    line = 0.3 + 0.5 * TIME
+    model = Lines(line + 0.1 * np.sin(25.0 * TIME), 1)
+    outcome, found = judged(model, Lines(line, 2), tmp_path, forced(model, WAVE, BEND))
+    assert found.explanation.terms == ()
+    assert found.explanation.fit is outcome.base
+    assert found.after is found.recalibrated

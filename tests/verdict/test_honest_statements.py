@@ -115,7 +115,7 @@ def test_a_fault_of_one_recording_was_not_judged_by_others() -> None:
     fault = replace(LAG, effect="sensor_offset_in_interval", judged_by="every other reading, left out of a fit",
                     held_out_gain=50.0)  # fmt: skip
     told = sureness(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault, CONTACT)))
-    assert "on every other reading, left out of a fit, by 50" in told
+    assert "falls by 50.0 (every other reading, left out of a fit)" in told
     assert "where findings show most" not in improvement(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault,)))
 
 

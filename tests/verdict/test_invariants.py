@@ -129,7 +129,7 @@ def test_where_no_law_of_physics_was_tried_nothing_can_be_told() -> None:
     tried = Searched((Domain("measurement", 5, 0, 2),), ("`plant` (fmu) offers no place for a law",))
     told = answer(Lines(line, 1), Lines(line, 2), tried)
     assert told.word is Verdict.CANNOT_TELL
-    assert "no law was tried: `plant` (fmu) offers no place for a law" in told.statement
+    assert "no law of physics was tried: `plant` (fmu) offers no place for a law" in told.statement
 
 
 def test_a_null_agrees_and_says_by_which_noise() -> None:
