@@ -38,6 +38,7 @@ typedef struct {
     double *string_resistance, *string_current, *source_voltage, *supply_voltage, *supply_resistance, *current_limit, *limited;
     double *string_voltage, *terminal_voltage, *supply_power, *supply_current; /* of strings, but for the last two */
     double *state, *state_rate;
+    double *crossings_before; /* of the set before: `width` crossings, then 8 numbers of each coil's branches */
 } Step;
 
 /* Recorded values of one channel on their way through its sensor. */
