@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -60,7 +61,8 @@ class Packing:
     def __init__(self, layout: BankLayout, terms: Sequence[CandidateTerm], active: frozenset[str]) -> None:
         self.layout = layout
         self.axes: dict[str, FieldAxis] = {}
-        self._begin: dict[str, int] = {}
+        #: Begin, end without the padding, and end of each parameter.
+        self._places: dict[str, tuple[int, int, int]] = {}
         self.size = 0
         for name, axis in AXIS_OF_FIELD.items():
             self._place(name, axis)
@@ -73,8 +75,9 @@ class Packing:
 
     def _place(self, name: str, axis: FieldAxis) -> None:
         self.axes[name] = axis
-        self._begin[name] = self.size
-        self.size += self.layout.stride(axis)
+        end = self.size + self.layout.stride(axis)
+        self._places[name] = self.size, self.size + self.layout.size(axis), end
+        self.size = end
 
     def where(self, name: str) -> slice:
         """Place of a parameter, without the padding.
@@ -82,21 +85,20 @@ class Packing:
         Raises:
             KeyError: There is no such parameter, or its candidate is switched off.
         """
-        begin = self._begin[name]
-        return slice(begin, begin + self.layout.size(self.axes[name]))
+        begin, end, _ = self._places[name]
+        return slice(begin, end)
 
     def write(self, vector: Array, name: str, value: float | Array) -> None:
         """Write a parameter into a vector; padded coils repeat the last one."""
-        place = self.where(name)
-        size = place.stop - place.start
-        array = np.asarray(value, dtype=np.float64)
-        if array.shape not in ((), (size,)):
-            raise ValueError(f"{name} has the shape {array.shape}; it needs one number or {size}")
-        if not np.isfinite(array).all():
+        begin, end, padded = self._places[name]
+        array = value if isinstance(value, float) else np.asarray(value, dtype=np.float64)
+        if not isinstance(array, float) and array.shape not in ((), (end - begin,)):
+            raise ValueError(f"{name} has the shape {array.shape}; it needs one number or {end - begin}")
+        if not (math.isfinite(array) if isinstance(array, float) else np.isfinite(array).all()):
             raise ValueError(f"{name} holds a value that is not finite")
-        vector[place] = array
-        if size:
-            vector[place.stop : place.start + self.layout.stride(self.axes[name])] = vector[place.stop - 1]
+        vector[begin:end] = array
+        if begin < end < padded:
+            vector[end:padded] = vector[end - 1]
 
 
 def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> frozenset[str]:
