@@ -182,12 +182,14 @@ def sample(series: Series, times: Array) -> Array:
         return np.where(np.interp(times, own, is_lost.astype(np.float64)) > 0.0, np.inf, found)
     clipped = np.clip(times, own[0], own[-1])
     first = np.clip(np.searchsorted(own, clipped, side="right") - 2, 0, len(own) - 4)
-    nodes = own[first[:, None] + np.arange(4)]
-    weights = np.ones((len(times), 4))
+    used = first[:, None] + np.arange(4)
+    nodes = own[used.T]  # of many channels most of the time goes here: rows are faster than columns
+    since = clipped - nodes
+    columns = np.ones((4, len(times)))
     for i in range(4):
         for j in range(4):
             if i != j:
-                weights[:, i] *= (clipped - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
-    used = first[:, None] + np.arange(4)
+                columns[i] *= since[j] / (nodes[i] - nodes[j])
+    weights = np.ascontiguousarray(columns.T)
     found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
     return np.where(np.any(is_lost[used], axis=1), np.inf, found)
