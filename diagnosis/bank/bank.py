@@ -13,7 +13,7 @@ import numpy as np
 from diagnosis.bank.compiler import load
 from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES, Array, BankLayout
-from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
+from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack, pack_all
 from diagnosis.bank.plan import Plan
 from diagnosis.bank.source import generate
 from diagnosis.candidates.candidate import CandidateTerm
@@ -138,7 +138,7 @@ class Bank:
         plan = self.plan(inputs, times) if plan is None else plan
         active: frozenset[str] = frozenset().union(*(active_terms(self.terms, p) for p in parameters))
         packing = self.packing(active)
-        vectors = np.stack([pack(packing, self.terms, p) for p in parameters])
+        vectors = pack_all(packing, self.terms, parameters)
         return plan, self.run(plan, packing, vectors, threads)
 
     def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:

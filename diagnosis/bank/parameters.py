@@ -72,6 +72,8 @@ class Packing:
                 self.term_offset[number] = self.size
                 for parameter in term.parameters:
                     self._place(f"{term.identifier}.{parameter.name}", term.axis)
+        #: Numbers of the candidates that are switched on.
+        self.switched_on = np.flatnonzero(self.term_offset >= 0).tolist()
 
     def _place(self, name: str, axis: FieldAxis) -> None:
         self.axes[name] = axis
@@ -107,7 +109,9 @@ def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> 
     Raises:
         KeyError: A candidate is not in the bank.
     """
-    known = {t.identifier: t for t in terms}
+    if not parameters.terms:
+        return frozenset()
+    known = {t.identifier: t for t in terms if t.identifier in parameters.terms}
     for identifier in parameters.terms:
         if identifier not in known:
             raise KeyError(f"the candidate {identifier} is not in this bank")
@@ -116,6 +120,29 @@ def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> 
         return bool(np.any(np.asarray(values.get(known[identifier].amplitude.name, 0.0))))
 
     return frozenset(i for i, values in parameters.terms.items() if is_on(i, values))
+
+
+def pack_all(packing: Packing, terms: Sequence[CandidateTerm], sets: Sequence[BankParameters]) -> Array:
+    """Vectors of sets, shape (sets, packing.size); values that a set shares with the first are packed once.
+
+    Raises:
+        KeyError: See `pack`, and so is the other.
+        ValueError: A value does not fit.
+    """
+    found = np.empty((len(sets), packing.size))
+    first = sets[0].base
+    base = pack(packing, (), sets[0])
+    for vector, parameters in zip(found, sets):
+        vector[:] = base
+        own = parameters.base
+        if own.keys() != first.keys():
+            vector[:] = pack(packing, (), parameters)
+        else:
+            for name, value in own.items():
+                if value is not first[name]:
+                    packing.write(vector, name, value)
+        _pack_terms(packing, terms, parameters, vector)
+    return found
 
 
 def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters) -> Array:
@@ -131,9 +158,13 @@ def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParam
     vector = np.zeros(packing.size)
     for name, default in _DEFAULTS.items():
         packing.write(vector, name, parameters.base.get(name, default))
-    for number, term in enumerate(terms):
-        if packing.term_offset[number] < 0:
-            continue
+    _pack_terms(packing, terms, parameters, vector)
+    return vector
+
+
+def _pack_terms(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters, vector: Array) -> None:
+    for number in packing.switched_on if terms else ():
+        term = terms[number]
         values = parameters.terms.get(term.identifier, {})
         surplus = sorted(set(values) - {p.name for p in term.parameters})
         if surplus:
@@ -141,4 +172,3 @@ def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParam
         for p in term.parameters:
             default = 0.0 if p.is_amplitude else p.starts[0]
             packing.write(vector, f"{term.identifier}.{p.name}", values.get(p.name, default))
-    return vector
