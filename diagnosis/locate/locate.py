@@ -16,7 +16,7 @@ from diagnosis.locate.fitted import Fitted, fitted
 from diagnosis.locate.investigate import investigate
 from diagnosis.locate.panel import Panel, panels
 from diagnosis.locate.replay import ELECTRICAL, THERMAL, Replay, electrical, field_of, mechanical, thermal
-from diagnosis.locate.statistic import Tested, refitted, tested_after
+from diagnosis.locate.statistic import Tested, refitted, tested
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model
 from diagnosis.search.structure import structure
@@ -151,7 +151,7 @@ def _unit_test(model: Fitted, unit: Unit, titles: Sequence[str], seed: int) -> l
         model = other
     tests = []
     for replay, refit in zip(replays, refits):
-        outcome = tested_after(refit, [summed(model, p) for p in replay.panels], seed)
+        outcome = tested(refit, [summed(model, p) for p in replay.panels], seed)
         tests.append(UnitTest(replay, outcome, _location(model, replay, outcome, titles), courses))
     return tests
 

@@ -151,18 +151,6 @@ def calm(values: Array, used: AnyArray) -> Array:
     return np.asarray(np.where(used, np.clip(values, middle - ALONE, middle + ALONE), 0.0))
 
 
-def tested(panels: Sequence[Panel], groups: Sequence[Sequence[Array]], prior: Array, seed: int) -> Tested:
-    """Fit a unit's own parameters again and look for structure in what is left.
-
-    Args:
-        panels: Residuals of the unit.
-        groups: For every panel, numbers of channels that are summed.
-        prior: As for `Refit`.
-        seed: Of the simulated noise.
-    """
-    return tested_after(refitted(panels, prior), groups, seed)
-
-
 @dataclass(frozen=True)
 class Refitted:
     """A unit with its own parameters fitted again, not looked at yet.
@@ -185,7 +173,12 @@ class Refitted:
 
 
 def refitted(panels: Sequence[Panel], prior: Array) -> Refitted:
-    """Fit a unit's own parameters again; arguments as for `tested`."""
+    """Fit a unit's own parameters again.
+
+    Args:
+        panels: Residuals of the unit.
+        prior: As for `Refit`.
+    """
     whole = panels
     panels, prior = absorbed(panels, prior)
     refit = Refit(panels, prior)
@@ -193,8 +186,14 @@ def refitted(panels: Sequence[Panel], prior: Array) -> Refitted:
     return Refitted(whole, panels, prior, refit, left, change)
 
 
-def tested_after(own: Refitted, groups: Sequence[Sequence[Array]], seed: int) -> Tested:
-    """Look for structure in what a fit left; arguments as for `tested`. This takes far longer than the fit."""
+def tested(own: Refitted, groups: Sequence[Sequence[Array]], seed: int) -> Tested:
+    """Look for structure in what a unit's fit left. This takes far longer than the fit.
+
+    Args:
+        own: The unit.
+        groups: For every panel, numbers of channels that are summed.
+        seed: Of the simulated noise.
+    """
     panels, prior, change = own.panels, own.prior, own.change
     after = []
     for panel, values in zip(panels, own.left):
