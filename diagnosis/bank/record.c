@@ -60,17 +60,18 @@ static double crossing_near(double guess, const double *up, const double *down)
  * that of the set before, and whose neighbour's crossing is too, has the same crossing to the last bit. */
 static void find_crossings(Step *s)
 {
-    double last[8] = {NAN}, *known = s->crossings_before, *known_shapes = s->crossings_before + s->width;
+    double last[8] = {NAN};
+    const Crossings *known = s->known;
     for (int64_t i = 0; i < s->width; i++) {
         double shape[8];
         for (int64_t j = 0; j < 8; j++) {
             shape[j] = COIL(heating_a)[j * s->width + i]; /* heating_a to cooling_d follow each other */
         }
-        const int is_known = !memcmp(shape, known_shapes + 8 * i, sizeof shape);
+        const int is_known = known && !memcmp(shape, known->shape + 8 * i, sizeof shape);
         if (i > 0 && !memcmp(shape, last, sizeof shape)) {
             s->crossing[i] = s->crossing[i - 1];
-        } else if (is_known && (i == 0 || s->crossing[i - 1] == known[i - 1])) {
-            s->crossing[i] = known[i];
+        } else if (is_known && (i == 0 || s->crossing[i - 1] == known->crossing[i - 1])) {
+            s->crossing[i] = known->crossing[i];
         } else {
             const double near = i > 0 ? crossing_near(s->crossing[i - 1], shape, shape + 4) : NAN;
             s->crossing[i] = isfinite(near) ? near : find_crossing(shape, shape + 4);
@@ -78,10 +79,10 @@ static void find_crossings(Step *s)
         memcpy(last, shape, sizeof shape);
     }
     /* kept only now: a coil looks at the crossing that its neighbour had in the set before */
-    for (int64_t i = 0; i < s->width; i++) {
-        known[i] = s->crossing[i];
+    for (int64_t i = 0; known && i < s->width; i++) {
+        known->crossing[i] = s->crossing[i];
         for (int64_t j = 0; j < 8; j++) {
-            known_shapes[8 * i + j] = COIL(heating_a)[j * s->width + i];
+            known->shape[8 * i + j] = COIL(heating_a)[j * s->width + i];
         }
     }
 }
@@ -386,10 +387,10 @@ static int has_current(const Plan *plan)
 }
 
 /* Simulates one set. Returns RAN, NO_CURRENT, or the step in which something stopped being finite. */
-static int64_t run(const Plan *plan, const double *set, double *out, double *memory, double *crossings)
+static int64_t run(const Plan *plan, const double *set, double *out, double *memory, Crossings *known)
 {
     Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
-                 .sources = plan->sources, .set = set, .coil = set, .crossings_before = crossings};
+                 .sources = plan->sources, .set = set, .coil = set, .known = known};
     Step *s = &step;
     s->string = set + COIL_FIELDS * plan->width;
     s->source = s->string + STRING_FIELDS * plan->strings;
@@ -439,10 +440,11 @@ int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t 
         return 2;
     }
     double *crossings = memory + size - 9 * plan->width;
+    Crossings known = {.crossing = crossings, .shape = crossings + plan->width};
     memset(crossings, 0xff, 9 * plan->width * sizeof(double)); /* not a number: none is known */
     int result = 0;
     for (int64_t n = 0; n < sets && !result; n++) {
-        const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory, crossings);
+        const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory, &known);
         if (step != RAN) {
             failure[0] = n;
             failure[1] = step;
