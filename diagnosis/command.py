@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -92,6 +93,7 @@ def diagnose(
             training, judges = prepared(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )
+            gc.freeze()  # modules and recordings stay to the end: they need not be looked through again and again
             with watched(Steps(display.stage)) as steps:
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
                 steps("writing" if brief else "writing the amended model and the report")

@@ -13,7 +13,7 @@ import numpy as np
 from diagnosis.bank.compiler import load
 from diagnosis.bank.inputs import BankInputs
 from diagnosis.bank.layout import QUANTITIES, Array, BankLayout
-from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
+from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack, pack_all
 from diagnosis.bank.plan import Plan
 from diagnosis.bank.source import generate
 from diagnosis.candidates.candidate import CandidateTerm
@@ -62,6 +62,7 @@ class Bank:
         self.layout, self.terms, self.is_midpoint = layout, tuple(terms), is_midpoint
         if len({t.identifier for t in terms}) != len(terms):
             raise ValueError("two candidates have the same identifier")
+        self._packings: dict[frozenset[str], Packing] = {}
         self._library = load(generate(self.terms))
         self._library.bank_simulate.restype = ctypes.c_int
 
@@ -128,12 +129,16 @@ class Bank:
         inputs: BankInputs,
         times: Array | Mapping[str, Array],
         threads: int = 1,
+        plan: Plan | None = None,
     ) -> tuple[Plan, Array]:
-        """As `simulate_batch`, but the outputs as they are laid out, shape (sets, plan.out_size)."""
-        plan = self.plan(inputs, times)
+        """As `simulate_batch`, but the outputs as they are laid out, shape (sets, plan.out_size).
+
+        `plan`: what `plan` made of the same inputs and times, where it is at hand.
+        """
+        plan = self.plan(inputs, times) if plan is None else plan
         active: frozenset[str] = frozenset().union(*(active_terms(self.terms, p) for p in parameters))
         packing = self.packing(active)
-        vectors = np.stack([pack(packing, self.terms, p) for p in parameters])
+        vectors = pack_all(packing, self.terms, parameters)
         return plan, self.run(plan, packing, vectors, threads)
 
     def plan(self, inputs: BankInputs, times: Array | Mapping[str, Array]) -> Plan:
@@ -142,7 +147,9 @@ class Bank:
 
     def packing(self, active: frozenset[str]) -> Packing:
         """Places of the parameters where the candidates `active` are switched on."""
-        return Packing(self.layout, self.terms, active)
+        if active not in self._packings:  # they do not change, and few sets of candidates are on together
+            self._packings[active] = Packing(self.layout, self.terms, active)
+        return self._packings[active]
 
     def run(self, plan: Plan, packing: Packing, vectors: Array, threads: int = 1) -> Array:
         """Simulate packed sets: shape (sets, packing.size) to (sets, plan.out_size); `plan.split` names the outputs.

@@ -146,17 +146,21 @@ class BankLayout:
         """First coil of every string, then the number of coils."""
         return tuple(int(v) for v in np.cumsum((0, *self.strings)))
 
-    @property
+    @cached_property
     def string_of_coil(self) -> npt.NDArray[np.int64]:
-        """Index of each coil's string (0 for all where there is no circuit), shape (coils,)."""
-        return np.repeat(np.arange(len(self.strings) or 1), self.strings or (self.coils,)).astype(np.int64)
+        """Index of each coil's string (0 for all where there is no circuit), shape (coils,); not to be written."""
+        found = np.repeat(np.arange(len(self.strings) or 1), self.strings or (self.coils,)).astype(np.int64)
+        found.flags.writeable = False
+        return found
 
-    @property
+    @cached_property
     def place_in_string(self) -> npt.NDArray[np.int64]:
-        """Index of each coil within its string, shape (coils,)."""
-        return np.concatenate([np.arange(n) for n in self.strings or (self.coils,)]).astype(np.int64)
+        """Index of each coil within its string, shape (coils,); not to be written."""
+        found = np.concatenate([np.arange(n) for n in self.strings or (self.coils,)]).astype(np.int64)
+        found.flags.writeable = False
+        return found
 
-    @property
+    @cached_property
     def pairs(self) -> tuple[tuple[int, int], ...]:
         """Pairs of coils that touch."""
         if self.neighbours is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -60,7 +61,8 @@ class Packing:
     def __init__(self, layout: BankLayout, terms: Sequence[CandidateTerm], active: frozenset[str]) -> None:
         self.layout = layout
         self.axes: dict[str, FieldAxis] = {}
-        self._begin: dict[str, int] = {}
+        #: Begin, end without the padding, and end of each parameter.
+        self._places: dict[str, tuple[int, int, int]] = {}
         self.size = 0
         for name, axis in AXIS_OF_FIELD.items():
             self._place(name, axis)
@@ -70,11 +72,14 @@ class Packing:
                 self.term_offset[number] = self.size
                 for parameter in term.parameters:
                     self._place(f"{term.identifier}.{parameter.name}", term.axis)
+        #: Numbers of the candidates that are switched on.
+        self.switched_on = np.flatnonzero(self.term_offset >= 0).tolist()
 
     def _place(self, name: str, axis: FieldAxis) -> None:
         self.axes[name] = axis
-        self._begin[name] = self.size
-        self.size += self.layout.stride(axis)
+        end = self.size + self.layout.stride(axis)
+        self._places[name] = self.size, self.size + self.layout.size(axis), end
+        self.size = end
 
     def where(self, name: str) -> slice:
         """Place of a parameter, without the padding.
@@ -82,21 +87,20 @@ class Packing:
         Raises:
             KeyError: There is no such parameter, or its candidate is switched off.
         """
-        begin = self._begin[name]
-        return slice(begin, begin + self.layout.size(self.axes[name]))
+        begin, end, _ = self._places[name]
+        return slice(begin, end)
 
     def write(self, vector: Array, name: str, value: float | Array) -> None:
         """Write a parameter into a vector; padded coils repeat the last one."""
-        place = self.where(name)
-        size = place.stop - place.start
-        array = np.asarray(value, dtype=np.float64)
-        if array.shape not in ((), (size,)):
-            raise ValueError(f"{name} has the shape {array.shape}; it needs one number or {size}")
-        if not np.isfinite(array).all():
+        begin, end, padded = self._places[name]
+        array = value if isinstance(value, float) else np.asarray(value, dtype=np.float64)
+        if not isinstance(array, float) and array.shape not in ((), (end - begin,)):
+            raise ValueError(f"{name} has the shape {array.shape}; it needs one number or {end - begin}")
+        if not (math.isfinite(array) if isinstance(array, float) else np.isfinite(array).all()):
             raise ValueError(f"{name} holds a value that is not finite")
-        vector[place] = array
-        if size:
-            vector[place.stop : place.start + self.layout.stride(self.axes[name])] = vector[place.stop - 1]
+        vector[begin:end] = array
+        if begin < end < padded:
+            vector[end:padded] = vector[end - 1]
 
 
 def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> frozenset[str]:
@@ -105,7 +109,9 @@ def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> 
     Raises:
         KeyError: A candidate is not in the bank.
     """
-    known = {t.identifier: t for t in terms}
+    if not parameters.terms:
+        return frozenset()
+    known = {t.identifier: t for t in terms if t.identifier in parameters.terms}
     for identifier in parameters.terms:
         if identifier not in known:
             raise KeyError(f"the candidate {identifier} is not in this bank")
@@ -114,6 +120,29 @@ def active_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> 
         return bool(np.any(np.asarray(values.get(known[identifier].amplitude.name, 0.0))))
 
     return frozenset(i for i, values in parameters.terms.items() if is_on(i, values))
+
+
+def pack_all(packing: Packing, terms: Sequence[CandidateTerm], sets: Sequence[BankParameters]) -> Array:
+    """Vectors of sets, shape (sets, packing.size); values that a set shares with the first are packed once.
+
+    Raises:
+        KeyError: See `pack`, and so is the other.
+        ValueError: A value does not fit.
+    """
+    found = np.empty((len(sets), packing.size))
+    first = sets[0].base
+    base = pack(packing, (), sets[0])
+    for vector, parameters in zip(found, sets):
+        vector[:] = base
+        own = parameters.base
+        if own.keys() != first.keys():
+            vector[:] = pack(packing, (), parameters)
+        else:
+            for name, value in own.items():
+                if value is not first[name]:
+                    packing.write(vector, name, value)
+        _pack_terms(packing, terms, parameters, vector)
+    return found
 
 
 def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters) -> Array:
@@ -129,9 +158,13 @@ def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParam
     vector = np.zeros(packing.size)
     for name, default in _DEFAULTS.items():
         packing.write(vector, name, parameters.base.get(name, default))
-    for number, term in enumerate(terms):
-        if packing.term_offset[number] < 0:
-            continue
+    _pack_terms(packing, terms, parameters, vector)
+    return vector
+
+
+def _pack_terms(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParameters, vector: Array) -> None:
+    for number in packing.switched_on if terms else ():
+        term = terms[number]
         values = parameters.terms.get(term.identifier, {})
         surplus = sorted(set(values) - {p.name for p in term.parameters})
         if surplus:
@@ -139,4 +172,3 @@ def pack(packing: Packing, terms: Sequence[CandidateTerm], parameters: BankParam
         for p in term.parameters:
             default = 0.0 if p.is_amplitude else p.starts[0]
             packing.write(vector, f"{term.identifier}.{p.name}", values.get(p.name, default))
-    return vector

@@ -25,6 +25,11 @@ typedef struct {
     const double *const *traces; /* per quantity: rows at the ends of steps, read in place of a simulation; or NULL */
 } Plan;
 
+/* Where the branches of each coil cross, and the 8 numbers of their shapes. */
+typedef struct {
+    double *crossing, *shape;
+} Crossings;
+
 typedef struct {
     const Plan *plan;
     int64_t width, coils, strings, sources, row; /* row: number of the step */
@@ -38,6 +43,7 @@ typedef struct {
     double *string_resistance, *string_current, *source_voltage, *supply_voltage, *supply_resistance, *current_limit, *limited;
     double *string_voltage, *terminal_voltage, *supply_power, *supply_current; /* of strings, but for the last two */
     double *state, *state_rate;
+    Crossings *known; /* of the set before; NULL: none, as in an amended FMU, which has arrays for every double alone */
 } Step;
 
 /* Recorded values of one channel on their way through its sensor. */

@@ -48,6 +48,8 @@ class Plan:
         self.layout = layout
         self._time = inputs.time
         self._keep: list[npt.NDArray[Any]] = []
+        #: `coil`, `string` or `channel` to the numbers of a set's output that belong to each of them, once asked for.
+        self.owned: dict[str, list[npt.NDArray[np.int64]]] = {}
         _check_inputs(layout, inputs)
         self.times = _checked_times(layout, inputs, times)
         self.structure = PlanLayout(

@@ -56,21 +56,34 @@ static double crossing_near(double guess, const double *up, const double *down)
     return bisect_crossing(up, down, low, high);
 }
 
+/* A search takes longer than many steps. Most sets of a batch have the coils of the one before: a coil whose shape is
+ * that of the set before, and whose neighbour's crossing is too, has the same crossing to the last bit. */
 static void find_crossings(Step *s)
 {
     double last[8] = {NAN};
+    const Crossings *known = s->known;
     for (int64_t i = 0; i < s->width; i++) {
         double shape[8];
         for (int64_t j = 0; j < 8; j++) {
             shape[j] = COIL(heating_a)[j * s->width + i]; /* heating_a to cooling_d follow each other */
         }
+        const int is_known = known && !memcmp(shape, known->shape + 8 * i, sizeof shape);
         if (i > 0 && !memcmp(shape, last, sizeof shape)) {
             s->crossing[i] = s->crossing[i - 1];
+        } else if (is_known && (i == 0 || s->crossing[i - 1] == known->crossing[i - 1])) {
+            s->crossing[i] = known->crossing[i];
         } else {
             const double near = i > 0 ? crossing_near(s->crossing[i - 1], shape, shape + 4) : NAN;
             s->crossing[i] = isfinite(near) ? near : find_crossing(shape, shape + 4);
         }
         memcpy(last, shape, sizeof shape);
+    }
+    /* kept only now: a coil looks at the crossing that its neighbour had in the set before */
+    for (int64_t i = 0; known && i < s->width; i++) {
+        known->crossing[i] = s->crossing[i];
+        for (int64_t j = 0; j < 8; j++) {
+            known->shape[8 * i + j] = COIL(heating_a)[j * s->width + i];
+        }
     }
 }
 
@@ -166,6 +179,32 @@ static void lag_column(const Plan *plan, int is_flow, double lag, double *column
     }
 }
 
+/* The same for all elements of a quantity at once, from rows to rows. */
+static void lag_rows(const Plan *plan, int is_flow, double lag, int64_t elements, const double *restrict trace,
+                     double *restrict rows)
+{
+    double last = -1.0, decay = 0.0;
+    memcpy(rows, trace, elements * sizeof(double));
+    for (int64_t k = 0; k < plan->steps; k++) {
+        const double dt = plan->time[k + 1] - plan->time[k];
+        const double *before = trace + k * elements, *now = before + elements, *y = rows + k * elements;
+        double *next = rows + (k + 1) * elements;
+        if (dt != last) {
+            decay = bank_exp(-dt / lag);
+            last = dt;
+        }
+        if (is_flow) {
+            _Pragma("GCC ivdep") for (int64_t i = 0; i < elements; i++) next[i] = now[i] + (y[i] - now[i]) * decay;
+        } else {
+            _Pragma("GCC ivdep") for (int64_t i = 0; i < elements; i++)
+            {
+                const double behind = (now[i] - before[i]) / dt * lag;
+                next[i] = now[i] - behind + (y[i] - before[i] + behind) * decay;
+            }
+        }
+    }
+}
+
 static int64_t string_of(const Plan *plan, int64_t coil)
 {
     int64_t n = 0;
@@ -226,20 +265,40 @@ static void sample_channel(const Step *s, int q, double *const *traces, Sensor *
     HOOK_sensor(sensor);
 }
 
+/* Samples of a quantity whose sensors are all alike: each instant is looked up once, and so is each step of the lag. */
+static void sample_alike(const Step *s, int q, const double *trace, double *restrict out, double *rows)
+{
+    const Plan *plan = s->plan;
+    const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
+    const double *time = plan->sample_time[q], gain = 1.0 + s->wrong[q], lag = s->slow[q];
+    const int is_lagged_flow = quantity_is_flow[q] && lag > 0.0;
+    int64_t hint = 0, a, b;
+    if (lag > 0.0) {
+        lag_rows(plan, quantity_is_flow[q], lag, elements, trace, rows);
+    }
+    const double *read = lag > 0.0 ? rows : trace;
+    for (int64_t n = 0; n < samples; n++) {
+        const double w = locate(plan, quantity_is_flow[q] && !is_lagged_flow, time[n] - s->late[q], &hint, &a, &b);
+        const double *low = read + a * elements, *high = read + b * elements;
+        double *restrict into = out + n * elements;
+        if (is_lagged_flow) { /* a flow stands still within a step, so that what is behind it dies away exactly */
+            const double *raw = trace + b * elements, left = bank_exp(-w * (plan->time[b] - plan->time[a]) / lag);
+            _Pragma("GCC ivdep") for (int64_t i = 0; i < elements; i++) into[i] =
+                gain * (raw[i] + (low[i] - raw[i]) * left);
+        } else {
+            _Pragma("GCC ivdep") for (int64_t i = 0; i < elements; i++) into[i] =
+                gain * (low[i] + w * (high[i] - low[i]));
+        }
+    }
+}
+
 static void sample(const Step *s, int q, double *const *traces, double *out, double *work)
 {
     const Plan *plan = s->plan;
     const int64_t elements = quantity_elements(s, q), samples = plan->samples[q];
     const double *time = plan->sample_time[q], gain = 1.0 + s->wrong[q];
-    if (!HAS_SENSOR(plan) && s->slow[q] <= 0.0) {
-        int64_t hint = 0, a, b;
-        for (int64_t n = 0; n < samples; n++) {
-            const double w = locate(plan, quantity_is_flow[q], time[n] - s->late[q], &hint, &a, &b);
-            const double *low = traces[q] + a * elements, *high = traces[q] + b * elements;
-            for (int64_t i = 0; i < elements; i++) {
-                out[n * elements + i] = gain * (low[i] + w * (high[i] - low[i]));
-            }
-        }
+    if (!HAS_SENSOR(plan)) {
+        sample_alike(s, q, traces[q], out, work);
         return;
     }
     double *column = work, *raw = work + plan->steps + 1, *value = raw + plan->steps + 1;
@@ -328,10 +387,10 @@ static int has_current(const Plan *plan)
 }
 
 /* Simulates one set. Returns RAN, NO_CURRENT, or the step in which something stopped being finite. */
-static int64_t run(const Plan *plan, const double *set, double *out, double *memory)
+static int64_t run(const Plan *plan, const double *set, double *out, double *memory, Crossings *known)
 {
     Step step = {.plan = plan, .width = plan->width, .coils = plan->coils, .strings = plan->strings,
-                 .sources = plan->sources, .set = set, .coil = set};
+                 .sources = plan->sources, .set = set, .coil = set, .known = known};
     Step *s = &step;
     s->string = set + COIL_FIELDS * plan->width;
     s->source = s->string + STRING_FIELDS * plan->strings;
@@ -369,20 +428,23 @@ static int64_t run(const Plan *plan, const double *set, double *out, double *mem
 int bank_simulate(const Plan *plan, int64_t sets, const double *values, int64_t stride, double *out, int64_t out_stride,
                   int64_t *failure)
 {
-    int64_t size = 64 * plan->width + 16 * (plan->strings + plan->sources + 1) + 2 * STATES * plan->width;
+    int64_t size = 64 * plan->width + 16 * (plan->strings + plan->sources + 1) + (2 * STATES + 9) * plan->width;
     int64_t most_samples = 0;
     for (int q = 0; q < QUANTITIES; q++) {
         size += (plan->steps + 1) * (plan->coils + plan->strings + 1);
         most_samples = plan->samples[q] > most_samples ? plan->samples[q] : most_samples;
     }
-    size += 2 * (plan->steps + 1) + 2 * most_samples;
+    size += 2 * (plan->steps + 1) + 2 * most_samples + (plan->steps + 1) * (plan->coils + plan->strings + 1);
     double *memory = malloc(size * sizeof(double));
     if (!memory) {
         return 2;
     }
+    double *crossings = memory + size - 9 * plan->width;
+    Crossings known = {.crossing = crossings, .shape = crossings + plan->width};
+    memset(crossings, 0xff, 9 * plan->width * sizeof(double)); /* not a number: none is known */
     int result = 0;
     for (int64_t n = 0; n < sets && !result; n++) {
-        const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory);
+        const int64_t step = run(plan, values + n * stride, out + n * out_stride, memory, &known);
         if (step != RAN) {
             failure[0] = n;
             failure[1] = step;

@@ -195,7 +195,10 @@ def _perturbed(packing: Packing, base: Array, directions: Sequence[Direction], g
 
 
 def _slopes(plan: Plan, out: Array, directions: Sequence[Direction], groups: Sequence[_Group]) -> Array:
-    owned = {level: _owned(plan, level) for level in {g.level for g in groups} - {"all"}}
+    levels = {g.level for g in groups} - {"all"}
+    for level in levels - plan.owned.keys():
+        plan.owned[level] = _owned(plan, level)
+    owned = plan.owned
     slopes = np.zeros((len(directions), plan.out_size))
     row = 1
     for group in groups:

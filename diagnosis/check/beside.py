@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -73,13 +74,15 @@ class Beside:
     pick: np.ndarray[tuple[int], np.dtype[np.int64]]
     lags: Array
     lagged: Array
+    #: What was computed of it once; see `diagnosis.check.explain.basis` and `diagnosis.check.readings`.
+    memo: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
 
-    @property
+    @cached_property
     def times(self) -> Array:
         """Of the picked samples [s]."""
         return self.channel.times[self.pick]
 
-    @property
+    @cached_property
     def measured(self) -> Array:
         """Picked readings, SI."""
         return self.channel.values[self.pick]
@@ -89,7 +92,12 @@ class Beside:
         assert self.simulated is not None
         return sample(self.simulated, times)
 
-    @property
+    @cached_property
+    def simulated_there(self) -> Array:
+        """Simulated values at the picked samples."""
+        return self.at(self.times)
+
+    @cached_property
     def floor(self) -> float:
         """Standard deviation below which a misfit says nothing: noise, rounding, and lines drawn between outputs."""
         own = float(np.hypot(self.channel.deviation, self.channel.quantum / np.sqrt(12.0)))
@@ -99,17 +107,17 @@ class Beside:
         bend = np.diff(self.simulated.values, 2) / 8.0
         return float(np.sqrt(own**2 + np.mean(bend**2)))
 
-    @property
+    @cached_property
     def tolerance(self) -> float:
         """The same with the discrepancy that any model has."""
         return float(np.hypot(self.floor, DISCREPANCY * np.std(self.measured)))
 
-    @property
+    @cached_property
     def moves(self) -> bool:
         """Whether the simulated channel changes by more than can be seen."""
         if self.simulated is None:
             return False
-        values = self.at(self.times)
+        values = self.simulated_there
         return bool(np.isfinite(values).all() and np.std(values) > 3.0 * self.floor)
 
 
@@ -135,7 +143,7 @@ class Compared:
     results: xr.Dataset | None = field(default=None, repr=False)
     base: Scenario | None = None
 
-    @property
+    @cached_property
     def begin(self) -> float:
         """First sample [s]."""
         return min(float(c.times[0]) for c in self.recording.channels.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.optimize import nnls
@@ -29,7 +30,7 @@ class Fit:
     floor: float
     total: float
 
-    @property
+    @cached_property
     def squares(self) -> float:
         """Sum of squares that is left, noise included."""
         return float(self.residual @ self.residual) + len(self.residual) * self.floor
@@ -39,6 +40,11 @@ class Fit:
         """Share of the readings' variance that is explained, 0 to 1."""
         left = float(self.residual @ self.residual)
         return max(0.0, 1.0 - left / self.total) if self.total else 0.0
+
+    @cached_property
+    def independent(self) -> float:
+        """Number of independent samples among those of the residual."""
+        return independent(self.residual)
 
 
 def independent(residual: Array) -> float:
@@ -66,7 +72,7 @@ def gain(own: Fit, other: Fit) -> float:
     that
     is correlated further. Negative where the other fit is worse.
     """
-    count = min(independent(own.residual), independent(other.residual))
+    count = min(own.independent, other.independent)
     floor = np.finfo(float).tiny
     return float(count * np.log(max(own.squares, floor) / max(other.squares, floor)))
 
@@ -80,23 +86,51 @@ def fit(measured: Array, columns: Array, tolerance: float, free: Array | None = 
         tolerance: Standard deviation that any fit leaves.
         free: Columns whose weights may have any sign, shape (samples, any).
     """
-    centred = measured - measured.mean()
-    if not columns.shape[1]:
-        return Fit(centred, tolerance**2, float(centred @ centred))
-    rest, target = columns - columns.mean(axis=0), centred
-    if free is not None and free.shape[1]:
-        basis, sizes, _ = np.linalg.svd(free - free.mean(axis=0), full_matrices=False)
-        basis = basis[:, sizes > 1e-9 * max(float(sizes[0]), 1e-300)]
-        rest, target = rest - basis @ (basis.T @ rest), centred - basis @ (basis.T @ centred)
-    scale = np.linalg.norm(rest, axis=0)
-    rest = rest[:, scale > 1e-9 * max(float(scale.max(initial=0.0)), 1e-300)]
-    if not rest.shape[1]:
-        return Fit(target, tolerance**2, float(centred @ centred))
-    scale = np.linalg.norm(rest, axis=0)
-    # of a tall problem only its triangle matters
-    left, triangle = np.linalg.qr(rest / scale)
-    weights, _ = nnls(triangle, left.T @ target)
-    return Fit(target - rest @ (weights / scale), tolerance**2, float(centred @ centred))
+    return Basis(columns, free).fit(measured, tolerance)
+
+
+class Basis:
+    """Columns of a regression, made ready once for any readings at the same instants; see `fit`.
+
+    Args:
+        columns: Shape (samples, columns).
+        free: Columns whose weights may have any sign, shape (samples, any).
+    """
+
+    def __init__(self, columns: Array, free: Array | None = None) -> None:
+        rest = columns - columns.mean(axis=0) if columns.shape[1] else columns
+        self._free: Array | None = None
+        if columns.shape[1] and free is not None and free.shape[1]:
+            basis, sizes, _ = np.linalg.svd(free - free.mean(axis=0), full_matrices=False)
+            basis = basis[:, sizes > 1e-9 * max(float(sizes[0]), 1e-300)]
+            self._free = basis
+            rest = rest - basis @ (basis.T @ rest)
+        scale = np.linalg.norm(rest, axis=0)
+        self._rest = rest[:, scale > 1e-9 * max(float(scale.max(initial=0.0)), 1e-300)]
+        if self._rest.shape[1]:
+            self._scale = np.linalg.norm(self._rest, axis=0)
+            # of a tall problem only its triangle matters
+            self._left, self._triangle = np.linalg.qr(self._rest / self._scale)
+
+    def fit(self, measured: Array, tolerance: float) -> Fit:
+        """Readings, shape (samples,), on an offset and these columns."""
+        centred = measured - measured.mean()
+        total, target = float(centred @ centred), centred
+        if self._free is not None:
+            target = centred - self._free @ (self._free.T @ centred)
+        if not self._rest.shape[1]:
+            return Fit(target, tolerance**2, total)
+        weights, _ = nnls(self._triangle, self._left.T @ target)
+        return Fit(target - self._rest @ (weights / self._scale), tolerance**2, total)
+
+    def least(self, measured: Array) -> Array:
+        """Squares that weights of any sign would leave of readings, shape (samples, any): no fit leaves less."""
+        centred = measured - measured.mean(axis=0)
+        if self._free is not None:
+            centred = centred - self._free @ (self._free.T @ centred)
+        if self._rest.shape[1]:
+            centred = centred - self._left @ (self._left.T @ centred)
+        return np.asarray(np.einsum("ij,ij->j", centred, centred))
 
 
 def design(course: Beside, at: Array) -> Array:
@@ -114,8 +148,27 @@ def design(course: Beside, at: Array) -> Array:
     """
     assert course.simulated is not None
     own = sample(course.simulated, at)
-    behind = np.stack([np.interp(at, course.simulated.times, row) for row in course.lagged], axis=1)
+    behind = _between(at, course.simulated.times, course.lagged)
     return np.hstack([own[:, None], behind, 2.0 * own[:, None] - behind[:, : len(course.lags)]])
+
+
+def _between(at: Array, times: Array, rows: Array) -> Array:
+    """Straight lines between the values of rows, shape (samples, rows); beyond the ends the end values hold."""
+    clipped = np.clip(at, times[0], times[-1])
+    low = np.clip(np.searchsorted(times, clipped, side="right") - 1, 0, max(len(times) - 2, 0))
+    high = np.minimum(low + 1, len(times) - 1)
+    left, right = rows[:, low], rows[:, high]
+    width = np.where(high > low, times[high] - times[low], 1.0)
+    found = (right - left) / width * (clipped - times[low]) + left
+    return np.where(clipped == times[high], right, found).T
+
+
+def basis(beside: Beside) -> Basis:
+    """What a channel's own simulation explains at its own samples, made ready once."""
+    found = beside.memo.get("basis")
+    if not isinstance(found, Basis):
+        found = beside.memo["basis"] = Basis(design(beside, beside.times))
+    return found
 
 
 def explained(beside: Beside, course: Beside, at: Array | None = None, inside: Array | None = None) -> Fit:
@@ -127,6 +180,8 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
         at: Times on the simulation's clock, shape (picked,); default: those of the samples.
         inside: Which samples count, shape (picked,); default: all.
     """
+    if at is None and inside is None and course is beside:
+        return basis(beside).fit(beside.measured, beside.tolerance)
     chosen = np.ones(len(beside.pick), dtype=bool) if inside is None else np.asarray(inside, dtype=bool)
     times = beside.times[chosen]
     instants = times if at is None else at[chosen]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
+from typing import cast
 
 import numpy as np
 from scipy.stats import chi2, norm, t
@@ -61,7 +63,10 @@ def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
 
 def measured_noise(beside: Beside) -> float:
     """Standard deviation of a channel's readings by their neighbours, rounding included."""
-    return estimate_noise(beside.channel.times, beside.channel.values, beside.channel.quantum)
+    if "noise" not in beside.memo:
+        channel = beside.channel
+        beside.memo["noise"] = estimate_noise(channel.times, channel.values, channel.quantum)
+    return cast(float, beside.memo["noise"])
 
 
 def _near(beside: Beside, doubt: Doubt, stretch: tuple[int, int]) -> bool:
@@ -247,16 +252,29 @@ def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
         peak = int(np.argmax(np.where(kept, np.abs(values), -1.0)))
         kept[max(peak - width, 0) : peak + width + 1] = False
     values = values[kept]
-    size: Array = np.abs(values)
+    middle = float(np.median(np.abs(values)))
     best: tuple[float, float] | None = None
     for tail in TAILS:
-        scale = max(float(np.median(size)) / float(t.isf(0.25, tail)), noise)
-        likelihood = float(np.sum(t.logpdf(values / scale, tail))) - len(values) * np.log(scale)
-        limit = scale * float(t.isf(LEVEL / (2.0 * tests), tail))
+        scale = max(middle / _quantile(0.25, tail), noise)
+        spread = 0.5 * (tail + 1.0) * float(np.sum(np.log1p((values / scale) ** 2 / tail)))
+        likelihood = len(values) * (_log_height(tail) - np.log(scale)) - spread
+        limit = scale * _quantile(LEVEL / (2.0 * tests), tail)
         if best is None or likelihood > best[0]:
             best = likelihood, limit
     assert best is not None
     return best[1]
+
+
+@cache
+def _quantile(probability: float, tail: float) -> float:
+    """Value that Student's t exceeds with a probability; asked for again with every channel."""
+    return float(t.isf(probability, tail))
+
+
+@cache
+def _log_height(tail: float) -> float:
+    """Logarithm of the density of Student's t at 0."""
+    return float(t.logpdf(0.0, tail))
 
 
 def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
@@ -395,6 +413,8 @@ def _residual(beside: Beside) -> Array:
     channel = beside.channel
     if not beside.moves:
         return channel.values
+    if len(beside.pick) == len(channel.values):
+        return explained(beside, beside).residual
     return explained(replace(beside, pick=np.arange(len(channel.values))), beside).residual
 
 

@@ -11,7 +11,7 @@ from cosim.errors import InputError
 from cosim.quantity import conversion
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import LEVEL, Fit, design, fit, gain
+from diagnosis.check.explain import LEVEL, Basis, Fit, basis, gain
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
@@ -70,7 +70,7 @@ def sign_doubts(compared: Compared) -> list[Doubt]:
 def _simulated(compared: Compared) -> list[Beside]:
     """Channels whose simulation changes."""
     every = [b for b in compared.channels.values() if b.simulated is not None and len(b.pick) >= FEWEST_VALUES]
-    return [b for b in every if np.ptp(b.at(b.times)) > 0.0]
+    return [b for b in every if np.ptp(b.simulated_there) > 0.0]
 
 
 def _units(compared: Compared) -> dict[str, str]:
@@ -94,7 +94,7 @@ def first(beside: Beside) -> tuple[Array, float]:
 
 def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
     """Range and first level of the readings after a conversion."""
-    simulated = beside.at(beside.times)
+    simulated = beside.simulated_there
     measured = factor * beside.measured + offset
     low, high = np.quantile(measured, (0.01, 0.99))
     own = np.quantile(simulated, (0.01, 0.99))
@@ -132,7 +132,7 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
         own, other = conversion(stated, channel.unit), conversion(unit, channel.unit)
         factor = other[0] / own[0]
         offset = other[1] - factor * own[1]
-        if np.std(beside.at(beside.times)) <= 3.0 * factor * channel.deviation:
+        if np.std(beside.simulated_there) <= 3.0 * factor * channel.deviation:
             continue  # in that unit the noise would hide all that is simulated
         score = _score(_size(beside, factor, offset), channel.unit)
         if best is None or score < best[0]:
@@ -194,9 +194,10 @@ def _signed(compared: Compared, beside: Beside) -> tuple[Fit, Fit]:
     """Best fits with weights of the right and of the wrong sign."""
     assert beside.simulated is not None
     times, measured = beside.times, beside.measured
-    groups = [design(beside, times)]
+    groups = [basis(beside)]
     if not len(compared.switches()):  # a swing without an input: its frequency is a parameter
-        groups += [beside.at(pace * times)[:, None] for pace in PACES]
-    fits = [[fit(measured, sign * columns, beside.tolerance) for columns in groups] for sign in (1.0, -1.0)]
+        groups += [Basis(beside.at(pace * times)[:, None]) for pace in PACES]
+    # of readings that are turned over the squares are those of columns that are
+    fits = [[one.fit(sign * measured, beside.tolerance) for one in groups] for sign in (1.0, -1.0)]
     same, other = (min(found, key=lambda f: f.squares) for found in fits)
     return same, other

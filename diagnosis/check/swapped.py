@@ -7,10 +7,14 @@ from collections import defaultdict
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from cosim.unit import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import Fit, design, fit, gain
+from diagnosis.check.explain import Basis, Fit, basis, design, fit, gain
 from diagnosis.check.timing import critical, percent
 from diagnosis.judge.diagnosis import Doubt
+
+#: Share of a gain within which a bound of it is not trusted: it is reckoned in another order.
+SLACK = 1e-6
 
 
 def swap_doubts(compared: Compared) -> list[Doubt]:
@@ -33,11 +37,14 @@ def swap_doubts(compared: Compared) -> list[Doubt]:
 
 def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
     count = len(members)
+    level = critical(float(count * (count - 1)))
+    own_fits = [basis(b).fit(b.measured, b.tolerance) for b in members]
+    if not _may_cycle(_most(members, own_fits) > level * (1.0 - SLACK)):
+        return []
     fits: list[list[Fit]] = [[_one(b, course) for course in members] for b in members]
     # relative to what each channel's own simulation explains
     gains = np.array([[gain(row[i], other) for other in row] for i, row in enumerate(fits)])
     rows, columns = linear_sum_assignment(gains, maximize=True)
-    level = critical(float(count * (count - 1)))
     found = []
     for cycle in _cycles(rows, columns):
         # every channel of an exchange must gain: one that is wrong by itself has another fault
@@ -67,6 +74,40 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
             )
         )
     return found
+
+
+def _most(members: list[Beside], own: list[Fit]) -> Array:
+    """Bound of what each channel (row) gains by the simulation of each other (column), shape (members, members).
+
+    Weights of any sign leave no more than weights that are not negative, and no more samples are independent than
+    those of the channel's own residual. All channels that are read together need one product for each simulation.
+    """
+    found = np.zeros((len(members), len(members)))
+    together: dict[bytes, list[int]] = {}
+    for i, b in enumerate(members):
+        together.setdefault(b.times.tobytes(), []).append(i)
+    floor = np.finfo(float).tiny
+    for j, course in enumerate(members):
+        for rows in together.values():
+            first = members[rows[0]]
+            is_own = np.array_equal(first.times, course.times)
+            base = basis(course) if is_own else Basis(design(course, first.times))
+            least = base.least(np.stack([members[i].measured for i in rows], axis=1))
+            for i, left in zip(rows, least.tolist()):
+                squares = left + len(own[i].residual) * own[i].floor
+                found[i, j] = own[i].independent * np.log(max(own[i].squares, floor) / max(squares, floor))
+    np.fill_diagonal(found, 0.0)
+    return found
+
+
+def _may_cycle(is_better: AnyArray) -> bool:
+    """Whether channels that gain by another's simulation, shape (members, members), can form a cycle."""
+    left = is_better.copy()
+    while True:
+        lost = left.any(axis=1) & ~left.any(axis=0) | left.any(axis=0) & ~left.any(axis=1)
+        if not lost.any():
+            return bool(left.any())
+        left[lost], left[:, lost] = False, False
 
 
 def _one(beside: Beside, course: Beside) -> Fit:

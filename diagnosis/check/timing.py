@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy.stats import chi2
@@ -11,7 +12,7 @@ from scipy.stats import chi2
 from cosim.components import nanoseconds
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import LEVEL, Fit, explained, gain, independent
+from diagnosis.check.explain import LEVEL, Fit, explained, gain
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
 
@@ -48,6 +49,7 @@ class Rival:
     other: float
 
 
+@cache
 def critical(tests: float) -> float:
     """Gain that one more degree of freedom reaches by chance in `LEVEL` of recordings, over so many tests.
 
@@ -305,7 +307,7 @@ def discrepant(found: Fit) -> float:
     What is left, over the discrepancy that a model may have, is a chi-square with as many degrees as samples are
     independent.
     """
-    degrees = independent(found.residual)
+    degrees = found.independent
     left = float(found.residual @ found.residual) / len(found.residual) / found.floor
     return float(chi2.isf(max(chi2.sf(degrees * left, degrees), 1e-300), 1))
 

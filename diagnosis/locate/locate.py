@@ -16,7 +16,7 @@ from diagnosis.locate.fitted import Fitted, fitted
 from diagnosis.locate.investigate import investigate
 from diagnosis.locate.panel import Panel, panels
 from diagnosis.locate.replay import ELECTRICAL, THERMAL, Replay, electrical, field_of, mechanical, thermal
-from diagnosis.locate.statistic import Tested, tested
+from diagnosis.locate.statistic import Tested, refitted, tested
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model
 from diagnosis.search.structure import structure
@@ -139,22 +139,21 @@ def _unit_test(model: Fitted, unit: Unit, titles: Sequence[str], seed: int) -> l
         courses = [course(model, n) for n in range(len(model.bank.runs))]
         found = [p for q in model.bank.measured for p in panels(model, q)]
         replays = unit(model, courses, found)
-        tests = []
-        for replay in replays:
-            groups = [summed(model, p) for p in replay.panels]
-            outcome = tested(replay.panels, groups, _prior(model, replay), seed)
-            tests.append(UnitTest(replay, outcome, _location(model, replay, outcome, titles), courses))
+        refits = [refitted(replay.panels, _prior(model, replay)) for replay in replays]
         change = np.zeros(len(model.parameters))
-        for one in tests:
-            own = one.tested.change[: len(change)] * is_own(model, one.replay)
+        for replay, refit in zip(replays, refits):
+            own = refit.change[: len(change)] * is_own(model, replay)
             change = np.where(np.abs(own) > np.abs(change), own, change)
-        if attempt + 1 == LINEARISED or np.abs(change).max(initial=0.0) < FAR:
-            return tests
-        other = model.moved(change)
+        is_near = attempt + 1 == LINEARISED or np.abs(change).max(initial=0.0) < FAR
+        other = None if is_near else model.moved(change)
         if other is None:
-            return tests
+            break
         model = other
-    return []
+    tests = []
+    for replay, refit in zip(replays, refits):
+        outcome = tested(refit, [summed(model, p) for p in replay.panels], seed)
+        tests.append(UnitTest(replay, outcome, _location(model, replay, outcome, titles), courses))
+    return tests
 
 
 def summed(model: Fitted, panel: Panel) -> list[Array]:

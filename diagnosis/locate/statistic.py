@@ -151,22 +151,52 @@ def calm(values: Array, used: AnyArray) -> Array:
     return np.asarray(np.where(used, np.clip(values, middle - ALONE, middle + ALONE), 0.0))
 
 
-def tested(panels: Sequence[Panel], groups: Sequence[Sequence[Array]], prior: Array, seed: int) -> Tested:
-    """Fit a unit's own parameters again and look for structure in what is left.
+@dataclass(frozen=True)
+class Refitted:
+    """A unit with its own parameters fitted again, not looked at yet.
+
+    Args:
+        whole: Residuals of the unit.
+        panels: The same with the common parts of the inputs' noise as columns (`absorbed`).
+        prior: Prior mean of the change of every column.
+        refit: Fits them.
+        left: Residuals in use of every panel after the fit.
+        change: Of the parameters by the fit, in prior deviations.
+    """
+
+    whole: Sequence[Panel]
+    panels: Sequence[Panel]
+    prior: Array
+    refit: Refit
+    left: Sequence[Array]
+    change: Array
+
+
+def refitted(panels: Sequence[Panel], prior: Array) -> Refitted:
+    """Fit a unit's own parameters again.
 
     Args:
         panels: Residuals of the unit.
-        groups: For every panel, numbers of channels that are summed.
         prior: As for `Refit`.
-        seed: Of the simulated noise.
     """
     whole = panels
     panels, prior = absorbed(panels, prior)
     refit = Refit(panels, prior)
-    start = [p.residual[p.used] for p in panels]
-    left, change = refit.left(start, prior)
+    left, change = refit.left([p.residual[p.used] for p in panels], prior)
+    return Refitted(whole, panels, prior, refit, left, change)
+
+
+def tested(own: Refitted, groups: Sequence[Sequence[Array]], seed: int) -> Tested:
+    """Look for structure in what a unit's fit left. This takes far longer than the fit.
+
+    Args:
+        own: The unit.
+        groups: For every panel, numbers of channels that are summed.
+        seed: Of the simulated noise.
+    """
+    panels, prior, change = own.panels, own.prior, own.change
     after = []
-    for panel, values in zip(panels, left):
+    for panel, values in zip(panels, own.left):
         residual = np.zeros_like(panel.residual)
         residual[panel.used] = values
         after.append(replace(panel, residual=residual))
@@ -182,7 +212,9 @@ def tested(panels: Sequence[Panel], groups: Sequence[Sequence[Array]], prior: Ar
                 by_element[key] = max(by_element.get(key, 0.0), value, key=abs)
             if abs(value) > abs(best.z):
                 best = Peak(value, number, members, at, at + window - 1)
-    return Tested(tuple(after), best, _limit(whole, sums, refit, len(prior), seed), by_element, change, change - prior)
+    return Tested(
+        tuple(after), best, _limit(own.whole, sums, own.refit, len(prior), seed), by_element, change, change - prior
+    )
 
 
 def _limit(panels: Sequence[Panel], sums: Sequence[_Sums], refit: Refit, count: int, seed: int) -> float:

@@ -118,30 +118,42 @@ def _deviation(times: Array, values: Array, quantum: float, reach: int, is_free:
     count = len(values) - 2 * reach
     chosen = np.all([is_free[k : k + count] for k in range(2 * reach + 1)], axis=0)
     chosen = chosen if chosen.sum() >= _ENOUGH else np.ones(count, dtype=bool)
+    line = _Line(times, reach)
     if not quantum:
-        return _scale(_bends(times, values, reach)[chosen])
+        return _scale(line.bends(values)[chosen])
     random = np.random.default_rng(0)
     variances = []
     for _ in range(_DRAWS):
         dithered = values + quantum * (random.random(len(values)) - 0.5)
-        variances.append(_scale(_bends(times, dithered, reach)[chosen]) ** 2)
+        variances.append(_scale(line.bends(dithered)[chosen]) ** 2)
     return float(np.sqrt(max(float(np.mean(variances)) - quantum**2 / 12.0, 0.0)))
 
 
-def _bends(times: Array, values: Array, reach: int) -> Array:
-    """Distance of each reading from the polynomial through its neighbours, in deviations of white noise."""
-    count = len(values) - 2 * reach
-    offsets = [k for k in range(-reach, reach + 1) if k]
-    index = np.arange(reach, reach + count)
-    nodes = np.stack([times[index + k] - times[index] for k in offsets], axis=1)
-    weights = np.ones_like(nodes)
-    for i in range(len(offsets)):
-        for j in range(len(offsets)):
-            if i != j:
-                weights[:, i] *= -nodes[:, j] / (nodes[:, i] - nodes[:, j])
-    neighbours = np.stack([values[index + k] for k in offsets], axis=1)
-    bend = values[index] - np.einsum("ij,ij->i", weights, neighbours)
-    return np.asarray(bend / np.sqrt(1.0 + np.sum(weights**2, axis=1)))
+class _Line:
+    """The polynomial through the neighbours of each reading; its weights depend on the times alone.
+
+    Args:
+        times: Shape (samples,) [s].
+        reach: Neighbours on each side.
+    """
+
+    def __init__(self, times: Array, reach: int) -> None:
+        self._index = np.arange(reach, len(times) - reach)
+        self._offsets = [k for k in range(-reach, reach + 1) if k]
+        nodes = np.stack([times[self._index + k] - times[self._index] for k in self._offsets], axis=1)
+        weights = np.ones_like(nodes)
+        for i in range(len(self._offsets)):
+            for j in range(len(self._offsets)):
+                if i != j:
+                    weights[:, i] *= -nodes[:, j] / (nodes[:, i] - nodes[:, j])
+        self._weights = weights
+        self._size = np.sqrt(1.0 + np.sum(weights**2, axis=1))
+
+    def bends(self, values: Array) -> Array:
+        """Distance of each reading from its polynomial, in deviations of white noise."""
+        neighbours = np.stack([values[self._index + k] for k in self._offsets], axis=1)
+        bend = values[self._index] - np.einsum("ij,ij->i", self._weights, neighbours)
+        return np.asarray(bend / self._size)
 
 
 def _scale(bends: Array) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import xarray as xr
 
 from cosim.errors import InputError
 from cosim.quantity import conversion
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 from diagnosis.recording.quantity import Target
 
 #: Quantities that jump with the supply: nothing is drawn between two outputs but a straight line.
@@ -35,6 +36,8 @@ _RESULTS = {
 _DERIVED = frozenset({("supply", "power"), ("string", "voltage")})
 #: Largest size of a value [SI] that is compared; its square, summed over any recording, is still a number.
 MOST = 1e100
+#: Most instants whose weights are kept for the next channel.
+READ_AGAIN = 2000
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -180,14 +183,27 @@ def sample(series: Series, times: Array) -> Array:
     if series.is_flow or len(own) < 4:
         found = np.asarray(np.interp(times, own, values))
         return np.where(np.interp(times, own, is_lost.astype(np.float64)) > 0.0, np.inf, found)
+    read = _read_again if len(times) <= READ_AGAIN else _read
+    used, weights = read(own.tobytes(), times.tobytes())
+    found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
+    return np.where(np.any(is_lost[used], axis=1), np.inf, found)
+
+
+def _read(grid: bytes, instants: bytes) -> tuple[AnyArray, Array]:
+    """Outputs that are read at instants, and their weights by the cubic through them; both of shape (instants, 4)."""
+    own, times = np.frombuffer(grid), np.frombuffer(instants)
     clipped = np.clip(times, own[0], own[-1])
     first = np.clip(np.searchsorted(own, clipped, side="right") - 2, 0, len(own) - 4)
-    nodes = own[first[:, None] + np.arange(4)]
-    weights = np.ones((len(times), 4))
+    used = first[:, None] + np.arange(4)
+    nodes = own[used.T]
+    since = clipped - nodes
+    columns = np.ones((4, len(times)))
     for i in range(4):
         for j in range(4):
             if i != j:
-                weights[:, i] *= (clipped - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
-    used = first[:, None] + np.arange(4)
-    found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
-    return np.where(np.any(is_lost[used], axis=1), np.inf, found)
+                columns[i] *= since[j] / (nodes[i] - nodes[j])
+    return used, np.ascontiguousarray(columns.T)
+
+
+#: The channels of a recording are read at the same instants of the same grid, one after the other.
+_read_again = lru_cache(maxsize=64)(_read)

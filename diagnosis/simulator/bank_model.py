@@ -24,6 +24,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, own_priors, stated_priors
+from diagnosis.simulator.rig_scales import rig_scales
 from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
 from diagnosis.simulator.term_at import term_at
 from diagnosis.simulator.timeline import Seat, Timeline
@@ -112,6 +113,7 @@ class BankModel:
     def terms(self) -> list[Term]:
         """Every candidate at every place, as the search sees them."""
         if not self._places:
+            scales = rig_scales(self.runs[0].translation.parameters.base)
             for candidate in self._candidates.values():
                 if candidate.same_as in self._candidates:
                     continue  # one law, one term: of two that are alike chance would choose
@@ -122,7 +124,7 @@ class BankModel:
                 for place in found:
                     if place.kind == "swap" or place.mask.tobytes() not in known:
                         for own in self._on_days(candidate, place):
-                            term = term_at(candidate, own, self.coils, self.runs, self.timeline)
+                            term = term_at(candidate, own, self.coils, self.runs, self.timeline, scales)
                             self._places[term] = (candidate, own)
                         known.add(place.mask.tobytes())
         return list(self._places)
@@ -307,7 +309,7 @@ class BankModel:
         """Outputs as the bank lays them out; None where a simulation failed."""
         self.simulations += len(parameters)
         try:
-            _, out = self.bank.simulate_flat(parameters, run.inputs, run.times, self._threads)
+            _, out = self.bank.simulate_flat(parameters, run.inputs, run.times, self._threads, run.own_plan)
         except BankError:
             if len(parameters) == 1:
                 return [None]

@@ -91,6 +91,7 @@ class Run:
         switches = np.array(translation.drive.switches())
         self.series = tuple(self._series(entry, switches, recording.switch_margin) for entry in entries)
         self.plan = sharing_plan(bank, self.inputs, self.times)
+        self.own_plan = bank.plan(self.inputs, self.times)
         self.count = sum(len(s.samples) for s in self.series)
         self.pick = np.concatenate([self._places(layout, s) for s in self.series])
         self.measured = np.concatenate([s.measured for s in self.series])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from diagnosis.bank.layout import BankLayout
 from diagnosis.bank.places import SCALES, Place
 from diagnosis.candidates.candidate import CandidateTerm, Parameter, Scope
 from diagnosis.search.problem import Term, TermParameter
-from diagnosis.simulator.rig_scales import believed, rig_scales
+from diagnosis.simulator.rig_scales import believed
 from diagnosis.simulator.runs import LONGEST_LAG, Run, Series
 from diagnosis.simulator.timeline import Timeline
 
@@ -24,7 +24,8 @@ STATED = {"sensor_clock_offset": "offset_bound", "sensor_lag": "lag_bound"}
 
 
 def term_at(
-    candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Sequence[Run], timeline: Timeline
+    candidate: CandidateTerm, place: Place, layout: BankLayout, runs: Sequence[Run], timeline: Timeline,
+    scales: Mapping[str, float],
 ) -> Term:  # fmt: skip
     """The term of a candidate at a place; its instants are those of the joint axis of the recordings.
 
@@ -34,12 +35,12 @@ def term_at(
         layout: Coils and strings.
         runs: The recordings.
         timeline: The recordings that are fitted, laid end to end.
+        scales: Of the rig (`rig_scales`): the same for all of a model's terms.
     """
     own: list[Series] = []
     if candidate.axis == "channel":
         elements = set(np.flatnonzero(place.mask).tolist())
         own = [s for run in runs for s in run.series if layout.channel(s.quantity) + s.element in elements]
-    scales = rig_scales(runs[0].translation.parameters.base)
     free = []
     scan: tuple[float, ...]
     for p in candidate.parameters:
