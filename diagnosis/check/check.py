@@ -8,6 +8,7 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
+from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
@@ -47,10 +48,13 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = []
     for one in every:
-        relation = _relation(one, [o for o in every if o is not one])
+        inputs = input_doubts(one)
+        # an input that the readings do not follow explains whatever else they do not follow
+        known = any(d.is_serious for d in inputs)
+        relation = [] if known else _relation(one, [o for o in every if o is not one])
         units = unit_doubts(one)
-        found += [*relation, *units, *reading_doubts(one, not relation)]
-        if not relation and not units:  # a start that another column or unit has is no start
+        found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
+        if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
     return tuple(sorted(found, key=lambda d: (not d.is_serious, -d.z)))
 

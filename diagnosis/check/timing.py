@@ -128,7 +128,7 @@ def allowed(compared: Compared, channel: Channel) -> Array:
     return np.concatenate([np.linspace(-bound, bound, 5), bound + late])
 
 
-def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
+def within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
     """The best fit with clock and sensor within their bounds."""
     shifts = allowed(compared, beside.channel)
     fits = [explained(beside, course, beside.times - d, inside) for d in shifts]
@@ -136,7 +136,7 @@ def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | 
 
 
 def _own(compared: Compared, beside: Beside) -> Fit:
-    return _within(compared, beside, beside)
+    return within(compared, beside, beside)
 
 
 def together(leads: Sequence[Beside], own: Sequence[Fit], gains: Array) -> float:
@@ -171,7 +171,7 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
             inside = b.times <= o.simulated.times[-1]
             if np.count_nonzero(inside) < max(24, 0.5 * len(inside)):
                 continue
-            own, another = _within(compared, b, b, inside), _within(compared, b, o, inside)
+            own, another = within(compared, b, b, inside), within(compared, b, o, inside)
             gains.append(gain(own, another))
             mine.append(own)
             theirs.append(another)

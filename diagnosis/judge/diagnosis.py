@@ -133,6 +133,7 @@ class Doubt:
         begin: Begin of the stretch concerned [s]; that of the recording where it is all of it.
         end: End of the stretch [s].
         z: Size of the evidence in deviations of the noise.
+        stretches: Where it is of an input: every interval in which recorded input and programme differ [s].
     """
 
     recording: str
@@ -144,6 +145,7 @@ class Doubt:
     begin: float
     end: float
     z: float
+    stretches: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
