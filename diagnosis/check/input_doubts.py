@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.check.beside import Compared, compare
-from diagnosis.check.explain import gain
+from diagnosis.check.beside import Beside, Compared, compare
+from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
 from diagnosis.check.inputs import InputComparison, compare_inputs, set_beside
-from diagnosis.check.timing import critical, leading, percent, together, within
+from diagnosis.check.timing import critical, leading, percent, within
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
 
@@ -46,8 +46,19 @@ def _followed(compared: Compared) -> tuple[float, tuple[float, float]]:
         return 0.0, (0.0, 0.0)
     mine = [within(compared, a, a) for a, _ in pairs]
     theirs = [within(compared, a, b) for a, b in pairs]
-    found = together([a for a, _ in pairs], mine, np.array([gain(a, b) for a, b in zip(mine, theirs)]))
+    found = sum(_likelihood(compared, a, a) - _likelihood(compared, a, b) for a, b in pairs[:MOST_CHANNELS])
     return found, (float(np.median([f.share for f in mine])), float(np.median([f.share for f in theirs])))
+
+
+def _likelihood(compared: Compared, beside: Beside, course: Beside) -> float:
+    """-2 log likelihood of a channel by a course, behind any lag of its sensor."""
+    assert course.simulated is not None
+    flat = float(np.ptp(course.simulated.values)) == 0.0
+    still = np.zeros((1, 2))
+    least = float(np.median(np.diff(beside.channel.times)))
+    lags = lag_grid(least, max(0.1 * (compared.end - compared.begin), 2.0 * least))
+    one = replace(beside, simulated=course.simulated)
+    return float(timed_channel(one, still, lags[:1] if flat else lags).deviance.min())
 
 
 def voltages(compared: Compared) -> list[InputComparison]:
