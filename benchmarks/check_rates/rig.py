@@ -54,8 +54,11 @@ def drawn(rng: np.random.Generator, slowness: float, has_event: bool) -> Rig:
     if has_event:
         contact, draught = (0.3, 0.0) if rng.random() < 0.5 else (0.0, 0.008)
     return Rig(
-        2.0 * slowness * np.exp(rng.normal(0.0, 0.25, 2)), (0.012 * np.exp(rng.normal(0.0, 0.25)), rng.uniform(0, 8e-5)),
-        rng.uniform(0.0, 0.008), slowness * rng.uniform(0.2, 1.0) if rng.random() < 0.5 else 0.0, rng.uniform(0.005, 0.05),
+        2.0 * slowness * np.exp(rng.normal(0.0, 0.25, 2)),
+        (0.012 * np.exp(rng.normal(0.0, 0.25)), rng.uniform(0, 8e-5)),
+        rng.uniform(0.0, 0.008),
+        slowness * rng.uniform(0.2, 1.0) if rng.random() < 0.5 else 0.0,
+        rng.uniform(0.005, 0.05),
         rng.uniform(1.0, 20.0), rng.uniform(-1.0, 1.0), float(np.exp(rng.uniform(np.log(0.03), np.log(0.2)))),
         float(rng.choice([1.0, 2.0, 4.0])), (rng.uniform(100.0, 500.0), contact),
         (rng.uniform(100.0, 350.0), rng.uniform(60.0, 150.0), draught),
@@ -132,7 +135,12 @@ def write(
         stamps, powers = column
         pd.DataFrame({"time": stamps, "Q1": powers[:, 0], "Q2": powers[:, 1]}).to_csv(folder / "q.csv", index=False)
         sidecar["inputs"] = {
-            f"drive.power_{k}": {"column": f"Q{k}", "unit": "W", "table": "q.csv", "time": {"column": "time", "zero": 0}}
+            f"drive.power_{k}": {
+                "column": f"Q{k}",
+                "unit": "W",
+                "table": "q.csv",
+                "time": {"column": "time", "zero": 0},
+            }
             for k in (1, 2)
         }
     (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False))

@@ -1,8 +1,9 @@
-"""A clock that is a few seconds off, or runs wrong, on a slow rig: by likelihood, what a rig may have of itself profiled.
+"""A clock that is seconds off, or runs wrong, on a slow rig: by likelihood, what a rig may have of itself profiled.
 
-Each channel is its simulated course, moved by a shift or a rate that all channels share, behind a lag of its own sensor, with two
-longer lags of any sign beside it (heat capacities and losses that are off), a level, a smooth discrepancy and noise
-(`diagnosis.check.discrepancy`). A lag makes a response later too: a shift is told only where no lag explains as much.
+Each channel is its simulated course, moved by a shift or a rate that all channels share, behind a lag of its own
+sensor, with two longer lags of any sign beside it (heat capacities and losses that are off), a level, a smooth
+discrepancy and noise (`diagnosis.check.discrepancy`). A lag makes a response later too: a shift is told only where no
+lag explains as much.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from diagnosis.recording.series import sample
 #: Longest shift that is tried, as a share of the recording; longer ones move the whole response
 #: (`diagnosis.check.timing`).
 LONGEST = 0.1
-#: Shifts each way, and lags of a sensor: the first half once, the second twice in series (a mass between body and sensor).
+#: Shifts each way, and lags of a sensor; the longer ones are tried twice in series too (a mass before the sensor).
 SHIFTS, LAGS = 9, 9
 #: Lags beside the course that stand for wrong time constants, as shares of the recording.
 SLOWER = (0.05, 0.2)
@@ -94,7 +95,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_undecided = not found.is_rate and found.alone > limit and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
         text = (
-            f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be told apart"
+            f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be "
+            f"told apart"
         )
         return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
     return []
@@ -254,9 +256,7 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
     for i, (shift, rate) in enumerate(moves):
         when = (times - shift) / (1.0 + rate)
         for j, rows in enumerate(every):
-            found[i, j, 0] = (
-                sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
-            )
+            found[i, j, 0] = sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
             for n, row in enumerate(rows[1:]):
                 found[i, j, n + 1] = np.interp(when, series.times, row)
     found = found.reshape(-1, 1 + len(SLOWER), len(times))

@@ -1,9 +1,10 @@
 """The readings' own edges beside the programme's switches: do they coincide?
 
 A switch kinks a temperature and steps a current, whatever its size, also where the time constant is long against the
-recording. Edges are kinks (steps) that the readings need beside a smooth discrepancy and noise: the generalised likelihood
-ratio over all instants, one after the other (Basseville, Nikiforov, Detection of Abrupt Changes, 1993, ch. 2; orthogonal
-matching pursuit), each at the price of its instant. Neither their size nor the model's is asked, only when they happen.
+recording. Edges are kinks (steps) that the readings need beside a smooth discrepancy and noise: the generalised
+likelihood ratio over all instants, one after the other (Basseville, Nikiforov, Detection of Abrupt Changes, 1993, ch.
+2; orthogonal matching pursuit), each at the price of its instant. Neither their size nor the model's is
+asked, only when they happen.
 """
 
 from __future__ import annotations
@@ -57,9 +58,8 @@ class _Found:
 
     Args:
         instants: Of its edges [s].
-        gains: What each is worth in -2 log likelihood.
-        seen: Smallest kink (or step) that would have been found, at each block [unit of the channel, per s for a kink].
-        size: Kink of the largest edges, that a switch of the simulation is scaled by.
+        sizes: Kinks (per s) or steps, in the channel's unit.
+        seen: Smallest kink (or step) that would have been found, at each block, likewise.
         centres: Times of the blocks [s].
         spacing: Of the blocks [s].
     """
@@ -81,9 +81,9 @@ def edge_doubts(compared: Compared) -> list[Doubt]:
         return []
     odds = f"{min(found.odds, 1e6):.2g} to 1" + (" or more" if found.odds >= 1e6 else "")
     text = (
-        f"the readings have edges at about {listed(found.extra)} s, where the programme does not switch, and none at its "
-        f"switches at {listed(found.missed)} s, where the simulation has them: odds {odds} that another programme was "
-        f"run, against this one with contacts, draughts and other events"
+        f"the readings have edges at about {listed(found.extra)} s, where the programme does not switch, and none at "
+        f"its switches at {listed(found.missed)} s, where the simulation has them: odds {odds} that another programme "
+        f"was run, against this one with contacts, draughts and other events"
     )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     z = float(np.sqrt(2.0 * np.log(found.odds)))
@@ -107,7 +107,7 @@ def edges(compared: Compared) -> Edges | None:
         margin = resolution(compared, beside.channel) + beside.channel.lag_bound + NEAR * one.spacing
         near = max(near, margin)
         kinks = _simulated_kinks(beside, switches)
-        share = _share(one, kinks, switches, margin)
+        share = _share(one, kinks)
         for instant, kink in zip(switches, kinks):
             is_met = bool((np.abs(one.instants - instant) < margin).any())
             least = float(np.interp(instant, one.centres, one.seen))
@@ -139,7 +139,7 @@ def _odds(compared: Compared, met: set[float], missed: list[float], extra: list[
 
 
 def _rows(switches: list[float], missed: list[float], extra: list[float]) -> int:
-    """Events that missed switches need: what opens stays open, so a row of them is one, if nothing happens meanwhile."""
+    """Events that missed switches need: what opens stays open, so a row is one, if nothing happens meanwhile."""
     count, last = 0, None
     for instant in switches:
         if instant not in missed:
@@ -178,7 +178,7 @@ def _simulated_kinks(beside: Beside, switches: Array) -> Array:
     return found
 
 
-def _share(one: _Found, kinks: Array, switches: Array, margin: float) -> float:
+def _share(one: _Found, kinks: Array) -> float:
     """How large the readings' edges are beside the simulated ones: at most 1; a weak response hides its switches."""
     if not len(one.sizes) or not np.max(np.abs(kinks), initial=0.0):
         return 0.0

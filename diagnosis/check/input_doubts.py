@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.check.beside import Beside, Compared, compare
 from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
-from diagnosis.check.inputs import InputComparison, compare_inputs, set_beside
+from diagnosis.check.inputs import Course, InputComparison, compare_inputs, set_beside
 from diagnosis.check.timing import critical, leading, percent, within
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
@@ -83,7 +83,7 @@ def voltages(compared: Compared) -> list[InputComparison]:
     return found
 
 
-def _held(channel: Channel):  # type: ignore[no-untyped-def]
+def _held(channel: Channel) -> Course:
     return lambda at: channel.values[np.maximum(np.searchsorted(channel.times, at, side="right") - 1, 0)]
 
 
@@ -107,7 +107,10 @@ def how(one: InputComparison) -> str:
         return f"is 0 {where}"
     mine, theirs = one.switches
     met = sum(any(abs(s - t) < 0.01 * max(abs(s), 1.0) + 1.0 for t in mine) for s in theirs)
-    return f"has another course {where}; it switches {len(mine)} times, the programme {len(theirs)} times, {met} of them together"
+    return (
+        f"has another course {where}; it switches {len(mine)} times, the programme {len(theirs)} times, {met} of them "
+        f"together"
+    )
 
 
 def _where(one: InputComparison) -> str:
@@ -143,7 +146,10 @@ def _voltage(compared: Compared, one: InputComparison) -> Doubt:
         f"the measured voltage of the supply {how(one)}, compared with the programme; they differ in "
         f"{percent(one.share)} of the time; the simulation uses the programme"
     )
-    remedy = "was the supply set as the programme says? If so look at limit and source resistance; else give the column under `inputs`"
+    remedy = (
+        "was the supply set as the programme says? If so look at limit and source resistance; else give the column "
+        "under `inputs`"
+    )
     return _told(compared, one, "input", text, remedy, False, 0.0)
 
 

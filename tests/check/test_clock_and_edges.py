@@ -23,7 +23,9 @@ def scenario() -> Scenario:
     return load_scenario("tclab")
 
 
-def beside(scenario: Scenario, folder: Path, points: Sequence[Sequence[float]], values: Array, late: float = 0.0) -> Compared:
+def beside(
+    scenario: Scenario, folder: Path, points: Sequence[Sequence[float]], values: Array, late: float = 0.0
+) -> Compared:
     return compare(scenario, load_recording(rig.write(folder, points, values, times=rig.instants() + late)))
 
 

@@ -73,8 +73,9 @@ def test_off_for_a_stretch_in_the_column_alone(scenario: Scenario, tmp_path: Pat
 
 def test_off_for_a_stretch_as_it_was(scenario: Scenario, tmp_path: Path) -> None:
     """The supply failed: the column tells it, the readings follow it, and the simulation uses it."""
-    done = ((0.0, 0.0, 0.0), (10.0, 1.0, 0.0), (80.0, 0.0, 0.0), (150.0, 1.0, 0.6), (250.0, 0.1, 0.6), (430.0, 0.8, 0.0))
-    stated = ((0.0, 0.0, 0.0), (10.0, 1.0, 0.0), (150.0, 1.0, 0.6), (250.0, 0.1, 0.6), (430.0, 0.8, 0.0))
+    later = ((150.0, 1.0, 0.6), (250.0, 0.1, 0.6), (430.0, 0.8, 0.0))
+    stated = ((0.0, 0.0, 0.0), (10.0, 1.0, 0.0), *later)
+    done = (*stated[:2], (80.0, 0.0, 0.0), *later)
     a = with_column(tmp_path / "a", stated, course(done), rig.readings(done))
     (found,) = doubts(scenario, a)
     assert (found.kind, found.subject, found.is_serious) == ("input", "drive.power_1", False)
