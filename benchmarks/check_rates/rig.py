@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import yaml
 
 from cosim.unit import Array
@@ -114,12 +113,16 @@ def quiet(rig: Rig) -> Rig:
     return replace(rig, contact=(0.0, 0.0), draught=(0.0, 0.0, 0.0))
 
 
+def _table(file: Path, head: str, times: Array, values: Array) -> None:
+    np.savetxt(file, np.column_stack([times, values]), "%.12g", ",", header=head, comments="")
+
+
 def write(
     folder: Path, stated: Array, times: Array, values: Array, noise: float, column: tuple[Array, Array] | None = None
 ) -> Path:  # fmt: skip
     """A recording folder that states a programme, and has a column of both inputs where one is given."""
     folder.mkdir(parents=True)
-    pd.DataFrame({"time": times, "T1": values[:, 0], "T2": values[:, 1]}).to_csv(folder / "data.csv", index=False)
+    _table(folder / "data.csv", "time,T1,T2", times, values)
     outputs = {f"power_{k}": {"points": [[f"{p[0]} s", f"{p[k]} W"] for p in stated.tolist()]} for k in (1, 2)}
     sidecar: dict[str, Any] = {
         "title": folder.name,
@@ -133,7 +136,7 @@ def write(
     }
     if column is not None:
         stamps, powers = column
-        pd.DataFrame({"time": stamps, "Q1": powers[:, 0], "Q2": powers[:, 1]}).to_csv(folder / "q.csv", index=False)
+        _table(folder / "q.csv", "time,Q1,Q2", stamps, powers)
         sidecar["inputs"] = {
             f"drive.power_{k}": {
                 "column": f"Q{k}",
