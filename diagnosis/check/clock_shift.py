@@ -92,7 +92,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
         return [_decided(compared, found, where, over)]
-    is_undecided = not found.is_rate and found.alone > limit and abs(found.rival) < limit
+    # a note names both explanations and chooses none: one test, no price for the shifts that were tried
+    is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
         text = (
             f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be "
