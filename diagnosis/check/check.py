@@ -8,6 +8,9 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
+from diagnosis.check.clock_shift import shift_doubts
+from diagnosis.check.edges import edge_doubts
+from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
@@ -48,10 +51,13 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = []
     for one in every:
-        relation = _relation(one, [o for o in every if o is not one])
+        inputs = input_doubts(one)
+        # an input that the readings do not follow explains whatever else they do not follow
+        known = any(d.is_serious for d in inputs)
+        relation = [] if known else _relation(one, [o for o in every if o is not one])
         units = unit_doubts(one)
-        found += [*relation, *units, *reading_doubts(one, not relation)]
-        if not relation and not units:  # a start that another column or unit has is no start
+        found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
+        if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
     stuck = {d.recording for d in faults(found)}  # readings that stand still move beside every programme
     found = [d for d in found if not (d.kind == "programme" and d.recording in stuck)]
@@ -64,4 +70,4 @@ def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:
     swaps = swap_doubts(one)
     if timing or swaps:
         return timing if not swaps or (timing and timing[0].z > max(d.z for d in swaps)) else swaps
-    return sign_doubts(one) or switch_doubts(one)
+    return sign_doubts(one) or shift_doubts(one) or edge_doubts(one) or switch_doubts(one)

@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from cosim.figures.style import SWITCH, WITH_MODEL
 from cosim.run_folder import write_atomically
 from diagnosis.check.beside import Beside, Compared, Course
-from diagnosis.check.tables import course_text, row, summary
+from diagnosis.check.inputs import compare_inputs
+from diagnosis.check.tables import course_text, input_text, row, summary
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.report.display import axis
 from diagnosis.report.figures import drawn, thinned
@@ -69,7 +70,7 @@ def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
         element("h2", one.recording.title),
         *note,
         table(head, cells),
-        listing(course_text(c) for c in one.courses),
+        listing([*(course_text(c) for c in one.courses), *(input_text(c) for c in compare_inputs(one))]),
         image(picture(one, own), f"measured beside simulated: {one.recording.title}"),
     )
 

@@ -11,6 +11,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.input_doubts import how
+from diagnosis.check.inputs import InputComparison, compare_inputs
 from diagnosis.check.readings import measured_noise
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.usage import usage
@@ -94,6 +96,12 @@ def course_text(course: Course) -> str:
     return f"{course.name}: {origin}, {low:.4g} to {high:.4g} {course.unit}, switches at {listed} s"
 
 
+def input_text(compared: InputComparison) -> str:
+    """One line about a recorded input beside the programme."""
+    whose = "stated by the recording" if compared.is_stated else "of the scenario"
+    return f"{compared.name}: the recorded input {how(compared)}; the simulation uses it, not the programme {whose}"
+
+
 def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Console) -> None:
     """Channels, inputs and doubts of every recording.
 
@@ -116,6 +124,8 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         console.print(table)
         for course in one.courses:
             console.print("  " + escape(course_text(course)))
+        for compared in compare_inputs(one):
+            console.print("  " + escape(input_text(compared)), soft_wrap=True)
         for used in usage(one.recording):
             if used.unused:
                 console.print("  " + escape(str(used)), soft_wrap=True)

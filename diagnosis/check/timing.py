@@ -130,7 +130,7 @@ def allowed(compared: Compared, channel: Channel) -> Array:
     return np.concatenate([np.linspace(-bound, bound, 5), bound + late])
 
 
-def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
+def within(compared: Compared, beside: Beside, course: Beside, inside: Array | None = None) -> Fit:
     """The best fit with clock and sensor within their bounds."""
     shifts = allowed(compared, beside.channel)
     fits = [explained(beside, course, beside.times - d, inside) for d in shifts]
@@ -138,7 +138,7 @@ def _within(compared: Compared, beside: Beside, course: Beside, inside: Array | 
 
 
 def _own(compared: Compared, beside: Beside) -> Fit:
-    return _within(compared, beside, beside)
+    return within(compared, beside, beside)
 
 
 def together(leads: Sequence[Beside], own: Sequence[Fit], gains: Array) -> float:
@@ -173,7 +173,7 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
             inside = b.times <= o.simulated.times[-1]
             if np.count_nonzero(inside) < max(24, 0.5 * len(inside)):
                 continue
-            own, another = _within(compared, b, b, inside), _within(compared, b, o, inside)
+            own, another = within(compared, b, b, inside), within(compared, b, o, inside)
             gains.append(gain(own, another))
             mine.append(own)
             theirs.append(another)
@@ -228,7 +228,7 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
         "them, as it is {own}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
-    return [Rival("programme", _driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
+    return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
 
 
 def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
@@ -257,7 +257,7 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
 
 
-def _driver(compared: Compared) -> str:
+def driver(compared: Compared) -> str:
     """Name of what changes."""
     return next((c.name for c in compared.courses if c.switches().size), "programme")
 
@@ -292,13 +292,13 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
     if not others:
         return []
     text = (
-        f"the readings change at about {_listed(others)} s, where the programme does not: switches at free "
+        f"the readings change at about {listed(others)} s, where the programme does not: switches at free "
         f"instants "
-        f"explain {{other}} of them, the programme (switches at {_listed(switches)} s) {{own}}"
+        f"explain {{other}} of them, the programme (switches at {listed(switches)} s) {{own}}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])
-    return [Rival("programme", _driver(compared), text, remedy, gained, *shares)]
+    return [Rival("programme", driver(compared), text, remedy, gained, *shares)]
 
 
 def discrepant(found: Fit) -> float:
@@ -312,7 +312,7 @@ def discrepant(found: Fit) -> float:
     return float(chi2.isf(max(chi2.sf(degrees * left, degrees), 1e-300), 1))
 
 
-def _listed(instants: Sequence[float] | Array) -> str:
+def listed(instants: Sequence[float] | Array) -> str:
     few = [f"{t:.3g}" for t in sorted(instants)]
     return ", ".join(few[:4]) + (", ..." if len(few) > 4 else "")
 

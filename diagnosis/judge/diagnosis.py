@@ -190,6 +190,7 @@ class Doubt:
         end: End of the stretch [s].
         z: Size of the evidence in deviations of the noise.
         is_far: Whether a start is farther off than the start of any day may be moved.
+        stretches: Where it is of an input: every interval in which recorded input and programme differ [s].
     """
 
     recording: str
@@ -202,6 +203,7 @@ class Doubt:
     end: float
     z: float
     is_far: bool = False
+    stretches: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,283 @@
+"""A clock that is seconds off, or runs wrong, on a slow rig: by likelihood, what a rig may have of itself profiled.
+
+Each channel is its simulated course, moved by a shift or a rate that all channels share, behind a lag of its own
+sensor, with two longer lags of any sign beside it (heat capacities and losses that are off), a level, a smooth
+discrepancy and noise (`diagnosis.check.discrepancy`). A lag makes a response later too: a shift is told only where no
+lag explains as much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from cosim.unit import Array
+from diagnosis.check.beside import Beside, Compared, lagged
+from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener, thin
+from diagnosis.check.timing import critical, leading, resolution
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.series import sample
+
+#: Longest shift that is tried, as a share of the recording; longer ones move the whole response
+#: (`diagnosis.check.timing`).
+LONGEST = 0.1
+#: Shifts each way, and lags of a sensor; the longer ones are tried twice in series too (a mass before the sensor).
+SHIFTS, LAGS = 9, 9
+#: Lags beside the course that stand for wrong time constants, as shares of the recording.
+SLOWER = (0.05, 0.2)
+#: Channels that are asked; more of one rig share its clock.
+MOST_CHANNELS = 2
+
+
+@dataclass(frozen=True)
+class Timed:
+    """-2 log likelihood of one channel.
+
+    Args:
+        deviance: Smallest over ratios, shape (moves, lags).
+        steps: Gain of each block by the best shift over none, both with their best lag, shape (blocks,).
+        centres: Times of the blocks [s].
+    """
+
+    deviance: Array
+    steps: Array
+    centres: Array
+
+
+@dataclass(frozen=True)
+class Shift:
+    """What the readings say about the clock.
+
+    Args:
+        size: Most probable shift, positive where the response comes later [s].
+        interval: Where the likelihood is within the 95 % quantile of chi-square [s].
+        lag: Most probable lag of the slowest sensor without a shift [s].
+        gained: What the shift gains over every lag without a shift.
+        alone: What the shift alone gains over nothing.
+        rival: How much better the best lag alone is than the best shift alone.
+        spread: `gained` without the stretch between two switches that says most for it.
+        rate: 1 / length of the recording where it is no shift but a clock that runs wrong [1/s]; else 0.
+    """
+
+    size: float
+    interval: tuple[float, float]
+    lag: float
+    gained: float
+    alone: float
+    rival: float
+    spread: float
+    rate: float = 0.0
+
+    @property
+    def is_rate(self) -> bool:
+        """Whether the clock runs wrong; `size` is then what it is off at the end."""
+        return self.rate > 0.0
+
+
+def shift_doubts(compared: Compared) -> list[Doubt]:
+    """At most one doubt: the clock is off beyond its bound, or a lag makes it seem so."""
+    found = clock_shift(compared)
+    if found is None:
+        return []
+    bound = max(resolution(compared, b.channel) for b in asked(compared))
+    slowest = max(b.channel.lag_bound for b in asked(compared))
+    limit = critical(2.0 * SHIFTS)
+    low, high = found.interval
+    z = float(np.sqrt(max(found.gained, found.alone, 0.0)))
+    where = compared.recording.title, "time", "dead time"
+    over = compared.begin, compared.end, z
+    # what one switch alone says may be an event beside it
+    is_decisive = min(found.gained, found.spread) > limit
+    if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
+        return [_decided(compared, found, where, over)]
+    # a note names both explanations and chooses none: one test, no price for the shifts that were tried
+    is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
+    if is_undecided and low > bound and found.lag > max(slowest, bound):
+        text = (
+            f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be "
+            f"told apart"
+        )
+        return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
+    return []
+
+
+def _decided(
+    compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]
+) -> Doubt:  # fmt: skip
+    """The doubt where no lag competes."""
+    low, high = sorted(abs(v) for v in found.interval)
+    weight = f"no lag explains as much: it gains {found.gained:.3g} in -2 log likelihood"
+    if found.is_rate:
+        fast = "fast" if found.size > 0 else "slow"
+        low, high, size = (100.0 * found.rate * v for v in (low, high, abs(found.size)))
+        text = f"the readings' clock runs {size:.2g} % too {fast} ({low:.2g} to {high:.2g} %, 95 %); {weight}"
+        remedy = "compare two instants that both clocks know; correct the column of times or its unit"
+        return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
+    stated = max(b.channel.offset_bound for b in asked(compared))
+    text = (
+        f"the response comes {abs(found.size):.3g} s {'later' if found.size > 0 else 'earlier'} than its programme "
+        f"({low:.3g} to {high:.3g} s, 95 %), where at most {stated:.3g} s are stated; {weight}"
+    )
+    remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
+    return Doubt(*where, text, remedy, True, *over)
+
+
+def asked(compared: Compared) -> list[Beside]:
+    """Channels that tell the time best."""
+    direct = [b for b in leading(compared) if b.channel.target.domain in ("thermal", "electrical")]
+    step = max(1, -(-len(direct) // MOST_CHANNELS))
+    return direct[::step]
+
+
+def clock_shift(compared: Compared) -> Shift | None:
+    """The shift of a recording's clock; None where nothing is driven, or no temperature or flow is measured."""
+    leads = asked(compared)
+    if not leads or not len(compared.switches()):
+        return None
+    span = compared.end - compared.begin
+    least = min(float(np.median(np.diff(b.channel.times))) for b in leads)
+    longest = LONGEST * span
+    if not longest > 4.0 * least:
+        return None
+    sizes = np.geomspace(least, longest, SHIFTS)
+    shifts = np.concatenate([-sizes[::-1], [0.0], sizes])
+    lags = lag_grid(least, longest)
+    scale = np.array([[1.0, 0.0], [0.0, 1.0 / span]])  # a shift, and a rate that comes to as much at the end
+    found = [_along(compared, leads, shifts, lags, unit) for unit in scale]
+    known = [f for f in found if f is not None]
+    return max(known, key=lambda f: f.gained) if known else None
+
+
+def lag_grid(least: float, longest: float) -> Array:
+    """Lags of a sensor that are tried [s]: none, one from `least` on, and, negative by convention, the same twice."""
+    once = np.geomspace(0.5 * least, longest, LAGS)
+    return np.concatenate([[0.0], once, -once[LAGS // 3 :: 2]])
+
+
+def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, unit: Array) -> Shift | None:
+    """Shifts alone, or rates alone; None where the best lies beyond what is tried: `timing` asks for such."""
+    coarse = _total(leads, sizes[:, None] * unit, lags)[0]
+    best = int(np.argmin(coarse[:, 1]))
+    near = sizes[max(best - 1, 0)], sizes[min(best + 1, len(sizes) - 1)]
+    if not near[0] < sizes[best] < near[1]:
+        return None
+    fine = np.unique(np.concatenate([np.linspace(*near, 13), [0.0]]))
+    sums, timed, slow = _total(leads, fine[:, None] * unit, lags)
+    profile = sums[:, 1]
+    zero = int(np.flatnonzero(fine == 0.0)[0])
+    top = int(np.argmin(profile))
+    inside = fine[profile < profile[top] + float(chi2.isf(0.05, 1))]
+    step = float(near[1] - near[0]) / 12.0
+    alone = coarse[:, 0]
+    return Shift(
+        float(fine[top]),
+        (float(inside.min()) - step, float(inside.max()) + step),
+        float(slow[zero]),
+        float(profile[zero] - profile[top]),
+        float(alone[SHIFTS] - alone.min()),
+        float(alone.min() - coarse[SHIFTS, 1]),
+        _spread(compared, timed),
+        float(unit[1]),
+    )
+
+
+def _total(leads: list[Beside], moves: Array, lags: Array) -> tuple[Array, list[Timed], Array]:
+    """Sum over channels: shape (moves, 2), the columns without a lag and with each channel's best; and the parts.
+
+    The third is the largest best lag of any channel at each move [s].
+    """
+    timed = [timed_channel(b, moves, lags) for b in leads]
+    plain = np.sum([t.deviance[:, 0] for t in timed], axis=0)
+    free = np.sum([t.deviance.min(axis=1) for t in timed], axis=0)
+    slow = np.max([np.abs(lags)[t.deviance.argmin(axis=1)] for t in timed], axis=0)
+    return np.stack([plain, free], axis=1), timed, slow
+
+
+def thinned(beside: Beside) -> Thinned:
+    """Readings of a channel that are not at a limit."""
+    inside = ~beside.channel.is_clipped
+    return thin(beside.channel.times[inside], beside.channel.values[inside])
+
+
+def order(beside: Beside) -> int:
+    """2 where a body's heat capacity leaves kinks of a switch, 1 where steps are left of it."""
+    return 2 if beside.channel.target.domain == "thermal" else 1
+
+
+def timed_channel(beside: Beside, moves: Array, lags: Array) -> Timed:
+    """Likelihood of a channel for each move of its course and each lag.
+
+    Args:
+        beside: The channel, and the course that explains it.
+        moves: Shift [s] and rate of the readings' clock, shape (moves, 2).
+        lags: Of its sensor, as `lag_grid` gives them.
+    """
+    at = thinned(beside)
+    rows = at.means(_columns(beside, at.times, moves, lags))
+    count = rows.shape[2]
+    deviance = np.full((len(RATIOS), len(moves), len(lags)), np.inf)
+    kept = []
+    for k, ratio in enumerate(RATIOS):
+        whitener = Whitener(at, float(ratio), order(beside))
+        white = whitener(at.values[None])[0]
+        columns = whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape)
+        left = _left(white, columns)
+        squares = np.sum(left**2, axis=-1)
+        degrees = rows.shape[-1] - order(beside) - count
+        # the noise that is stated, or its estimate, is what white noise is at least: half of it
+        variance = np.maximum(squares / degrees, 0.25 * beside.channel.deviation**2)
+        constant = whitener.log_determinant + whitener.log_trend
+        found = degrees * np.log(variance) + squares / variance + constant
+        deviance[k] = found.reshape(len(moves), len(lags))
+        kept.append(left.reshape(len(moves), len(lags), -1) / np.sqrt(variance).reshape(len(moves), len(lags), 1))
+    best = np.unravel_index(int(np.argmin(deviance)), deviance.shape)
+    residual = kept[int(best[0])]
+    zero = int(np.argmin(np.abs(moves).sum(axis=1)))
+    lag = int(np.argmin(deviance[best[0], zero]))
+    steps = residual[zero, lag] ** 2 - residual[int(best[1]), int(best[2])] ** 2
+    return Timed(deviance.min(axis=0), steps, at.centres)
+
+
+def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
+    """Courses that explain a channel, shape (moves * lags, columns, readings)."""
+    series = beside.simulated
+    assert series is not None
+    span = float(times[-1] - times[0])
+    scale = max(float(np.std(series.values)), 1e-300)
+    every = []
+    for lag in lags:
+        own = lagged(series.times, series.values, abs(float(lag))) if lag else series.values
+        if lag < 0.0:
+            own = lagged(series.times, own, -float(lag))
+        slower = [lagged(series.times, own, share * span) for share in SLOWER]
+        every.append([own, *slower])
+    found = np.empty((len(moves), len(lags), 1 + len(SLOWER), len(times)))
+    for i, (shift, rate) in enumerate(moves):
+        when = (times - shift) / (1.0 + rate)
+        for j, rows in enumerate(every):
+            found[i, j, 0] = sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
+            for n, row in enumerate(rows[1:]):
+                found[i, j, n + 1] = np.interp(when, series.times, row)
+    found = found.reshape(-1, 1 + len(SLOWER), len(times))
+    return np.asarray((found - found[..., :1]) / scale)
+
+
+def _left(white: Array, columns: Array) -> Array:
+    """What each set of columns leaves, shape (sets, blocks)."""
+    gram = columns @ np.swapaxes(columns, 1, 2)
+    size = np.sqrt(np.maximum(np.einsum("sii->si", gram), 1e-300))
+    gram = gram / (size[:, :, None] * size[:, None, :]) + 1e-9 * np.eye(columns.shape[1])
+    right = (columns @ white) / size
+    weights = np.linalg.solve(gram, right[..., None])[..., 0] / size
+    return np.asarray(white - np.einsum("sc,scb->sb", weights, columns))
+
+
+def _spread(compared: Compared, timed: list[Timed]) -> float:
+    """Gain of all stretches between switches but the one that says most for a shift."""
+    ends = compared.switches()
+    groups = np.zeros(len(ends) + 1)
+    for one in timed:
+        np.add.at(groups, np.searchsorted(ends, one.centres), one.steps)
+    return float(groups.sum() - groups.max())

@@ -1,0 +1,86 @@
+"""A channel by a course with kinks, a smooth discrepancy and noise: whose likelihood tells instants.
+
+What a model lacks bends a temperature slowly; what is switched kinks it at once. The discrepancy is an integrated
+Wiener process (a cubic smoothing spline: Wahba, Spline Models for Observational Data, 1990), the noise is white, so
+that an instant is told by the kink and not by the size or the length of a response (Kennedy, O'Hagan, J. R. Stat.
+Soc. B 63 (2001) 425-464). The ratio of both is the one that restricted likelihood prefers (Patterson, Thompson,
+Biometrika 58 (1971) 545-554).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from cosim.unit import Array
+
+#: Ratios of discrepancy to noise that are tried: what the discrepancy does over the recording, in noises of a reading.
+RATIOS = np.geomspace(5.0, 2e4, 5)
+#: Samples of a channel; more are averaged in blocks.
+MOST = 150
+
+
+@dataclass(frozen=True)
+class Thinned:
+    """A channel's readings, averaged in blocks of neighbours where there are more than `MOST`.
+
+    Args:
+        times: Of every reading that is used [s], shape (readings,).
+        blocks: First reading of each block, shape (blocks,).
+        counts: Readings of each block, shape (blocks,).
+        values: Mean of each block, shape (blocks,).
+        centres: Mean time of each block [s], shape (blocks,).
+    """
+
+    times: Array
+    blocks: np.ndarray[tuple[int], np.dtype[np.int64]]
+    counts: Array
+    values: Array
+    centres: Array
+
+    def means(self, rows: Array) -> Array:
+        """Means over the blocks of something at all readings, shape (any, readings) to (any, blocks)."""
+        return np.asarray(np.add.reduceat(rows, self.blocks, axis=-1) / self.counts)
+
+
+def thin(times: Array, values: Array, most: int = MOST) -> Thinned:
+    """Average readings in blocks of equal numbers."""
+    size = max(1, -(-len(times) // most))
+    blocks = np.arange(0, len(times), size)
+    counts = np.diff(np.append(blocks, len(times))).astype(float)
+    means = [np.add.reduceat(v, blocks) / counts for v in (values, times)]
+    return Thinned(times, blocks, counts, means[0], means[1])
+
+
+class Whitener:
+    """Takes the correlation of a discrepancy and noise off: whitened readings are independent, of one variance.
+
+    Args:
+        at: Readings.
+        ratio: Standard deviation of the discrepancy at the end of the recording, in noises of a reading.
+        order: 2: slopes wander (temperatures); 1: values do (currents, which step).
+    """
+
+    def __init__(self, at: Thinned, ratio: float, order: int) -> None:
+        begin = float(at.centres[0])
+        span = max(float(at.centres[-1]) - begin, 1e-300)
+        x = (at.centres - begin) / span
+        low, high = np.minimum(x[:, None], x[None, :]), np.maximum(x[:, None], x[None, :])
+        kernel = 3.0 * low**2 * (high / 2.0 - low / 6.0) if order == 2 else low
+        self._triangle = np.linalg.cholesky(np.diag(1.0 / at.counts) + ratio**2 * kernel)
+        self.log_determinant = 2.0 * float(np.sum(np.log(np.diag(self._triangle))))
+        trend = np.stack([np.ones_like(x), x][:order])
+        white = self._solved(trend)
+        basis, triangle = np.linalg.qr(white.T)
+        self._basis = basis
+        self.log_trend = 2.0 * float(np.sum(np.log(np.abs(np.diag(triangle)))))
+
+    def _solved(self, rows: Array) -> Array:
+        return np.asarray(solve_triangular(self._triangle, rows.T, lower=True, check_finite=False).T)
+
+    def __call__(self, rows: Array) -> Array:
+        """Whitened rows, without what the level (and slope) at the begin explain; shape (any, blocks)."""
+        white = self._solved(np.atleast_2d(rows))
+        return np.asarray(white - (white @ self._basis) @ self._basis.T)
