@@ -158,4 +158,4 @@ def _told(
 ) -> Doubt:  # fmt: skip
     begin = one.stretches[0][0] if one.stretches else compared.begin
     end = one.stretches[-1][1] if one.stretches else compared.end
-    return Doubt(one.recording, one.name, kind, text, remedy, is_serious, begin, end, z, one.stretches)
+    return Doubt(one.recording, one.name, kind, text, remedy, is_serious, begin, end, z, stretches=one.stretches)
