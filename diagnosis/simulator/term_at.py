@@ -60,7 +60,10 @@ def term_at(
                 p.name, p.unit, lower, upper, starts, p.is_switch, p.is_instant, negligible, *believable, scan
             )
         )
-    return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+    return Term(
+        candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law,
+        is_completing=candidate.is_completing,
+    )  # fmt: skip
 
 
 def _instants(timeline: Timeline, count: int, scope: Scope) -> tuple[float, ...]:

@@ -1,0 +1,60 @@
+"""Other ways to describe the training, for readings of another recording to decide between.
+
+A search takes what the training recordings make the most probable. Where the model lacks the law itself, that is a
+poor judge: faults of one recording pass for a law that acts in all of them, and of two wrong laws the better fit may
+foretell worse. As long as the recordings that were held out reject the answer, they are asked about others too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from diagnosis.faults.given import LawsOnly, faults_of
+from diagnosis.model_error import MANY, pooled, reckoned
+from diagnosis.search.complete import completed
+from diagnosis.search.search import Outcome, Settings, search, shrink
+from diagnosis.search.structure import structure
+from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
+
+
+def other_ways(
+    model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None] = lambda text: None
+) -> Iterator[tuple[Outcome, DiagnosisModel]]:
+    """Outcomes with the models that they belong to, one after the other as they are asked for.
+
+    1. Laws that hold in all recordings alone: those found before the errors of the model were reckoned with, or, where
+       faults of one recording were found, those that are found without them.
+    2. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
+
+    Args:
+        model: Model of the training recordings with the noise of the sensors, as it was searched.
+        outcome: What the search gave.
+        settings: Of the search.
+        on_progress: Told what is being done.
+    """
+    laws = LawsOnly(model)
+    first = outcome.first or outcome
+    has_faults = bool(faults_of(outcome.best.fit.point)) or bool(faults_of(first.best.fit.point))
+    if has_faults:
+        on_progress("searching laws that hold in all recordings alone")
+        first = search(laws, model.terms(), settings, model.groups(), on_progress)
+    if has_faults or outcome.first is not None:
+        yield _honest(laws, first)
+    left = structure(first.best.fit.residuals, model.layout)
+    if left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
+        return
+    whole = completed(laws, first.best, model.terms(), settings, first.margin, on_progress)
+    whole = shrink(laws, whole, first.margin)
+    if set(whole.terms) != set(first.best.terms):
+        yield _honest(laws, replace(first, best=whole, rivals=(whole, *first.rivals)))
+
+
+def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, DiagnosisModel]:
+    """The outcome with errors as large as it leaves, where noise does not explain them."""
+    factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+    if factor.max() <= BELIEVED:
+        return outcome, model
+    found = TemperedModel(model, factor)
+    return reckoned(found, outcome), found
