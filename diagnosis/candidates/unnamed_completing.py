@@ -110,15 +110,23 @@ def _equations() -> dict[str, Equation]:
 EQUATIONS = _equations()
 
 
+def _as_law(phi: str) -> str:
+    """A C expression as a formula."""
+    begin, end = "clip(", ", 0.0, 1.0)"
+    if not phi.startswith(begin):
+        return phi
+    return f"min(max({phi.removeprefix(begin).removesuffix(end)}, 0), 1)"
+
+
 def _term(
     equation: str, name: str, words: str, phi: str, shape: tuple[Parameter, ...] = (), is_delayed: bool = False
 ) -> CandidateTerm:
     own = EQUATIONS[equation]
     lines = {own.hook: own.line.format(phi="delayed" if is_delayed else phi)}
-    law = own.law.format(phi="delayed" if is_delayed else phi)
+    law = own.law.format(phi="delayed" if is_delayed else _as_law(phi))
     if is_delayed:
         lines["state"] = f"delayed_inflow = ({phi}) / tau;\ndelayed_rate = 1.0 / tau;"
-        law += f"; tau * d(delayed) = {phi} - delayed"
+        law += f"; tau * d(delayed) = {_as_law(phi)} - delayed"
         tau = Parameter(
             "tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
             count=2,
@@ -152,7 +160,7 @@ def _ramp(variable: str, widths: int) -> tuple[str, tuple[Parameter, ...]]:
         "width", knots.unit, 1e-3 * min(bound, 1.0), bound, "a function has no jump",
         plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, count=widths,
     )  # fmt: skip
-    return f"clip((({knots.formula}) - onset) / width, 0.0, 1.0)", (onset, width)
+    return f"clip(({knots.formula} - onset) / width, 0.0, 1.0)", (onset, width)
 
 
 def _known(equation: str) -> set[str]:
@@ -202,7 +210,7 @@ def _of_value() -> Iterator[CandidateTerm]:
             identifier=f"unnamed_value_{name}",
             name=f"unnamed term in value: {words}",
             unit="measurement",
-            law=f"value = truth + a * scale * ({phi.replace('value', 'truth')})",
+            law=f"value = truth + a * scale * ({_as_law(phi).replace('value', 'truth')})",
             source=_SOURCE,
             parameters=(size, *shape, scale, *((pivot,) if "pivot" in phi else ())),
             places=("channel", "quantity"),
