@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from diagnosis.faults.given import LawsOnly, faults_of
+from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import MANY, pooled, reckoned
 from diagnosis.search.complete import completed
+from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
 from diagnosis.simulator.models import DiagnosisModel
@@ -25,7 +26,7 @@ def other_ways(
     """Outcomes with the models that they belong to, one after the other as they are asked for.
 
     1. Laws that hold in all recordings alone: those found before the errors of the model were reckoned with, or, where
-       faults of one recording were found, those that are found without them.
+       something of one recording was among them (a fault, an event), those that are found without such.
     2. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
 
     Args:
@@ -35,20 +36,29 @@ def other_ways(
         on_progress: Told what is being done.
     """
     laws = LawsOnly(model)
+    terms = [t for t in model.terms() if _holds_always(model, t)]
+    known = set(terms)
     first = outcome.first or outcome
-    has_faults = bool(faults_of(outcome.best.fit.point)) or bool(faults_of(first.best.fit.point))
-    if has_faults:
+    is_of_training = any(t not in known for e in (outcome.best, first.best) for t in e.terms)
+    if is_of_training:
         on_progress("searching laws that hold in all recordings alone")
-        first = search(laws, model.terms(), settings, model.groups(), on_progress)
-    if has_faults or outcome.first is not None:
+        first = search(laws, terms, settings, model.groups(), on_progress)
+    if is_of_training or outcome.first is not None:
         yield _honest(laws, first)
     left = structure(first.best.fit.residuals, model.layout)
     if left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
         return
-    whole = completed(laws, first.best, model.terms(), settings, first.margin, on_progress)
+    whole = completed(laws, first.best, terms, settings, first.margin, on_progress)
     whole = shrink(laws, whole, first.margin)
     if set(whole.terms) != set(first.best.terms):
         yield _honest(laws, replace(first, best=whole, rivals=(whole, *first.rivals)))
+
+
+def _holds_always(model: DiagnosisModel, term: Term) -> bool:
+    """Whether a term is there in every recording from its begin to its end, so that any of them can show it."""
+    if term.recording is not None or any(p.is_instant for p in term.parameters):
+        return False
+    return getattr(model.where(term)[1], "day", None) is None
 
 
 def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, DiagnosisModel]:

@@ -179,9 +179,7 @@ def _of(equation: str) -> Iterator[CandidateTerm]:
             phi, shape = _ramp(variable, 2)
             yield _term(equation, f"spline_{variable}", f"{words}, piecewise linear", phi, shape)
             phi, shape = _ramp(variable, 1)
-            yield _term(
-                equation, f"delayed_spline_{variable}", f"{words}, piecewise linear, delayed", phi, shape, True
-            )
+            yield _term(equation, f"delayed_spline_{variable}", f"{words}, piecewise linear, delayed", phi, shape, True)
     for one, other in itertools.combinations_with_replacement(own.variables, 2):
         if not known & {f"{one}_times_{other}", f"{other}_times_{one}"}:
             phi = f"({VARIABLES[one][0]}) * ({VARIABLES[other][0]})"

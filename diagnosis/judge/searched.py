@@ -22,6 +22,8 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str]) 
     """
     by_domain: dict[str, list[Term]] = {}
     for term in model.terms():
+        if term.is_completing:  # a basis, not laws that were tried one by one
+            continue
         by_domain.setdefault(term.unit, []).append(term)
     domains = tuple(
         Domain(

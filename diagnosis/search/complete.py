@@ -18,7 +18,6 @@ from diagnosis.search.focus import focus
 from diagnosis.search.grow import HOPEFUL, PLACES, STEPS, fitted_with
 from diagnosis.search.problem import Model, Term
 from diagnosis.search.score import Projection, Score, score
-from diagnosis.search.structure import structure
 
 #: Terms that are added at most, and best-scored ones that are fitted for each.
 MOST, TRIED = 8, 3
@@ -31,29 +30,20 @@ def completed(
     model: Model, explanation: Explanation, terms: Sequence[Term], settings: Settings, margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
 ) -> Explanation:  # fmt: skip
-    """The explanation's lasting laws with generic terms beside them, as many as gain the margin each.
-
-    What belongs to one recording or sets in at an instant is left out: it bends the training alone.
+    """The explanation with generic terms beside it, as many as gain the margin each.
 
     Args:
         model: Model and training recordings.
         explanation: Best so far; it leaves more than noise.
-        terms: Everything that may be added or singles out places; generic ones that last are used.
+        terms: Generic ones are added; the others single out places.
         settings: Of the search.
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
     """
-    lasting = explanation.fit.point.lasting
-    for term in [t for t in lasting.terms if any(p.is_instant for p in t.parameters)]:
-        lasting = lasting.without(term)
     current = explanation
-    if set(lasting.terms) != set(explanation.terms):
-        current = Explanation(fit(model, lasting, widths=explanation.fit.widths))
-    generic = [t for t in terms if not t.is_named and not any(p.is_instant for p in t.parameters)]
+    generic = [t for t in terms if not t.is_named]
     pool = _at_places(model, current.fit, terms, generic, settings) if generic else []
     for number in range(MOST if pool else 0):
-        if structure(current.fit.residuals, model.layout).is_noise:
-            break
         on_progress(f"describing what is left by generic terms: {number + 1}")
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]
@@ -80,8 +70,8 @@ def _at_places(
     model: Model, base: Fit, terms: Sequence[Term], generic: Sequence[Term], settings: Settings
 ) -> list[Term]:  # fmt: skip
     """Generic terms at the places at which something scores best, and at those that hold all elements."""
-    near = [t for t in focus(model, base.residuals, terms) if not any(p.is_instant for p in t.parameters)]
-    ranked = _scored(model, base, [t for t in near if not t.is_completing], settings)
+    near = [t for t in focus(model, base.residuals, terms) if not t.is_completing]
+    ranked = _scored(model, base, near, settings)
     places = list(dict.fromkeys(s.term.place for s in ranked[:40]))[:PLACES]
     places += [t.place for t in base.point.terms]
     return [t for t in generic if t.place in places or t.place.startswith("all ")]
