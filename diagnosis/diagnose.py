@@ -25,8 +25,8 @@ from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
-from diagnosis.judge.headline import headline
 from diagnosis.judge.gain import gain
+from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, recalibration, verdict, why_open

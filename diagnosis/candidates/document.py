@@ -47,8 +47,9 @@ rule it says why.
 """
 _COMPLETING = """
 Where all of these leave more than noise and recordings that were held out reject the model, sums of these describe what
-is left ([how](diagnosis-architecture.md#where-held-out-recordings-reject-the-answer)): `spline` is
-`min(max((variable - onset) / width, 0), 1)` with free knots, `delayed_spline` the same behind a first-order delay `tau`.
+is left ([how](diagnosis-architecture.md#where-held-out-recordings-reject-the-answer)). `spline` is
+`min(max((variable - onset) / width, 0), 1)` with free knots, `delayed_spline` the same behind a first-order delay
+`tau`.
 """
 _UNNAMED = """## Unnamed terms
 
