@@ -134,13 +134,14 @@ def diagnose(
     outcome, model, judge = _searched(model, judge, settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
-    if judge is not None and not isinstance(model, FabricModel) and accepted.agreement.is_rejected:
+    is_open = accepted.agreement.is_rejected or not outcome.left.is_noise
+    if judge is not None and not isinstance(model, FabricModel) and is_open:
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)
             if again.explanation.terms and gain(accepted.after, again.after, readings).is_gain:
                 outcome, model, accepted = other, own, again
-            if not again.agreement.is_rejected:
+            if not again.agreement.is_rejected and other.left.is_noise:
                 break
     points = {
         "before": Point(np.zeros(len(model.parameters))),

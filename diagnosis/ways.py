@@ -2,7 +2,8 @@
 
 A search takes what the training recordings make the most probable. Where the model lacks the law itself, that is a
 poor judge: faults of one recording pass for a law that acts in all of them, and of two wrong laws the better fit may
-foretell worse. As long as the recordings that were held out reject the answer, they are asked about others too.
+foretell worse. As long as the recordings that were held out reject the answer, or the training shows more than noise with it, they are
+asked about others too.
 """
 
 from __future__ import annotations
@@ -45,13 +46,13 @@ def other_ways(
         first = search(laws, terms, settings, model.groups(), on_progress)
     if is_of_training or outcome.first is not None:
         yield _honest(laws, first)
-    left = structure(first.best.fit.residuals, model.layout)
-    if left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
+    if first.left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
         return
     whole = completed(laws, first.best, terms, settings, first.margin, on_progress)
     whole = shrink(laws, whole, first.margin)
     if set(whole.terms) != set(first.best.terms):
-        yield _honest(laws, replace(first, best=whole, rivals=(whole, *first.rivals)))
+        left = structure(whole.fit.residuals, model.layout, model.groups())
+        yield _honest(laws, replace(first, best=whole, left=left, rivals=(whole, *first.rivals)))
 
 
 def _holds_always(model: DiagnosisModel, term: Term) -> bool:
