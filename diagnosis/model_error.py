@@ -62,7 +62,8 @@ def search_with_model_error(
         outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
         factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     model = GivenFaults(model, faults)
-    outcome = first = _laws_alone(outcome)
+    first = outcome
+    outcome = _laws_alone(outcome)
     found = TemperedModel(model, factor)
     if len(model.layout.time) * len(model.parameters) < MANY:
         outcome = _validated(found, settings, on_progress)

@@ -2,8 +2,8 @@
 
 A search takes what the training recordings make the most probable. Where the model lacks the law itself, that is a
 poor judge: faults of one recording pass for a law that acts in all of them, and of two wrong laws the better fit may
-foretell worse. As long as the recordings that were held out reject the answer, or the training shows more than noise with it, they are
-asked about others too.
+foretell worse. Where the recordings that were held out reject the answer, or the training shows more than noise with
+it, they are asked about others too.
 """
 
 from __future__ import annotations
