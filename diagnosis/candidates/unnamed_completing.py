@@ -181,6 +181,8 @@ def _of(equation: str) -> Iterator[CandidateTerm]:
             phi, shape = _ramp(variable, 1)
             yield _term(equation, f"delayed_spline_{variable}", f"{words}, piecewise linear, delayed", phi, shape, True)
     for one, other in itertools.combinations_with_replacement(own.variables, 2):
+        if equation == "heat" and one == other == "rate":
+            continue  # heat that grows with the square of the rate that it causes has no solution
         if not known & {f"{one}_times_{other}", f"{other}_times_{one}"}:
             phi = f"({VARIABLES[one][0]}) * ({VARIABLES[other][0]})"
             words = f"{VARIABLES[one][1]} times {VARIABLES[other][1]}"
