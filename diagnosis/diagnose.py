@@ -25,7 +25,7 @@ from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
-from diagnosis.judge.gain import gain
+from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
@@ -139,7 +139,7 @@ def diagnose(
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)
-            if again.explanation.terms and gain(accepted.after, again.after, readings).is_gain:
+            if again.explanation.terms and is_better(accepted.after, again.after, readings):
                 outcome, model, accepted = other, own, again
             if not again.agreement.is_rejected and other.left.is_noise:
                 break
