@@ -25,6 +25,7 @@ from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
+from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
@@ -47,6 +48,7 @@ from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, models_of
 from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
+from diagnosis.ways import other_ways
 
 
 @dataclass(frozen=True)
@@ -129,9 +131,19 @@ def diagnose(
     if means.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
+    given = model
     outcome, model, judge = _searched(model, judge, settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
+    is_open = accepted.agreement.is_rejected or not outcome.left.is_noise
+    if judge is not None and not isinstance(model, FabricModel) and is_open:
+        ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
+        for other, own in ways:
+            again, _ = _accepted(own, judge, other, training, held_out, on_progress)
+            if again.explanation.terms and is_better(accepted.after, again.after, readings):
+                outcome, model, accepted = other, own, again
+            if not again.agreement.is_rejected and other.left.is_noise:
+                break
     points = {
         "before": Point(np.zeros(len(model.parameters))),
         "recalibrated": outcome.base.point,
@@ -153,7 +165,7 @@ def diagnose(
     told_apart, located, experiment = Isolability(), Located(()), None
     if not means.is_brief:
         on_progress("finding out what these channels can tell apart")
-        told_apart = isolability(model, outcome.base, model.terms())
+        told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])
         on_progress("driving each unit alone")
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")

@@ -53,15 +53,16 @@ def search_with_model_error(
         The outcome, and the model that it belongs to.
     """
     outcome = search(model, model.terms(), settings, model.groups(), on_progress)
-    factor = _pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+    factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     if factor.max() <= BELIEVED:
         return outcome, model
     on_progress("searching again: no model meets the readings within their noise")
     faults = _earned_faults(TemperedModel(LawsOnly(model), factor), outcome)
     if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for
         outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
-        factor = _pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+        factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     model = GivenFaults(model, faults)
+    first = outcome
     outcome = _laws_alone(outcome)
     found = TemperedModel(model, factor)
     if len(model.layout.time) * len(model.parameters) < MANY:
@@ -69,11 +70,13 @@ def search_with_model_error(
     else:
         outcome = _weighed(found, outcome, on_progress)
     raw = bounded(model.residuals([outcome.best.fit.point])[0])
-    larger = _pooled(inflation(raw, model.layout), model.layout)
+    larger = pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
         found = TemperedModel(model, np.maximum(factor, larger))
-        outcome = _refitted(found, outcome)
-    return _with_faults(found, outcome, faults) if faults else (outcome, found)
+        outcome = refitted(found, outcome)
+    if faults:
+        outcome, found = _with_faults(found, outcome, faults)
+    return replace(outcome, first=first), found
 
 
 def _earned_faults(model: TemperedModel, outcome: Outcome) -> dict[Term, tuple[float, ...]]:
@@ -111,7 +114,7 @@ def _with_faults(
     return _settled(whole, outcome, recalibrate(whole), best, near), whole
 
 
-def _refitted(model: TemperedModel, outcome: Outcome) -> Outcome:
+def refitted(model: TemperedModel, outcome: Outcome) -> Outcome:
     """What was found with larger errors: intervals grow, and terms that are not earned any more go.
 
     It is not searched again: which laws predict does not hang on the size of the errors, and with larger ones the
@@ -128,7 +131,7 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
     known: list[Validated] = []
     outcomes = []
-    every = distinct(model, model.terms())
+    every = distinct(model, [t for t in model.terms() if not t.is_completing])
     plain = plain_terms(model, every)
     for terms in (plain, every) if len(plain) < len(every) else (every,):
         validation = Validation(model, partial(MaskedModel, model), on_progress)
@@ -237,7 +240,7 @@ def _once(explanations: Sequence[Explanation]) -> list[Explanation]:
     return list(found.values())
 
 
-def _pooled(found: Array, layout: Layout) -> Array:
+def pooled(found: Array, layout: Layout) -> Array:
     """One inflation for all channels of a quantity (geometric mean): a model errs in all of them alike."""
     kinds = [name.split(" (")[0].rsplit(".", 1)[-1] for name in layout.names]
     means = {k: np.exp(np.mean([np.log(v) for v, other in zip(found, kinds) if other == k])) for k in kinds}

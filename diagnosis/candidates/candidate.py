@@ -193,6 +193,7 @@ class CandidateTerm:
         confused_with: Identifiers (or `base:<parameter>`) that data often cannot tell from it, with what decides.
         states: States that it adds.
         is_named: False for a generic term, which stands for a law that nobody named.
+        is_completing: A generic term that is tried only where all others leave more than noise.
         keeps_sums: A sensor that is linear in the signal of its own channel: a sum passes it as its parts do.
         same_as: A named candidate with the same law: this one is tried only where that is not in the catalogue.
         rank: Terms of a higher rank come later at a hook: latent heat needs the balance of all others.
@@ -216,6 +217,7 @@ class CandidateTerm:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     states: tuple[State, ...] = ()
     is_named: bool = True
+    is_completing: bool = False
     keeps_sums: bool = False
     same_as: str = ""
     rank: int = 0

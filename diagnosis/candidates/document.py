@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from diagnosis.candidates import unnamed, unnamed_shapes
+from diagnosis.candidates import unnamed, unnamed_completing, unnamed_shapes
 from diagnosis.candidates.candidate import CandidateTerm, Parameter
 from diagnosis.candidates.hooks import FUNCTIONS, HOOKS, NAMES
 from diagnosis.candidates.registry import catalogue
@@ -44,6 +44,12 @@ that is no finding, or 1 % of the limit, or the lower bound, to the limit is div
 evenly over their range instead. Limits and ceilings are tried at shares of the largest reading (0.99, 0.9, 0.75, 0.6,
 0.45), for of what is cut off nothing is seen above. Where a file departs from the
 rule it says why.
+"""
+_COMPLETING = """
+Where all of these leave more than noise and recordings that were held out reject the model, sums of these describe what
+is left ([how](diagnosis-architecture.md#where-held-out-recordings-reject-the-answer)). `spline` is
+`min(max((variable - onset) / width, 0), 1)` with free knots, `delayed_spline` the same behind a first-order delay
+`tau`.
 """
 _UNNAMED = """## Unnamed terms
 
@@ -128,6 +134,13 @@ def _unnamed() -> Iterator[str]:
     yield "| term | law | amplitude |\n|---|---|---|"
     for term in unnamed_shapes.CANDIDATES:
         yield f"| {term.identifier.removeprefix('unnamed_')} | `{term.law}` | [{term.amplitude.unit}] |"
+    yield _COMPLETING
+    yield "| equation | law | terms |\n|---|---|---|"
+    for equation, law in [(e, own.law) for e, own in unnamed_completing.EQUATIONS.items()] + [("value", "")]:
+        prefix = f"unnamed_{equation}_"
+        own = [t.identifier[len(prefix) :] for t in unnamed_completing.CANDIDATES if t.identifier.startswith(prefix)]
+        words = law.format(phi="phi") if law else "value = truth + a * scale * (phi)"
+        yield f"| {equation} | `{words}` | {', '.join(own)} |"
     yield ""
 
 

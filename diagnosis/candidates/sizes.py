@@ -26,6 +26,7 @@ SCALES: Mapping[str, tuple[float, str]] = {
     "conductance": (_CONDUCTANCE, "the coil's h A"),
     "capacity": (_CAPACITY, "the coil's heat capacity"),
     "time": (_CAPACITY / _CONDUCTANCE, "the coil's thermal time constant"),
+    "rate": (_CONDUCTANCE / _CAPACITY * 30.0, "the rate that warms the coil by 30 K in its thermal time constant"),
     "heat": (_CONDUCTANCE * 30.0, "what the coil loses at 30 K above its surroundings"),
     "resistance": (2.2, "the coil's resistance"),
     "load": (_LOAD, "the load"),

@@ -260,8 +260,8 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
             found[i, j, 0] = sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
             for n, row in enumerate(rows[1:]):
                 found[i, j, n + 1] = np.interp(when, series.times, row)
-    found = found.reshape(-1, 1 + len(SLOWER), len(times))
-    return np.asarray((found - found[..., :1]) / scale)
+    flat = found.reshape(-1, 1 + len(SLOWER), len(times))
+    return np.asarray((flat - flat[..., :1]) / scale)
 
 
 def _left(white: Array, columns: Array) -> Array:

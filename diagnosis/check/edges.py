@@ -222,7 +222,8 @@ def _pursued(
     degrees = len(white) - degree
     constant = whitener.log_determinant + whitener.log_trend
     least = 0.25 * beside.channel.deviation**2
-    free, left, chosen = atoms.copy(), white, []
+    free, left = atoms.copy(), white
+    chosen: list[int] = []
     lengths = np.linalg.norm(atoms, axis=1)
     best: tuple[float, list[int], float] | None = None
     for count in range(MOST_EDGES + 1):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared, compare
 from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
 from diagnosis.check.inputs import Course, InputComparison, compare_inputs, set_beside
@@ -76,11 +78,16 @@ def voltages(compared: Compared) -> list[InputComparison]:
         found.append(
             set_beside(
                 compared.recording.title, channel.name, channel.unit,
-                (course, lambda at, s=series: np.asarray(np.interp(at, s.times, s.values))),
+                (course, partial(_interpolated, series.times, series.values)),
                 (compared.begin, compared.end), margin, True, "programme",
             )
         )  # fmt: skip
     return found
+
+
+def _interpolated(times: Array, values: Array, at: Array) -> Array:
+    """Simulated values at some times, shape (n,)."""
+    return np.asarray(np.interp(at, times, values))
 
 
 def _held(channel: Channel) -> Course:

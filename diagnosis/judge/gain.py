@@ -104,6 +104,23 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse)
 
 
+def is_better(first: Predicted, second: Predicted, readings: Readings) -> bool:
+    """Whether one outcome of a search may take the place of another.
+
+    It gains, no channel gets worse, and the squares of what is left fall too, the room and the start as written down:
+    Huber's function counts single wild readings less, and so it would a stretch in which a model runs away.
+
+    Args:
+        first: What the first leaves.
+        second: What the second leaves.
+        readings: What the residuals belong to.
+    """
+    found = gain(first, second, readings)
+    kept = ~readings.is_wild
+    fell = float(np.sum(first.plain[kept] ** 2) - np.sum(second.plain[kept] ** 2))
+    return found.is_gain and not found.worse and fell > 0.0
+
+
 def _scatter(fell: Array, readings: Readings) -> float:
     """Standard error of a sum of losses from its scatter over stretches of time of each channel."""
     stretches = np.unique(np.stack([readings.channel, readings.block]), axis=1, return_inverse=True)[1]

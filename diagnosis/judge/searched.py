@@ -32,6 +32,8 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
     faulty = _with_faults(model)
     by_domain: dict[str, list[Term]] = {}
     for term in (*model.terms(), *(faulty.faults() if faulty is not None else ())):
+        if term.is_completing:  # a basis, not laws that were tried one by one
+            continue
         by_domain.setdefault(term.unit, []).append(term)
     unseen = []
     if base is not None and faulty is not None and faulty.is_fast:

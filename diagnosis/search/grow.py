@@ -71,7 +71,7 @@ def grow(
             key = frozenset((*explanation.terms, candidate.term))
             is_law = _is_law_at(candidate, hopeful[0])
             if key not in grown and (is_law or candidate.gain * kept * OUTDONE > most):
-                tried[key] = _trial(model, explanation.fit, candidate)
+                tried[key] = fitted_with(model, explanation.fit, candidate)
                 laws |= {key} if is_law else set()
                 gained = explanation.fit.cost - tried[key].cost
                 most, kept = max(most, gained), max(kept, gained / candidate.gain)
@@ -80,7 +80,7 @@ def grow(
         if settings.stops_at_noise and tried:
             best = min(tried.values(), key=lambda f: f.cost)
             for candidate in _unnamed_equations(left_out, best, model):
-                tried[frozenset((*explanation.terms, candidate.term))] = _trial(model, explanation.fit, candidate)
+                tried[frozenset((*explanation.terms, candidate.term))] = fitted_with(model, explanation.fit, candidate)
         if tried:  # straight lines may have pointed elsewhere than where the best was found
             (there,) = min(tried, key=lambda k: tried[k].cost) - set(explanation.terms)
             laws |= {k for k in tried for t in k - set(explanation.terms) if t.is_named and t.place == there.place}
@@ -228,7 +228,7 @@ def _is_law_at(candidate: Score, best: Score) -> bool:
     return candidate.term.is_named and candidate.term.place == best.term.place
 
 
-def _trial(model: Model, before: Fit, candidate: Score) -> Fit:
+def fitted_with(model: Model, before: Fit, candidate: Score) -> Fit:
     """Fit all again with a term more, from what the straight line says and from the best of other starts."""
     here = before.point.plus(candidate.term, candidate.values)
     points, starts = list(_starts(before, candidate)), [here]

@@ -97,6 +97,7 @@ class Term:
         law: Formula.
         recording: Number of the recording that it belongs to alone (a fault of a day); None: it holds on any.
         price: -2 log of its prior odds against a law: it was chosen from so many intervals of time.
+        is_completing: Whether it is tried only where all others leave more than noise.
     """
 
     identifier: str
@@ -107,6 +108,7 @@ class Term:
     law: str = ""
     recording: int | None = None
     price: float = 0.0
+    is_completing: bool = False
 
     def __str__(self) -> str:
         return f"{self.identifier} at {self.place}"

@@ -44,6 +44,7 @@ class Outcome:
         false_alarm_rate: Probability that chance alone gives the first accepted term its gain; 1 without one.
         tried: Choices of terms and shapes that were simulated.
         nulls: Recordings without any effect that the search was run on.
+        first: What was found before the errors of the model were taken into account, where that is another outcome.
     """
 
     base: Fit
@@ -55,6 +56,7 @@ class Outcome:
     false_alarm_rate: float
     tried: int
     nulls: int = 0
+    first: Outcome | None = None
 
 
 OnProgress = Callable[[str], None]
@@ -126,12 +128,13 @@ def search(
 
     Args:
         model: Model and training recordings.
-        terms: Catalogue and unnamed terms at all their places.
+        terms: Catalogue and unnamed terms at all their places; those that complete are left to `complete`.
         settings: See there.
         groups: Groups of channels for the search for structure.
         on_progress: Told what is being done.
         select: Chooses what goes on.
     """
+    laws = [t for t in terms if not t.is_completing]
     on_progress("recalibrating")
     base = recalibrate(model)
     left = structure(base.residuals, model.layout, groups)
@@ -145,7 +148,7 @@ def search(
         on_progress(f"looking for {_nth(level)} effect")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
-        grown, scoring = grow(model, terms, ahead, settings, margin)
+        grown, scoring = grow(model, laws, ahead, settings, margin)
         if level == 1 and not is_done:
             grown = [*grown, *pairs(model, base, first.ranked, settings, margin)]
         grown = polished(model, grown, current[0].demerit, margin)

@@ -33,6 +33,7 @@ def rig_scales(base: Mapping[str, float | Array]) -> dict[str, float]:
         "conductance": conductance,
         "capacity": capacity,
         "time": ratio(capacity, conductance),
+        "rate": ratio(conductance * EXCESS, capacity),
         "heat": conductance * EXCESS,
         "resistance": median("reference_resistance"),
         "load": load,

@@ -73,7 +73,10 @@ def term_at(
                 p.physical == "reading" or (p.unit == "K" and p.is_position),
             )
         )
-    return Term(candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law)
+    return Term(
+        candidate.identifier, place.label, candidate.unit, tuple(free), candidate.is_named, candidate.law,
+        is_completing=candidate.is_completing,
+    )  # fmt: skip
 
 
 def physical(parameter: Parameter, own: Sequence[Series]) -> tuple[float, float, str] | None:

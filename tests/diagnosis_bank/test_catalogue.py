@@ -126,6 +126,8 @@ def test_a_candidate_moves_what_belongs_to_its_unit_and_nothing_upstream(term: C
     values = strongest(term, place)
     if term.identifier in ("supply_current_limit", "unnamed_supply_hinge"):
         values["limit"] = 0.4  # below the current of this small network
+    if term.is_completing and "onset" in values:
+        values["onset"] = term.parameters[1].starts[0]  # a knot that every variable reaches
     result = full_bank(NETWORK).simulate(parameters.with_term(term.identifier, **values), network_inputs(), TIMES)
     moved, kept = TOUCHES[term.unit]
     for quantity in moved:

@@ -1,0 +1,77 @@
+"""A sum of generic terms for what neither laws with a name nor a few generic ones explain.
+
+Where the best explanation leaves more than noise, the missing law has a shape that the library has not. One of a
+systematic basis after the other (`diagnosis.candidates.unnamed_completing`, and the generic laws) is added where it
+gains most with all others fitted again, and those that are not needed are taken away at the end: forwards and backwards
+as in J. H. Friedman, Annals of Statistics 19 (1991) 1-67, with the running model in the place of a table of data.
+Readings that it was not fitted to judge each of them (`diagnosis.judge.acceptance`), as they judge every other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from diagnosis.compute.steps import counted
+from diagnosis.search.explanation import Explanation, Settings
+from diagnosis.search.fit import Fit, fit
+from diagnosis.search.focus import focus
+from diagnosis.search.grow import HOPEFUL, PLACES, STEPS, fitted_with
+from diagnosis.search.problem import Model, Term
+from diagnosis.search.score import Projection, Score, score
+
+#: Terms that are added at most, and best-scored ones that are fitted for each.
+MOST, TRIED = 8, 3
+#: Terms that stay in the queue, those that promised most before (J. H. Friedman, Fast MARS, Stanford University,
+#: Department of Statistics, Technical Report 110, 1993, section 3).
+QUEUED = 80
+
+
+def completed(
+    model: Model, explanation: Explanation, terms: Sequence[Term], settings: Settings, margin: float,
+    on_progress: Callable[[str], None] = lambda text: None,
+) -> Explanation:  # fmt: skip
+    """The explanation with generic terms beside it, as many as gain the margin each.
+
+    Args:
+        model: Model and training recordings.
+        explanation: Best so far; it leaves more than noise.
+        terms: Generic ones are added; the others single out places.
+        settings: Of the search.
+        margin: Gain that a term must exceed.
+        on_progress: Told what is being done.
+    """
+    current = explanation
+    generic = [t for t in terms if not t.is_named]
+    pool = _at_places(model, current.fit, terms, generic, settings) if generic else []
+    for number in range(MOST if pool else 0):
+        on_progress(f"describing what is left by generic terms: {number + 1}")
+        ranked = _scored(model, current.fit, pool, settings)
+        pool = [s.term for s in ranked[:QUEUED]]
+        hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:TRIED]
+        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "generic terms fitted")]
+        if not trials:
+            break
+        trial = min(trials, key=lambda f: f.cost)
+        grown = Explanation(fit(model, trial.point, STEPS, trial))
+        if current.cost - grown.cost <= margin or grown.is_negligible:
+            break
+        current = grown
+    return Explanation(fit(model, current.fit.point, widths=explanation.fit.widths))
+
+
+def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) -> list[Score]:
+    """Scores, best first, without nulls: what chance gives is far below what is left."""
+    projection = Projection(base)
+    projection.noise(0, settings.seed)
+    return score(model, base, terms, projection=projection).ranked
+
+
+def _at_places(
+    model: Model, base: Fit, terms: Sequence[Term], generic: Sequence[Term], settings: Settings
+) -> list[Term]:  # fmt: skip
+    """Generic terms at the places at which something scores best, and at those that hold all elements."""
+    near = [t for t in focus(model, base.residuals, terms) if not t.is_completing]
+    ranked = _scored(model, base, near, settings)
+    places = list(dict.fromkeys(s.term.place for s in ranked[:40]))[:PLACES]
+    places += [t.place for t in base.point.terms]
+    return [t for t in generic if t.place in places or t.place.startswith("all ")]

@@ -1,0 +1,71 @@
+"""Other ways to describe the training, for readings of another recording to decide between.
+
+A search takes what the training recordings make the most probable. Where the model lacks the law itself, that is a
+poor judge: faults of one recording pass for a law that acts in all of them, and of two wrong laws the better fit may
+foretell worse. Where the recordings that were held out reject the answer, or the training shows more than noise with
+it, they are asked about others too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from diagnosis.faults.given import LawsOnly
+from diagnosis.model_error import MANY, pooled, refitted
+from diagnosis.search.complete import completed
+from diagnosis.search.problem import Term
+from diagnosis.search.search import Outcome, Settings, search, shrink
+from diagnosis.search.structure import structure
+from diagnosis.simulator.models import DiagnosisModel
+from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
+
+
+def other_ways(
+    model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None] = lambda text: None
+) -> Iterator[tuple[Outcome, DiagnosisModel]]:
+    """Outcomes with the models that they belong to, one after the other as they are asked for.
+
+    1. Laws that hold in all recordings alone: those found before the errors of the model were taken into account, or,
+       where something of one recording was among them (a fault, an event), those that are found without such.
+    2. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
+
+    Args:
+        model: Model of the training recordings with the noise of the sensors, as it was searched.
+        outcome: What the search gave.
+        settings: Of the search.
+        on_progress: Told what is being done.
+    """
+    laws = LawsOnly(model)
+    terms = [t for t in model.terms() if _holds_always(model, t)]
+    known = set(terms)
+    first = outcome.first or outcome
+    is_of_training = any(t not in known for e in (outcome.best, first.best) for t in e.terms)
+    if is_of_training:
+        on_progress("searching laws that hold in all recordings alone")
+        first = search(laws, terms, settings, model.groups(), on_progress)
+    if is_of_training or outcome.first is not None:
+        yield _honest(laws, first)
+    if first.left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
+        return
+    whole = completed(laws, first.best, terms, settings, first.margin, on_progress)
+    whole = shrink(laws, whole, first.margin)
+    if set(whole.terms) != set(first.best.terms):
+        left = structure(whole.fit.residuals, model.layout, model.groups())
+        yield _honest(laws, replace(first, best=whole, left=left, rivals=(whole, *first.rivals)))
+
+
+def _holds_always(model: DiagnosisModel, term: Term) -> bool:
+    """Whether a term is there in every recording from its begin to its end, so that any of them can show it."""
+    if term.recording is not None or any(p.is_instant for p in term.parameters):
+        return False
+    return getattr(model.where(term)[1], "day", None) is None
+
+
+def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, DiagnosisModel]:
+    """The outcome with errors as large as it leaves, where noise does not explain them."""
+    factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+    if factor.max() <= BELIEVED:
+        return outcome, model
+    found = TemperedModel(model, factor)
+    return refitted(found, outcome), found
