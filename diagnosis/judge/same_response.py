@@ -52,7 +52,7 @@ def same_response(
     for other in model.terms():
         if other == term or other.recording is not None or other in point.terms or other.unit != term.unit:
             continue
-        if _is_same_place(model, term, other):
+        if other.is_completing or _is_same_law(model, term, other):
             continue
         values = _values(model, point, term, other, own, seen)
         if values is None or implausible(other, values):
@@ -69,13 +69,14 @@ def _bank(model: object) -> BankModel | None:
     return model if isinstance(model, BankModel) else None
 
 
-def _is_same_place(model: DiagnosisModel, one: Term, other: Term) -> bool:
-    """Whether two terms are one law on the same elements: `all coils` of a rig that has one."""
-    masks = [getattr(model.where(t)[1], "mask", None) for t in (one, other)]
-    first, second = masks
-    if one.identifier != other.identifier or first is None or second is None:
-        return False
-    return bool(np.array_equal(first, second))
+def _is_same_law(model: DiagnosisModel, one: Term, other: Term) -> bool:
+    """Whether two terms are one law on the same elements: `all coils` of a rig that has one, or a twin without a name.
+
+    A generic law that does what a law of the catalogue does at the same place is that law.
+    """
+    first, second = (getattr(model.where(t)[1], "mask", None) for t in (one, other))
+    is_one = one.identifier == other.identifier or (one.is_named and not other.is_named)
+    return is_one and first is not None and second is not None and bool(np.array_equal(first, second))
 
 
 def _values(
