@@ -18,7 +18,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
-from diagnosis.candidates.unnamed import DELAY_REASON, TARGETS, VARIABLES
+from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, TARGETS, VARIABLES
 
 _SOURCE = (
     "D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343; J. H. Friedman, Annals of Statistics 19 (1991) 1-67; "
@@ -26,6 +26,7 @@ _SOURCE = (
 )
 _REASON = "size only: nothing is known about the sign of a law without a name"
 _INSIDE = "a knot lies within what the variable reaches"
+_FIRST, _WIDTH = "at which it sets in", "over which it rises to its full size"
 _LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 
 
@@ -82,27 +83,35 @@ class Equation:
     variables: tuple[str, ...] = _CROSSED
 
 
-def _amplitude(unit: str, bound: float, plausible: float, of: str, why: str, negligible: float = 0.0) -> Parameter:
+def _amplitude(
+    unit: str, bound: float, plausible: float, of: str, why: str, meaning: str, negligible: float = 0.0
+) -> Parameter:  # fmt: skip
     return Parameter(
         "a", unit, -bound, bound, _REASON, is_amplitude=True, negligible=negligible,
-        plausible=plausible, of=of, plausible_reason=why,
+        plausible=plausible, of=of, plausible_reason=why, meaning=meaning,
     )  # fmt: skip
 
 
 def _equations() -> dict[str, Equation]:
     found = {
         name: Equation(
-            t.unit, t.hook, t.line, t.law, _amplitude(t.amplitude, t.bound, t.plausible, t.of, t.plausible_reason)
+            t.unit,
+            t.hook,
+            t.line,
+            t.law,
+            _amplitude(t.amplitude, t.bound, t.plausible, t.of, t.plausible_reason, t.meaning),
         )
         for name, t in TARGETS.items()
     }
     found["shift"] = Equation(
         "stiffness", "stiffness", "shift += a * ({phi});", "shift = a * ({phi})",
-        _amplitude("K", 40.0, 20.0, "", "neighbouring alloys of one series differ by 20 K", 0.5),
+        _amplitude("K", 40.0, 20.0, "", "neighbouring alloys of one series differ by 20 K",
+                   "shift of the transformation temperatures" + AT_SCALE, 0.5),
     )  # fmt: skip
     found["force"] = Equation(
         "mechanical", "load", "tension += a * ({phi});", "tension = load + a * ({phi})",
-        _amplitude("N", 1.0, 0.5, "load", "what holds more than half of the load lets nothing move"),
+        _amplitude("N", 1.0, 0.5, "load", "what holds more than half of the load lets nothing move",
+                   "change of the force" + AT_SCALE),
     )  # fmt: skip
     return found
 
@@ -129,7 +138,7 @@ def _term(
         law += f"; tau * d(delayed) = {_as_law(phi)} - delayed"
         tau = Parameter(
             "tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
-            count=2,
+            count=2, meaning="time constant of the delay",
         )  # fmt: skip
         shape = (*shape, tau)
     return CandidateTerm(
@@ -152,13 +161,14 @@ def _ramp(variable: str, widths: int) -> tuple[str, tuple[Parameter, ...]]:
     """Formula of a piecewise linear function with two knots, and their parameters."""
     knots = KNOTS[variable]
     bound = 1e3 if knots.of == "heat" else {"K": 500.0, "K/s": 500.0, "m": 0.2, "1": 1.0, "A": 100.0}[knots.unit]
+    of_what = VARIABLES[variable][1] + " "
     onset = Parameter(
         "onset", knots.unit, -bound if knots.is_signed else 0.0, bound, _INSIDE,
-        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, is_position=True,
+        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, is_position=True, meaning=of_what + _FIRST,
     )  # fmt: skip
     width = Parameter(
         "width", knots.unit, 1e-3 * min(bound, 1.0), bound, "a function has no jump",
-        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, count=widths,
+        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, count=widths, meaning=of_what + _WIDTH,
     )  # fmt: skip
     return f"clip(({knots.formula} - onset) / width, 0.0, 1.0)", (onset, width)
 
@@ -194,12 +204,22 @@ def _of_value() -> Iterator[CandidateTerm]:
     scale = Parameter("scale", "unit of the channel", 1e-9, 1000.0, "given", (10.0,), is_fixed=True)
     pivot = Parameter("pivot", "unit of the channel", -1000.0, 1000.0, "given", (0.0, 295.15), is_fixed=True)
     reading = "(value - pivot) / scale"
-    size = _amplitude("1", 1.0, 0.3, "", "off by a third of its range: no sensor")
+    size = _amplitude(
+        "1",
+        1.0,
+        0.3,
+        "",
+        "off by a third of its range: no sensor",
+        "change of the reading, as a share of what the channel typically departs by",
+    )
+    departure = "change of the reading from its pivot, in typical departures, "
     reach = "six typical departures are all that a channel shows"
     onset = Parameter(
-        "onset", "1", 0.0, 100.0, _INSIDE, plausible=6.0, plausible_reason=reach, is_position=True
+        "onset", "1", 0.0, 100.0, _INSIDE, plausible=6.0, plausible_reason=reach, is_position=True, meaning=departure + _FIRST
     )  # fmt: skip
-    width = Parameter("width", "1", 1e-3, 100.0, "no jump", plausible=6.0, plausible_reason=reach, count=2)
+    width = Parameter(
+        "width", "1", 1e-3, 100.0, "no jump", plausible=6.0, plausible_reason=reach, count=2, meaning=departure + _WIDTH
+    )
     for name, words, phi, shape in (
         ("spline", "the reading itself, piecewise linear", f"clip(({reading} - onset) / width, 0.0, 1.0)",
          (onset, width)),

@@ -29,6 +29,8 @@ SHIFTS, LAGS = 9, 9
 SLOWER = (0.05, 0.2)
 #: Channels that are asked; more of one rig share its clock.
 MOST_CHANNELS = 2
+#: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
+SUPPORT = float(chi2.isf(0.05, 1))
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,8 @@ class Shift:
         alone: What the shift alone gains over nothing.
         rival: How much better the best lag alone is than the best shift alone.
         spread: `gained` without the stretch between two switches that says most for it.
+        is_common: Whether two channels or more are off, each by itself, and none by something else: a clock that is off
+            moves all readings alike. What one channel alone shows may be a fault of its own.
         rate: 1 / length of the recording where it is no shift but a clock that runs wrong [1/s]; else 0.
     """
 
@@ -68,6 +72,7 @@ class Shift:
     alone: float
     rival: float
     spread: float
+    is_common: bool
     rate: float = 0.0
 
     @property
@@ -91,7 +96,7 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     # what one switch alone says may be an event beside it
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
-        return [_decided(compared, found, where, over)]
+        return [_decided(compared, found, where, over) if found.is_common else _of_one(compared, found, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
@@ -122,6 +127,17 @@ def _decided(
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
     return Doubt(*where, text, remedy, True, *over)
+
+
+def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
+    """The doubt where one channel alone is off: the search knows such a fault, so that it is no other experiment."""
+    off = f"{100.0 * found.rate * abs(found.size):.2g} %" if found.is_rate else f"{abs(found.size):.3g} s"
+    text = (
+        f"the times of one channel seem to be off by {off}: its own clock, or that of the recording, for no other "
+        f"channel shows the same"
+    )
+    remedy = "compare two instants that both clocks know, or state the channel's `offset_bound`"
+    return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
 
 
 def asked(compared: Compared) -> list[Beside]:
@@ -179,8 +195,22 @@ def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, u
         float(alone[SHIFTS] - alone.min()),
         float(alone.min() - coarse[SHIFTS, 1]),
         _spread(compared, timed),
+        _is_common([t.deviance.min(axis=1) for t in timed], zero, top),
         float(unit[1]),
     )
+
+
+def _is_common(profiles: list[Array], zero: int, top: int) -> bool:
+    """Whether two channels or more ask for a move, and none of them for another one.
+
+    Args:
+        profiles: -2 log likelihood of each channel along the moves, shape (moves,) each.
+        zero: Number of no move.
+        top: Number of the move that all together ask for.
+    """
+    asking = [p[zero] - p[top] > SUPPORT for p in profiles]
+    agreeing = [p[top] - p.min() < critical(1.0) for p in profiles]
+    return sum(asking) > 1 and all(agreeing)
 
 
 def _total(leads: list[Beside], moves: Array, lags: Array) -> tuple[Array, list[Timed], Array]:

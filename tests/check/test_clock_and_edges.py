@@ -111,3 +111,12 @@ def test_an_event_is_no_other_programme(scenario: Scenario, tmp_path: Path) -> N
     assert any(abs(t - 300.0) < 8.0 for t in found.extra)
     assert edge_doubts(one) == []
     assert shift_doubts(one) == []
+
+
+def test_one_channel_whose_times_are_off_is_no_other_experiment(scenario: Scenario, tmp_path: Path) -> None:
+    """A logger that stores one thermometer 15 s too early."""
+    values = rig.readings(rig.SECOND)
+    early = rig.readings(rig.SECOND)
+    early[:, 0] = np.interp(rig.instants() + 15.0, rig.instants(), values[:, 0])
+    found = shift_doubts(beside(scenario, tmp_path / "a", rig.SECOND, early))
+    assert not any(d.is_serious for d in found)
