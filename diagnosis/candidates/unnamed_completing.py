@@ -215,7 +215,8 @@ def _of_value() -> Iterator[CandidateTerm]:
     departure = "change of the reading from its pivot, in typical departures, "
     reach = "six typical departures are all that a channel shows"
     onset = Parameter(
-        "onset", "1", 0.0, 100.0, _INSIDE, plausible=6.0, plausible_reason=reach, is_position=True, meaning=departure + _FIRST
+        "onset", "1", 0.0, 100.0, _INSIDE, plausible=6.0, plausible_reason=reach, is_position=True,
+        meaning=departure + _FIRST,
     )  # fmt: skip
     width = Parameter(
         "width", "1", 1e-3, 100.0, "no jump", plausible=6.0, plausible_reason=reach, count=2, meaning=departure + _WIDTH
