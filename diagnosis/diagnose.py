@@ -29,7 +29,7 @@ from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import findings, recalibration, verdict, why_open
+from diagnosis.judge.judge import findings, is_small, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
@@ -48,7 +48,7 @@ from diagnosis.simulator.biased import with_biases
 from diagnosis.simulator.models import DiagnosisModel, models_of
 from diagnosis.simulator.tempered import untempered
 from diagnosis.simulator.unit_laws import identifiers
-from diagnosis.ways import other_ways
+from diagnosis.ways import is_cheap, other_ways
 
 
 @dataclass(frozen=True)
@@ -135,8 +135,8 @@ def diagnose(
     outcome, model, judge = _searched(model, judge, settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
-    is_open = accepted.agreement.is_rejected or not outcome.left.is_noise
-    if judge is not None and not isinstance(model, FabricModel) and is_open:
+    is_open = accepted.agreement.is_rejected and not is_small(accepted)
+    if judge is not None and is_open and is_cheap(given):
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)

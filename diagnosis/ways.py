@@ -2,8 +2,8 @@
 
 A search takes what the training recordings make the most probable. Where the model lacks the law itself, that is a
 poor judge: faults of one recording pass for a law that acts in all of them, and of two wrong laws the better fit may
-foretell worse. Where the recordings that were held out reject the answer, or the training shows more than noise with
-it, they are asked about others too.
+predict worse. Where the recordings that were held out reject the answer, and by more than a small remainder, they are
+asked about others too.
 """
 
 from __future__ import annotations
@@ -12,13 +12,22 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from diagnosis.faults.given import LawsOnly
-from diagnosis.model_error import MANY, pooled, refitted
+from diagnosis.model_error import pooled, refitted
 from diagnosis.search.complete import completed
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
+from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
+
+#: Derivatives of residuals by parameters from which another search would take minutes.
+MOST = 200_000
+
+
+def is_cheap(model: DiagnosisModel) -> bool:
+    """Whether another search of the model takes a minute at most: a bank of coils or heaters that is not large."""
+    return isinstance(model, BankModel) and len(model.layout.time) * len(model.parameters) < MOST
 
 
 def other_ways(
@@ -46,7 +55,7 @@ def other_ways(
         first = search(laws, terms, settings, model.groups(), on_progress)
     if is_of_training or outcome.first is not None:
         yield _honest(laws, first)
-    if first.left.is_noise or len(model.layout.time) * len(model.parameters) >= MANY:
+    if first.left.is_noise:
         return
     whole = completed(laws, first.best, terms, settings, first.margin, on_progress)
     whole = shrink(laws, whole, first.margin)
