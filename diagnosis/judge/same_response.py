@@ -17,7 +17,7 @@ from diagnosis.judge.diagnosis import Member
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.unfitted import raw_residuals
-from diagnosis.search.problem import Point, Term
+from diagnosis.search.problem import Point, Term, strength_slopes
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.models import DiagnosisModel, timeline_of
 from diagnosis.simulator.tempered import untempered
@@ -29,6 +29,9 @@ SIZES, ROUNDS = 17, 4
 #: Share of the law's own response beyond which a law of the best of these sizes is another response altogether: sizes
 #: next to each other differ by a factor of 2, the best one by at most 1.41, which leaves (0.41)^2 of it.
 OTHER = 0.25
+#: Square of the cosine between a law's derivative and the response from which it is simulated at several sizes, and how
+#: many are: large responses bend, so that far from parallel derivatives may belong to equal ones.
+LIKE, MOST = 0.5, 12
 
 
 def same_response(
@@ -48,12 +51,13 @@ def same_response(
     own = _rows(model, [point, point.without(term)], seen)
     if float(np.sum((own[1] - own[0]) ** 2)) < APART:
         return ()  # its own response does not show: everything small would be like it
+    others = [
+        t for t in model.terms()
+        if t != term and t.recording is None and t not in point.terms and t.unit == term.unit
+        and not t.is_completing and not _is_same_law(model, term, t)
+    ]  # fmt: skip
     found = []
-    for other in model.terms():
-        if other == term or other.recording is not None or other in point.terms or other.unit != term.unit:
-            continue
-        if other.is_completing or _is_same_law(model, term, other):
-            continue
+    for other in _likely(model, point, term, others):
         values = _values(model, point, term, other, own, seen)
         if values is None or implausible(other, values):
             continue
@@ -79,6 +83,43 @@ def _is_same_law(model: DiagnosisModel, one: Term, other: Term) -> bool:
     return is_one and first is not None and second is not None and bool(np.array_equal(first, second))
 
 
+def _likely(model: DiagnosisModel, point: Point, term: Term, others: Sequence[Term]) -> list[Term]:
+    """The law itself at other places, and of other laws those whose small response is most like that of the term.
+
+    A simulation of each law at each place would take minutes on a rig of 36 coils; their derivatives are made together.
+
+    Args:
+        model: Model of the training recordings.
+        point: A fit with the term.
+        term: The term.
+        others: All that may be of its class.
+    """
+    found = [t for t in others if t.identifier == term.identifier]
+    tasks = []
+    for other in others:
+        rest = _rest(term, other, point.terms[term])
+        if other.identifier != term.identifier and rest is not None:
+            tasks.append((other, (other.parameters[0].starts[0], *rest)))
+    if not tasks:
+        return found
+    inner, without = untempered(model), point.without(term)
+    here = np.asarray(inner.residuals([without])[0])
+    response = np.asarray(inner.residuals([point])[0]) - here
+    slopes = np.nan_to_num(np.asarray(strength_slopes(inner, without, here, tasks), dtype=np.float64))
+    sizes = np.maximum(np.sum(slopes**2, axis=1) * np.sum(response**2), 1e-300)
+    like = (slopes @ response) ** 2 / sizes
+    ranked = [n for n in np.argsort(-like).tolist() if like[n] > LIKE][:MOST]
+    return [*found, *(tasks[n][0] for n in ranked)]
+
+
+def _rest(term: Term, other: Term, values: Sequence[float]) -> tuple[float, ...] | None:
+    """Values of another law but its strength; None where it differs in more than its strength."""
+    shape = {p.name: v for p, v in zip(term.parameters[1:], values[1:])}
+    if {p.name for p in other.parameters[1:]} != set(shape) or not all(p.is_instant for p in other.parameters[1:]):
+        return None
+    return tuple(shape[p.name] for p in other.parameters[1:])
+
+
 def _values(
     model: DiagnosisModel, point: Point, term: Term, other: Term, own: Array, seen: Array
 ) -> tuple[float, ...] | None:  # fmt: skip
@@ -86,10 +127,9 @@ def _values(
     values = point.terms[term]
     if other.identifier == term.identifier:
         return values
-    shape = {p.name: v for p, v in zip(term.parameters[1:], values[1:])}
-    if {p.name for p in other.parameters[1:]} != set(shape) or not all(p.is_instant for p in other.parameters[1:]):
+    rest = _rest(term, other, values)
+    if rest is None:
         return None
-    rest = tuple(shape[p.name] for p in other.parameters[1:])
     without, size = point.without(term), float(np.sum((own[1] - own[0]) ** 2))
     tried = np.array(list(_sizes(other)))
     for number in range(1 + ROUNDS):
