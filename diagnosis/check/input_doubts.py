@@ -17,6 +17,8 @@ from diagnosis.recording.recording import Channel
 
 #: Stretches that a sentence lists.
 _LISTED = 4
+#: Share of what one course leaves of the readings that the other must stay below: no model of a rig is right to more.
+LESS = 0.8
 
 
 def input_doubts(compared: Compared) -> list[Doubt]:
@@ -30,6 +32,9 @@ def input_doubts(compared: Compared) -> list[Doubt]:
     if not differing:
         return found
     evidence, shares = _followed(compared)
+    mine, theirs = (1.0 - s for s in shares)
+    if max(mine, theirs) * LESS < min(mine, theirs) or (evidence > 0.0) != (mine > theirs):
+        evidence = 0.0  # both leave alike: what parts them is how the model errs
     for one in differing:
         is_wrong = evidence > critical(2.0)
         if is_wrong or one.is_meant:

@@ -120,3 +120,13 @@ def test_the_scenario_s_own_programme_is_an_example(scenario: Scenario, tmp_path
     compared = compare_inputs(compare(scenario, load_recording(a)))
     assert [(c.kind, c.is_stated, c.used) for c in compared] == [("other", False, "recorded")] * 2
     assert how(compared[0]).startswith("has another course")
+
+
+def test_drops_of_a_moment_that_the_readings_hardly_show_accuse_nobody(scenario: Scenario, tmp_path: Path) -> None:
+    """A logger misses four readings of a supply which was on: a slow rig does not tell, and its model errs by more."""
+    column = course(rig.FIRST)
+    column[[30, 60, 90, 200]] = 0.0
+    a = with_column(tmp_path / "a", rig.FIRST, column, rig.readings(rig.FIRST))
+    found = [d for d in doubts(scenario, a) if d.subject.startswith("drive.")]
+    assert not any(d.is_serious for d in found)
+    assert not any("the readings follow" in d.statement for d in found)
