@@ -120,16 +120,20 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
         text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
-        share = f"{100.0 * min(adequacy.explained, 1.0):.0f} %"
-        share = "more than 99 %" if adequacy.explained > ALL and not is_whole else share
+        share = "100 %" if is_whole else _percent(adequacy.explained)
         text = f"{name} explains {share} of the mismatch in the {_basis(adequacy)}"
         if has_more and adequacy.by_recalibration >= LEAST_SHARE:
-            text += f" (recalibration alone {100.0 * min(adequacy.by_recalibration, adequacy.explained):.0f} %)"
+            text += f" (recalibration alone {_percent(min(adequacy.by_recalibration, adequacy.explained))})"
         text += f"; what is left is not more than {noise}" if is_met else ""
     if not is_met and adequacy.worst is not None:
         text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more)}"
     given = f" That takes for granted: {day_of(adequacy, units)}." if adequacy.day else ""
     return f"{text}.{given}"
+
+
+def _percent(share: float) -> str:
+    """A share of the mismatch; what is nearly all of it is not called all."""
+    return "more than 99 %" if share > ALL else f"{100.0 * share:.0f} %"
 
 
 def _cause(adequacy: Adequacy, has_more: bool) -> str:
