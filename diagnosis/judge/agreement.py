@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
+from scipy.special import chdtr, chdtri
 
 from cosim.unit import Array
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings
@@ -19,6 +19,8 @@ from diagnosis.simulator.runs import ZERO, deviation
 LEVEL = 0.001
 #: Standard normal quantile of that level, for the error of an estimated noise.
 QUANTILE = 3.09
+#: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
+JUMPS = 0.05
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,21 @@ class Agreement:
         return max(sum(c.samples * (c.multiple**2 - 1.0) for c in self.channels), 0.0)
 
 
+def _scatter(own: Array) -> float:
+    """Deviation of what changes from one reading to the next, without the largest of the differences.
+
+    A model that is late at a switch, and a gap between readings, make a few differences as large as its error.
+    """
+    if len(own) < 2:
+        return float(np.sqrt(np.mean(own**2)))
+    squares = np.sort(np.diff(own) ** 2)
+    kept = squares[: max(len(squares) - int(np.ceil(JUMPS * len(squares))), 1)]
+    share = len(kept) / len(squares)
+    # of a normal distribution without its tails this part of the variance stays
+    part = float(chdtr(3.0, chdtri(1.0, 1.0 - share))) / share if share < 1.0 else 1.0
+    return float(np.sqrt(0.5 * np.mean(kept) / part))
+
+
 def agreement(residuals: Array, readings: Readings) -> Agreement:
     """Compare residuals with the noise.
 
@@ -134,7 +151,7 @@ def agreement(residuals: Array, readings: Readings) -> Agreement:
             ChannelAgreement(
                 channel.name, readings.titles[readings.of_channel[n]], channel.unit,
                 noise * float(np.sqrt(np.mean(own**2))), noise, total / count, limit, count,
-                noise * float(np.sqrt(0.5 * np.mean(np.diff(own) ** 2) if count > 1 else np.mean(own**2))),
+                noise * _scatter(own),
             )
         )  # fmt: skip
         squares += total

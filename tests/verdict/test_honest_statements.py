@@ -47,6 +47,17 @@ def test_shares_are_those_of_the_errors_that_are_printed() -> None:
     assert agreement(off, readings()).excess == pytest.approx(off @ off - COUNT, rel=1e-12)
 
 
+def test_a_model_that_is_late_at_switches_is_no_noise() -> None:
+    """Between readings on both sides of a switch its error jumps by more than noise ever does; elsewhere it lasts."""
+    late = np.zeros(400)
+    for begin in range(20, 400, 60):
+        late[begin : begin + 25] = 60.0
+    found = agreement(late + np.random.default_rng(4).standard_normal(400), readings())
+    assert found.is_rejected
+    assert not found.is_irregular
+    assert found.channels[0].scatter == pytest.approx(1.0, rel=0.15)
+
+
 def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
     noisy = replace(ADEQUACY, is_irregular=True, day=())
     assert "something else is missing" not in how_right(noisy, False)
