@@ -28,6 +28,8 @@ from diagnosis.simulator.tempered import TemperedModel
 from diagnosis.simulator.translate import GRAVITY
 from diagnosis.simulator.wrapped import WrappedModel
 
+#: Share of cases from which an experiment is said to decide: more often than not.
+LIKELY = 0.5
 #: Odds beyond which an explanation is no longer open.
 ODDS = math.exp(DECISIVE)
 #: Explanations that are weighed against each other.
@@ -257,7 +259,11 @@ def _statement(best: _Tried, repeated: float, question: Open) -> str:
     load = "" if best.conditions.load is None else f", with half the load ({best.conditions.load / GRAVITY:.3g} kg)"
     more = f" (and {len(question.chances) - 2} more)" if len(question.chances) > 2 else ""
     kind = best.shape.kind[0].upper() + best.shape.kind[1:]
-    return (
-        f"{kind} for {best.conditions.duration:g} s{load} would decide between {first} and {second}{more} with odds of "
-        f"20 to 1 in {100 * best.decides:.0f} % of cases, a repeat of the recordings in {100 * repeated:.0f} %."
-    )
+    programme, between = f"{kind} for {best.conditions.duration:g} s{load}", f"{first} and {second}{more}"
+    cases = f"in {100 * best.decides:.0f} % of cases, a repeat of the recordings in {100 * repeated:.0f} %"
+    if best.decides < LIKELY:
+        return (
+            f"No programme that was tried within the limits of the rig is likely to decide between {between}: "
+            f"{programme[0].lower()}{programme[1:]}, the best of them, does with odds of 20 to 1 {cases}."
+        )
+    return f"{programme} would decide between {between} with odds of 20 to 1 {cases}."

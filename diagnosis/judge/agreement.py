@@ -123,7 +123,7 @@ def _scatter(own: Array) -> float:
     kept = squares[: max(len(squares) - int(np.ceil(JUMPS * len(squares))), 1)]
     share = len(kept) / len(squares)
     # of a normal distribution without its tails this part of the variance stays
-    part = float(chdtr(3.0, chdtri(1.0, 1.0 - share))) / share if share < 1.0 else 1.0
+    part = float(chdtr(3.0, float(chdtri(1.0, 1.0 - share)))) / share if share < 1.0 else 1.0
     return float(np.sqrt(0.5 * np.mean(kept) / part))
 
 
