@@ -359,8 +359,29 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     sharp = np.abs(np.diff(values)[width - 1 : count - width] - sizes) < 0.5 * np.abs(sizes) + 3.0 * noise
     sharp &= _is_sudden(values, noise)
     good = (np.abs(sizes) > limit) & (left[before] < most) & (left[after] < most) & sharp
-    every = [Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation)) for k in np.flatnonzero(good)]
+    every = [
+        Jump(int(k) + width, float(sizes[k]), float(abs(sizes[k]) / deviation))
+        for k in np.flatnonzero(good)
+        if _least_step(values[k : k + 2 * width]) > limit
+    ]
     return _apart(every, width // 2)
+
+
+def _least_step(window: Array) -> float:
+    """Smallest step between two lines when any one reading is left out: beside a step one wild reading weighs most.
+
+    Args:
+        window: Readings of which a half lies before the step, shape (2 width,).
+    """
+    half, places = len(window) // 2, np.arange(len(window))
+    index = places - half + 0.5
+
+    def end(own: AnyArray) -> float:
+        return float(np.polyval(np.polyfit(index[own], window[own], 1), 0.0))
+
+    kept = [places != n for n in places]
+    ends = np.array([[end(k & (places < half)), end(k & (places >= half))] for k in kept])
+    return float(np.min(np.abs(ends[:, 1] - ends[:, 0])))
 
 
 def _is_sudden(values: Array, noise: float) -> AnyArray:

@@ -230,3 +230,14 @@ def test_results_that_are_known_are_not_simulated_again(scenario: Scenario, tmp_
     results = run(scenario_of(scenario, recording))
     monkeypatch.setattr(beside, "run", None)
     assert check_recordings(scenario, [recording], {str(recording.path): results}) == ()
+
+
+def test_one_wild_reading_is_no_step() -> None:
+    """A reading 6 deviations low pulls the line of those after it down; where it is left out there is no step."""
+    course = 58.0 + 0.1 * np.arange(600.0)
+    for seed in range(20):
+        values = course + np.random.default_rng(seed).standard_normal(600)
+        values[300] -= 6.5
+        assert not any(abs(j.index - 300) < 12 for j in level_shifts(values, 1.0, 400.0))
+        values = course + np.random.default_rng(seed).standard_normal(600) + 9.0 * (np.arange(600) >= 300)
+        assert any(abs(j.index - 300) < 3 for j in level_shifts(values, 1.0, 400.0))
