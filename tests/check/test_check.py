@@ -11,7 +11,7 @@ import pytest
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.check import check
 from diagnosis.check.check import check_recordings
-from diagnosis.check.readings import level_shifts
+from diagnosis.check.readings import _least_step, level_shifts
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
@@ -233,11 +233,11 @@ def test_results_that_are_known_are_not_simulated_again(scenario: Scenario, tmp_
 
 
 def test_one_wild_reading_is_no_step() -> None:
-    """A reading 6 deviations low pulls the line of those after it down; where it is left out there is no step."""
-    course = 58.0 + 0.1 * np.arange(600.0)
-    for seed in range(20):
-        values = course + np.random.default_rng(seed).standard_normal(600)
-        values[300] -= 6.5
-        assert not any(abs(j.index - 300) < 12 for j in level_shifts(values, 1.0, 400.0))
-        values = course + np.random.default_rng(seed).standard_normal(600) + 9.0 * (np.arange(600) >= 300)
-        assert any(abs(j.index - 300) < 3 for j in level_shifts(values, 1.0, 400.0))
+    """Right after a step that is asked for, a reading moves the end of its line by 1 / 12 + 6 * 5.5 / 143 of its size."""
+    window = np.zeros(24)
+    window[12] = -6.5
+    line = np.polyval(np.polyfit(np.arange(12) + 0.5, window[12:], 1), 0.0)
+    assert line == pytest.approx(-6.5 * (1.0 / 12.0 + 6.0 * 5.5 / 143.0))
+    assert _least_step(window) == pytest.approx(0.0, abs=1e-9)
+    stepped = np.where(np.arange(24) < 12, 0.0, 9.0)
+    assert _least_step(stepped) == pytest.approx(9.0)

@@ -42,7 +42,7 @@ def test_a_probe_is_one_simulation_for_each_place_and_costs_fewer(term, monkeypa
             scale = max(np.abs(exact).max(), 1e-12)
             # rounding of the difference; a clock or lag of 0 in the base joins currents a hair otherwise
             assert np.abs(slopes[quantity][n] - exact).max() < 1e-6 * scale + 1e-11 / abs(step), (place.label, quantity)
-    if len(found) > 8:
+    if sum(np.count_nonzero(place.mask) == 1 for place in found) > 8:  # places that touch each other cannot share one
         assert count < 0.7 * len(found)
 
 
