@@ -233,7 +233,7 @@ def test_results_that_are_known_are_not_simulated_again(scenario: Scenario, tmp_
 
 
 def test_one_wild_reading_is_no_step() -> None:
-    """Right after a step that is asked for, a reading moves the end of its line by 1 / 12 + 6 * 5.5 / 143 of its size."""
+    """The reading next to a step moves the end of its line by 1 / 12 + 6 * 5.5 / 143 of its own size."""
     window = np.zeros(24)
     window[12] = -6.5
     line = np.polyval(np.polyfit(np.arange(12) + 0.5, window[12:], 1), 0.0)
