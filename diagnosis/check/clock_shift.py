@@ -29,6 +29,8 @@ SHIFTS, LAGS = 9, 9
 SLOWER = (0.05, 0.2)
 #: Channels that are asked; more of one rig share its clock.
 MOST_CHANNELS = 2
+#: Instants at which an event is tried.
+EVENTS = 100
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
 SUPPORT = float(chi2.isf(0.05, 1))
 
@@ -96,6 +98,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     # what one switch alone says may be an event beside it
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
+        if found.gained < event_gain(compared) + limit:  # what sets in some time and stays may seem late
+            return [_or_an_event(compared, found, over)]
         return [_decided(compared, found, where, over) if found.is_common else _of_one(compared, found, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
@@ -127,6 +131,19 @@ def _decided(
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
     return Doubt(*where, text, remedy, True, *over)
+
+
+def _or_an_event(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
+    """The doubt where something that sets in at some instant explains as much: the search knows such events."""
+    off = (
+        f"run {100.0 * found.rate * abs(found.size):.2g} % wrong"
+        if found.is_rate
+        else f"be {abs(found.size):.3g} s off"
+    )
+    text = f"the readings' clock seems to {off}, or the rig responds by another size from some instant on: "
+    text += "these cannot be told apart"
+    remedy = "compare two instants that both clocks know"
+    return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
 
 
 def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
@@ -223,6 +240,50 @@ def _total(leads: list[Beside], moves: Array, lags: Array) -> tuple[Array, list[
     free = np.sum([t.deviance.min(axis=1) for t in timed], axis=0)
     slow = np.max([np.abs(lags)[t.deviance.argmin(axis=1)] for t in timed], axis=0)
     return np.stack([plain, free], axis=1), timed, slow
+
+
+def event_gain(compared: Compared) -> float:
+    """What an event gains in -2 log likelihood: from some instant on every channel responds by another size.
+
+    A coil that opens, or a heater that gives less, moves a response by as much as a clock does that is off.
+    """
+    leads = asked(compared)
+    instants = np.linspace(compared.begin, compared.end, EVENTS + 2)[1:-1]
+    total = np.zeros(EVENTS)
+    for beside in leads:
+        at = thinned(beside)
+        plain = _columns(beside, at.times, np.zeros((1, 2)), np.zeros(1))
+        steps = [np.concatenate([plain[0], _after(at.times, plain[0, 0], t)]) for t in instants]
+        total += _deviance(beside, plain).min() - _deviance(beside, np.array(steps))
+    return float(total.max())
+
+
+def _after(times: Array, course: Array, instant: float) -> Array:
+    """The course from an instant on, at once and as slow bodies follow it, shape (1 + lags, readings)."""
+    part = course * (times >= instant)
+    span = float(times[-1] - times[0])
+    return np.array([part, *(lagged(times, part, share * span) for share in SLOWER)])
+
+
+def _deviance(beside: Beside, columns: Array) -> Array:
+    """-2 log likelihood of a channel by sets of columns, the best ratio of each, shape (sets,).
+
+    Args:
+        beside: The channel.
+        columns: At its thinned readings, shape (sets, columns, readings).
+    """
+    at = thinned(beside)
+    rows = at.means(columns)
+    count, found = rows.shape[1], []
+    for ratio in RATIOS:
+        whitener = Whitener(at, float(ratio), order(beside))
+        left = _left(whitener(at.values[None])[0], whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape))
+        squares = np.sum(left**2, axis=-1)
+        degrees = rows.shape[-1] - order(beside) - count
+        variance = np.maximum(squares / degrees, 0.25 * beside.channel.deviation**2)
+        constant = whitener.log_determinant + whitener.log_trend
+        found.append(degrees * np.log(variance) + squares / variance + constant)
+    return np.asarray(np.min(found, axis=0))
 
 
 def thinned(beside: Beside) -> Thinned:

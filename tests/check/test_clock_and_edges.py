@@ -12,7 +12,7 @@ import pytest
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit import Array
 from diagnosis.check.beside import Compared, compare
-from diagnosis.check.clock_shift import clock_shift, shift_doubts
+from diagnosis.check.clock_shift import clock_shift, event_gain, shift_doubts
 from diagnosis.check.edges import edge_doubts, edges
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
@@ -70,10 +70,12 @@ def test_a_clock_that_is_seconds_off(scenario: Scenario, tmp_path: Path, late: f
 
 
 def test_a_clock_that_runs_wrong(scenario: Scenario, tmp_path: Path) -> None:
+    """By 4 % over ten minutes: on a slow rig a response that changes its size from some instant on does as much."""
     folder = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=1.04 * rig.instants())
     (doubt,) = shift_doubts(compare(scenario, load_recording(folder)))
-    assert (doubt.kind, doubt.is_serious) == ("clock", True)
-    assert "too fast" in doubt.statement
+    assert (doubt.kind, doubt.is_serious) == ("clock", False)
+    assert "clock seems to run" in doubt.statement
+    assert "cannot be told apart" in doubt.statement
 
 
 def test_a_shift_within_its_bound_is_none(scenario: Scenario, tmp_path: Path) -> None:
@@ -120,3 +122,12 @@ def test_one_channel_whose_times_are_off_is_no_other_experiment(scenario: Scenar
     early[:, 0] = np.interp(rig.instants() + 15.0, rig.instants(), values[:, 0])
     found = shift_doubts(beside(scenario, tmp_path / "a", rig.SECOND, early))
     assert not any(d.is_serious for d in found)
+
+
+def test_a_heater_that_opens_is_no_clock(scenario: Scenario, tmp_path: Path) -> None:
+    """Both heaters open at 180 s of a programme that goes on: what is left cools, and no clock explains that."""
+    done = (*(p for p in rig.SECOND if p[0] < 180.0), (180.0, 0.0, 0.0))
+    one = beside(scenario, tmp_path / "a", rig.SECOND, rig.readings(done))
+    found = clock_shift(one)
+    assert event_gain(one) > (found.gained if found is not None else 0.0)
+    assert not any(d.is_serious for d in shift_doubts(one))
