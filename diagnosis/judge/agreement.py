@@ -6,6 +6,7 @@ Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (194
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,8 @@ from diagnosis.simulator.runs import ZERO, deviation
 LEVEL = 0.001
 #: Standard normal quantile of that level, for the error of an estimated noise.
 QUANTILE = 3.09
+#: Standard normal quantile of 99 %, by which von Neumann's ratio of white residuals may be below 1.
+WHITE = 2.33
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
 
@@ -57,11 +60,12 @@ class ChannelAgreement:
 
     @property
     def is_irregular(self) -> bool:
-        """Whether what is left would be no more than noise, were the noise as large as neighbouring readings scatter.
+        """Whether what is left is as white as noise: neighbouring residuals differ by as much as any two of them.
 
-        An error of the model that lasts for several readings is not: successive differences leave it out.
+        Von Neumann's ratio of n white residuals scatters by 1 / sqrt(n) about 1. An error of the model that lasts for
+        several readings lowers it: successive differences leave it out.
         """
-        return self.rmse**2 <= self.limit * self.scatter**2
+        return self.scatter**2 >= (1.0 - WHITE / math.sqrt(max(self.samples, 1))) * self.rmse**2
 
     @property
     def multiple(self) -> float:

@@ -139,3 +139,11 @@ def test_where_nothing_was_fitted_nothing_is_said_of_a_fit() -> None:
 
 def test_a_doubt_names_its_channel() -> None:
     assert doubt_text(replace(DOUBT, subject="coil[2].temperature")).startswith("steps, coil[2].temperature: ")
+
+
+def test_an_error_that_lasts_for_two_readings_is_no_noise() -> None:
+    """Ninety readings of a body that is met 70 times worse than its noise: neighbours err alike, if not for long."""
+    drawn = 70.0 * np.random.default_rng(2).standard_normal(91)
+    alike = np.convolve(drawn, np.ones(3) / np.sqrt(3.0), "same")
+    assert not agreement(alike, readings(count=91, is_given=False)).is_irregular
+    assert agreement(drawn, readings(count=91, is_given=False)).is_irregular
