@@ -2,8 +2,8 @@
 
 Each channel is its simulated course, moved by a shift or a rate that all channels share, behind a lag of its own
 sensor, with two longer lags of any sign beside it (heat capacities and losses that are off), a level, a smooth
-discrepancy and noise (`diagnosis.check.discrepancy`). A lag makes a response later too: a shift is told only where no
-lag explains as much.
+discrepancy and noise (`diagnosis.check.discrepancy`). A lag makes a response later too: a shift is reported only
+where no lag explains as much.
 """
 
 from __future__ import annotations
@@ -82,6 +82,11 @@ class Shift:
         """Whether the clock runs wrong; `size` is then what it is off at the end."""
         return self.rate > 0.0
 
+    @property
+    def percent(self) -> float:
+        """How wrong a clock runs [%]."""
+        return 100.0 * self.rate * abs(self.size)
+
 
 def shift_doubts(compared: Compared) -> list[Doubt]:
     """At most one doubt: the clock is off beyond its bound, or a lag makes it seem so."""
@@ -120,8 +125,8 @@ def _decided(
     weight = f"no lag explains as much: it gains {found.gained:.3g} in -2 log likelihood"
     if found.is_rate:
         fast = "fast" if found.size > 0 else "slow"
-        low, high, size = (100.0 * found.rate * v for v in (low, high, abs(found.size)))
-        text = f"the readings' clock runs {size:.2g} % too {fast} ({low:.2g} to {high:.2g} %, 95 %); {weight}"
+        low, high = (100.0 * found.rate * v for v in (low, high))
+        text = f"the readings' clock runs {found.percent:.2g} % too {fast} ({low:.2g} to {high:.2g} %, 95 %); {weight}"
         remedy = "compare two instants that both clocks know; correct the column of times or its unit"
         return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
     stated = max(b.channel.offset_bound for b in asked(compared))
@@ -135,11 +140,7 @@ def _decided(
 
 def _or_an_event(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
     """The doubt where something that sets in at some instant explains as much: the search knows such events."""
-    off = (
-        f"run {100.0 * found.rate * abs(found.size):.2g} % wrong"
-        if found.is_rate
-        else f"be {abs(found.size):.3g} s off"
-    )
+    off = f"run {found.percent:.2g} % wrong" if found.is_rate else f"be {abs(found.size):.3g} s off"
     text = f"the readings' clock seems to {off}, or the rig responds by another size from some instant on: "
     text += "these cannot be told apart"
     remedy = "compare two instants that both clocks know"
@@ -148,7 +149,7 @@ def _or_an_event(compared: Compared, found: Shift, over: tuple[float, float, flo
 
 def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
     """The doubt where one channel alone is off: the search knows such a fault, so that it is no other experiment."""
-    off = f"{100.0 * found.rate * abs(found.size):.2g} %" if found.is_rate else f"{abs(found.size):.3g} s"
+    off = f"{found.percent:.2g} %" if found.is_rate else f"{abs(found.size):.3g} s"
     text = (
         f"the times of one channel seem to be off by {off}: its own clock, or that of the recording, for no other "
         f"channel shows the same"

@@ -2,7 +2,7 @@
 
 What a model lacks bends a temperature slowly; what is switched kinks it at once. The discrepancy is an integrated
 Wiener process (a cubic smoothing spline: Wahba, Spline Models for Observational Data, 1990), the noise is white, so
-that an instant is told by the kink and not by the size or the length of a response (Kennedy, O'Hagan, J. R. Stat.
+that an instant is known by the kink and not by the size or the length of a response (Kennedy, O'Hagan, J. R. Stat.
 Soc. B 63 (2001) 425-464). The ratio of both is the one that restricted likelihood prefers (Patterson, Thompson,
 Biometrika 58 (1971) 545-554).
 """

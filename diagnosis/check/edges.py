@@ -31,7 +31,7 @@ NEAR = 3
 MISSED = 0.1
 #: Edges that a recording has of itself, on average: a contact, a draught, a transformation.
 EVENTS = 1.0
-#: Odds beyond which a doubt is serious, and beyond which it is told.
+#: Odds beyond which a doubt is serious, and beyond which it is reported.
 SERIOUS, TOLD = 1000.0, 100.0
 
 

@@ -132,8 +132,8 @@ def set_beside(
 ) -> InputComparison:  # fmt: skip
     """Compare a recorded course with a programmed one.
 
-    The first law that leaves no more than `LEFT` of the time is told: equal, a factor, an offset, a shift, off for a
-    stretch. A reading and a macro-step around a switch are not compared.
+    The first law that leaves no more than `LEFT` of the time is reported: equal, a factor, an offset, a shift, off for
+    a stretch. A reading and a macro-step around a switch are not compared.
 
     Args:
         recording: Title.
@@ -191,16 +191,20 @@ def _noise(own: Array, other: Array) -> float:
 def _opened(differs: AnyArray, cells: int) -> AnyArray:
     """The same without stretches of so many cells or less: a switch within its margin is none that differs."""
     found = differs.copy()
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], differs.astype(int), [0]])))
-    for first, after in zip(edges[::2], edges[1::2]):
+    for first, after in _bounds(differs):
         if after - first <= cells:
             found[first:after] = False
     return found
 
 
 def _runs(grid: Array, differs: AnyArray) -> tuple[tuple[float, float], ...]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], differs.astype(int), [0]])))
-    return tuple((float(grid[a]), float(grid[min(b, len(grid) - 1)])) for a, b in zip(edges[::2], edges[1::2]))
+    return tuple((float(grid[a]), float(grid[min(b, len(grid) - 1)])) for a, b in _bounds(differs))
+
+
+def _bounds(differs: AnyArray) -> list[tuple[int, int]]:
+    """First cell of each stretch, and the first one after it."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], differs.astype(int), [0]]))).tolist()
+    return list(zip(edges[::2], edges[1::2]))
 
 
 def _shifted(

@@ -13,7 +13,7 @@ from diagnosis.check.explain import Basis, Fit, basis, design, fit, gain
 from diagnosis.check.timing import critical, percent
 from diagnosis.judge.diagnosis import Doubt
 
-#: Share of a gain within which a bound of it is not trusted: it is reckoned in another order.
+#: Share of a gain within which a bound of it is not trusted: it is computed in another order.
 SLACK = 1e-6
 
 
