@@ -15,8 +15,12 @@ from cosim.run_folder import writing
 from cosim.scenario import load_scenario
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cosim.scenario import Scenario
     from diagnosis.diagnose import Found
     from diagnosis.judge.diagnosis import Diagnosis
+    from diagnosis.recording.recording import Recording
 
 
 def diagnose(
@@ -71,7 +75,6 @@ def diagnose(
     from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits
-    from diagnosis.hand_over import hand_over
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import prepared
     from diagnosis.report.summary import print_summary
@@ -98,7 +101,7 @@ def diagnose(
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
                 steps("writing" if brief else "writing the amended model and the report")
                 try:
-                    diagnosis = _brief(found, out) if brief else hand_over(found, base, judges, out)
+                    diagnosis = _brief(found, out) if brief else _whole(found, base, judges, out)
                 except InputError:  # a full disk must not cost the answer
                     print_summary(found.diagnosis, Console())
                     raise
@@ -122,6 +125,13 @@ def _brief(found: Found, out: Path) -> Diagnosis:
     with writing(out):
         write_json(found.diagnosis, out / "diagnosis.json")
     return found.diagnosis
+
+
+def _whole(found: Found, scenario: Scenario, judges: Sequence[Recording], out: Path) -> Diagnosis:
+    """Write everything; see `hand_over`."""
+    from diagnosis.hand_over import hand_over  # late: figures take a second to load
+
+    return hand_over(found, scenario, judges, out)
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 from cosim.isolation.limits import Limits, memory_text
 
-#: From this share of the limit on, memory is named as the likely cause: the allocation that failed is not counted.
-_NEARLY_FULL = 0.75
+#: From this share of the limit on, memory is named as a likely cause. The allocation that failed is not counted, pages
+#: that were reserved and never touched are not, and Linux adds up the resident pages of its processors late.
+_NEARLY_FULL = 0.6
 _MEANINGS = {
     signal.SIGSEGV: "segmentation fault",
     signal.SIGABRT: "abort",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -169,8 +168,7 @@ def read_run(
     traces = {q: _trace(results, translation, q, inputs) for q in wanted}
     packing = Packing(translation.layout, terms, active)
     # The bank reads these traces in place of its own, so that both go through the same sensors.
-    pointers = (ctypes.c_void_p * len(QUANTITIES))(*(traces[q].ctypes.data if q in traces else 0 for q in QUANTITIES))
-    plan.structure.traces = ctypes.addressof(pointers)
+    plan.read_traces(traces)
     out = Bank(translation.layout, terms).run(plan, packing, pack(packing, terms, parameters)[None])
     return {q: values[0] for q, values in plan.split(out).items()}
 

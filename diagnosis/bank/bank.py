@@ -156,8 +156,15 @@ class Bank:
 
         Raises:
             BankError: A value stopped being finite in one of them.
+            ValueError: Plan or packing are those of other coils, or the vectors are those of another packing.
         """
-        vectors = np.ascontiguousarray(vectors)
+        vectors = np.ascontiguousarray(vectors, dtype=np.float64)
+        # The C function trusts all of these: what is too short would be read beyond its end.
+        for what, own in (("plan", plan.layout), ("packing", packing.layout)):
+            if own != self.layout:
+                raise ValueError(f"the {what} is one of {own}, and the bank one of {self.layout}")
+        if vectors.shape[1:] != (packing.size,):
+            raise ValueError(f"the vectors have the shape {vectors.shape}; this packing needs (sets, {packing.size})")
         out = np.empty((len(vectors), plan.out_size))
         plan_structure = type(plan.structure).from_buffer_copy(plan.structure)
         plan_structure.term_offset = packing.term_offset.ctypes.data

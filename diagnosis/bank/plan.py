@@ -94,6 +94,31 @@ class Plan:
         self._set("sample_time", np.array(pointers, dtype=np.uintp))
         self._offsets = dict(zip(QUANTITIES, offsets))
 
+    def read_traces(self, traces: Mapping[str, Array]) -> None:
+        """Let every run under this plan read traces in place of a simulation.
+
+        Args:
+            traces: Quantity to its values at the ends of the steps, shape (steps + 1, elements), SI; a flow stands in
+                the row that its step ends with. All that is sampled, and `current` where a sensor reads it.
+
+        Raises:
+            ValueError: One that is sampled is missing, or has another shape.
+        """
+        missing = sorted(set(self.times) - set(traces))
+        if missing:
+            raise ValueError(f"there is no trace of {missing[0]}, which is sampled")
+        pointers = np.zeros(len(QUANTITIES), dtype=np.uintp)
+        for number, name in enumerate(QUANTITIES):
+            if name not in traces:
+                continue
+            array = np.ascontiguousarray(traces[name], dtype=np.float64)
+            shape = len(self._time), self.layout.elements(name)
+            if array.shape != shape:
+                raise ValueError(f"the trace of {name} has the shape {array.shape}; this plan needs {shape}")
+            self._keep.append(array)
+            pointers[number] = array.ctypes.data
+        self._set("traces", pointers)
+
     def time_after(self, step: int) -> float:
         """End of a step [s] in which a simulation failed.
 

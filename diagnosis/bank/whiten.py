@@ -28,6 +28,7 @@ class Whitening:
 
     Raises:
         CompilerError: There is no usable C compiler.
+        ValueError: Lengths that do not fit each other.
     """
 
     def __init__(
@@ -36,9 +37,15 @@ class Whitening:
         #: Share of the sum of each series that is taken away, shape (series,).
         self.shares = shares
         self._pick = np.ascontiguousarray(pick, dtype=np.int64)
-        self._weight, self._shares = np.ascontiguousarray(weight), np.ascontiguousarray(shares)
+        self._weight = np.ascontiguousarray(weight, dtype=np.float64)
+        self._shares = np.ascontiguousarray(shares, dtype=np.float64)
         self._lengths = lengths
         self._begin = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
+        if not (len(self._pick) == len(self._weight) == self._begin[-1] and len(self._shares) == len(lengths)):
+            raise ValueError(
+                f"{len(self._pick)} samples, {len(self._weight)} weights, series of {self._begin[-1]} samples in all; "
+                f"{len(lengths)} series, {len(self._shares)} shares"
+            )
         self._function = load(_SOURCE.read_text()).whiten_slopes
         self._function.restype = None
 
@@ -58,12 +65,19 @@ class Whitening:
             rows: Rows of the result.
             into: Row to which each direction adds; None: its own.
             factors: What each direction is multiplied by; None: 1.
+
+        Raises:
+            ValueError: A row or a sample that there is not, or not one row and factor for each direction.
         """
-        slopes = np.ascontiguousarray(slopes)
+        slopes = np.ascontiguousarray(slopes, dtype=np.float64)
         into = np.arange(len(slopes)) if into is None else np.ascontiguousarray(into, dtype=np.int64)
         factors = np.ones(len(slopes)) if factors is None else np.ascontiguousarray(factors, dtype=np.float64)
         if into.size and not (into.min() >= 0 and into.max() < rows):
             raise ValueError(f"rows {into.min()} to {into.max()} of {rows}")
+        if not len(into) == len(factors) == len(slopes):
+            raise ValueError(f"{len(slopes)} directions, {len(into)} rows, {len(factors)} factors")
+        if self._pick.size and not (self._pick.min() >= 0 and self._pick.max() < slopes.shape[1]):
+            raise ValueError(f"samples {self._pick.min()} to {self._pick.max()} of {slopes.shape[1]}")
         out = np.zeros((rows, len(self._pick)), dtype=np.float32)
         work = np.empty(len(self._pick))
         number, pointer = ctypes.c_int64, ctypes.c_void_p

@@ -17,8 +17,12 @@ CANDIDATE = CandidateTerm(
             "larger ones are seen by eye",
             meaning="change of the reading in a minute, as a share of what the channel typically reads",
             physical="rate",
-            plausible=0.1,
-            plausible_reason="1 K or 0.1 mm in a minute: no sensor in order does more while it is looked at",
+            plausible=1.0,
+            plausible_reason=(
+                "10 K in a minute: the reference junction of a thermocouple follows its connector (ASTM MNL 12, ch. 7) "
+                "and 1 W of stray heat warms one of 10 g (6 J/K) so fast, while the wires drift by a few K in 1000 h; "
+                "a mount that slips or an amplifier that warms up is allowed as many typical readings"
+            ),
             is_amplitude=True,
         ),
         Parameter("scale", "unit of the channel", 0.0, 1000.0, "typical size; given", (1.0,), is_fixed=True),

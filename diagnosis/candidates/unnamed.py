@@ -16,13 +16,16 @@ from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, 
 _SOURCE = (
     "library: Brunton, Proctor and Kutz, PNAS 113 (2016) 3932-3937; scales: Buckingham, Phys. Rev. 4 (1914) 345-376"
 )
-_REASON = "size only: nothing is known about the sign of a law without a name"
+#: Why both signs are tried.
+SIGN_REASON = "size only: nothing is known about the sign of a law without a name"
 _SECOND = "a coil that loses or gains twice what it loses at 30 K is another coil"
 _THIRD = "what changes a coil by more than about a third is no correction of its law, but another law"
-#: A delay behind which a generic term acts: what is far slower than the coil itself is a drift.
 #: Amplitudes are what is there where the function of the variables is 1.
 AT_SCALE = " where the variables are at their scales"
+#: A delay behind which a generic term acts: what is far slower than the coil itself is a drift.
 DELAY_REASON = "what is thirty times as slow as the coil is a drift over a recording"
+#: Places of a law that acts in few coils.
+LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 _PLACES: tuple[PlaceKind, ...] = (
     "all",
     "string",
@@ -145,7 +148,7 @@ TARGETS: Mapping[str, Target] = {
 def _term(equation: str, name: str, phi: str, words: str, delay: Parameter | None = None) -> CandidateTerm:
     target = TARGETS[equation]
     amplitude = Parameter(
-        "a", target.amplitude, -target.bound, target.bound, _REASON, is_amplitude=True,
+        "a", target.amplitude, -target.bound, target.bound, SIGN_REASON, is_amplitude=True,
         plausible=target.plausible, of=target.of, plausible_reason=target.plausible_reason, meaning=target.meaning,
     )  # fmt: skip
     lines = {target.hook: target.line.format(phi="delayed" if delay else phi)}

@@ -17,17 +17,15 @@ import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from diagnosis.candidates.candidate import CandidateTerm, Parameter, PlaceKind, State, Unit
-from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, TARGETS, VARIABLES
+from diagnosis.candidates.candidate import CandidateTerm, Parameter, State, Unit
+from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, LOCAL, SIGN_REASON, TARGETS, VARIABLES
 
 _SOURCE = (
     "D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343; J. H. Friedman, Annals of Statistics 19 (1991) 1-67; "
     "K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11 (1966) 546-550"
 )
-_REASON = "size only: nothing is known about the sign of a law without a name"
 _INSIDE = "a knot lies within what the variable reaches"
 _FIRST, _WIDTH = "at which it sets in", "over which it rises to its full size"
-_LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ def _amplitude(
     unit: str, bound: float, plausible: float, of: str, why: str, meaning: str, negligible: float = 0.0
 ) -> Parameter:  # fmt: skip
     return Parameter(
-        "a", unit, -bound, bound, _REASON, is_amplitude=True, negligible=negligible,
+        "a", unit, -bound, bound, SIGN_REASON, is_amplitude=True, negligible=negligible,
         plausible=plausible, of=of, plausible_reason=why, meaning=meaning,
     )  # fmt: skip
 
@@ -148,7 +146,7 @@ def _term(
         law=law,
         source=_SOURCE,
         parameters=(own.amplitude, *shape),
-        places=_LOCAL,
+        places=LOCAL,
         lines=lines,
         signature=f"What is missing in {equation} follows {words}.",
         states=(State("delayed", "1", "0.0"),) if is_delayed else (),

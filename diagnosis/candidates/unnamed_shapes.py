@@ -11,14 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diagnosis.candidates.candidate import CandidateTerm, Parameter, Physical, PlaceKind, State, Unit
-from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, VARIABLES
+from diagnosis.candidates.unnamed import AT_SCALE, DELAY_REASON, LOCAL, SIGN_REASON, VARIABLES
 
 _SOURCE = "J. H. Friedman, Annals of Statistics 19 (1991) 1-67; M. Brokate and J. Sprekels, Hysteresis and Phase "
 _SOURCE += "Transitions, Springer 1996, chapter 2"
-_REASON = "size only: nothing is known about the sign of a law without a name"
 _PASSIVE = "it only takes energy"
-_LOCAL: tuple[PlaceKind, ...] = ("all", "string", "coil")
-_EVERY: tuple[PlaceKind, ...] = (*_LOCAL, "row_gradient", "column_gradient", "string_ends", "outer_strings", "edge")
+_EVERY: tuple[PlaceKind, ...] = (*LOCAL, "row_gradient", "column_gradient", "string_ends", "outer_strings", "edge")
 _TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
     meaning="time constant of the delay")  # fmt: skip
 _HEAT = "a coil that loses or gains twice what it loses at 30 K is another coil"
@@ -76,7 +74,7 @@ def _amplitude(
         unit,
         0.0 if is_passive else -bound,
         bound,
-        _PASSIVE if is_passive else _REASON,
+        _PASSIVE if is_passive else SIGN_REASON,
         is_amplitude=True,
         negligible=negligible,
         plausible=most,
@@ -92,7 +90,7 @@ def _term(
     law: str,
     parameters: tuple[Parameter, ...],
     lines: dict[str, str],
-    places: tuple[PlaceKind, ...] = _LOCAL,
+    places: tuple[PlaceKind, ...] = LOCAL,
     states: tuple[State, ...] = (),
 ) -> CandidateTerm:
     unit, name, words = identity

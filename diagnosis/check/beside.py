@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from scipy.signal import lfilter
+from scipy.linalg.blas import dtbsv
 
 from cosim.components import FabricComponent, ProgrammeComponent, nanoseconds
 from cosim.errors import InputError
@@ -55,6 +55,10 @@ class Course:
     def switches(self) -> Array:
         """Instants at which the value changes [s]."""
         return np.asarray(self.times[1:][np.diff(self.values) != 0.0])
+
+    def at(self, times: Array) -> Array:
+        """Values that hold at given times [s]; before the first point its own."""
+        return np.asarray(self.values[np.maximum(np.searchsorted(self.times, times, side="right") - 1, 0)])
 
 
 @dataclass(frozen=True)
@@ -160,6 +164,16 @@ class Compared:
         return np.asarray(every[(every > self.begin) & (every < self.end)])
 
 
+def direct(compared: Compared, times: Array) -> Array:
+    """What drives a recording, as a sensor sees it that answers it at once; shape (courses that change, times).
+
+    A transfer function may have a direct term: a reading that rises with the power before the body does comes early by
+    no clock.
+    """
+    rows = [c.at(times) for c in compared.courses]
+    return np.array([r for r in rows if np.ptp(r) > 0.0]).reshape(-1, len(times))
+
+
 def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None = None) -> Compared:
     """Simulate a scenario under the conditions of a recording.
 
@@ -247,5 +261,7 @@ def lagged(times: Array, values: Array, time_constant: float) -> Array:
     if len(times) < 2:
         return values
     keep = float(np.exp(-(times[1] - times[0]) / time_constant))
-    found, _ = lfilter([1.0 - keep], [1.0, -keep], values - values[0], zi=np.zeros(1))
+    # y[n] - keep * y[n - 1] = (1 - keep) * x[n], solved forwards; scipy.signal takes more than a second to load
+    band = np.full((2, len(values)), -keep, order="F")
+    found = dtbsv(1, band, (1.0 - keep) * (values - values[0]), lower=1, diag=1)
     return np.asarray(found + values[0])

@@ -18,7 +18,7 @@ from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.judge.doubts import faults
+from diagnosis.judge.doubts import without_consequences
 from diagnosis.recording.recording import Recording
 
 
@@ -36,8 +36,7 @@ def check_recordings(
             where they are known already.
 
     Returns:
-        Serious doubts first, then by their size. Of recordings that fit their scenario one in 1000 raises a serious
-        one.
+        Serious doubts first, then by their size. docs/recording-check.md has measured rates of false ones.
 
     Raises:
         InputError: A recording does not fit the scenario.
@@ -59,9 +58,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
-    stuck = {d.recording for d in faults(found)}  # readings that stand still move beside every programme
-    found = [d for d in found if not (d.kind == "programme" and d.recording in stuck)]
-    return tuple(sorted(found, key=lambda d: (not d.is_serious, -d.z)))
+    return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

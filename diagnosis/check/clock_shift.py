@@ -8,14 +8,15 @@ where no lag explains as much.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
 
 from cosim.unit import Array
-from diagnosis.check.beside import Beside, Compared, lagged
-from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener, thin
+from diagnosis.check.beside import Beside, Compared, direct, lagged
+from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
+from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.check.timing import critical, leading, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import sample
@@ -31,8 +32,13 @@ SLOWER = (0.05, 0.2)
 MOST_CHANNELS = 2
 #: Instants at which an event is tried.
 EVENTS = 100
+#: What an event, and sensors that answer an input, are in words.
+_ELSE = (
+    "the rig responds by another size from some instant on",
+    "the readings answer an input at once, before the body does",
+)
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
-SUPPORT = float(chi2.isf(0.05, 1))
+SUPPORT = chi_square_beyond(0.05, 1)
 
 
 @dataclass(frozen=True)
@@ -41,13 +47,19 @@ class Timed:
 
     Args:
         deviance: Smallest over ratios, shape (moves, lags).
-        steps: Gain of each block by the best shift over none, both with their best lag, shape (blocks,).
+        fits: Of every move with every lag, moves first.
         centres: Times of the blocks [s].
     """
 
     deviance: Array
-    steps: Array
+    fits: Likelihoods
     centres: Array
+
+    def steps(self, without: int, move: int) -> Array:
+        """Gain of each block by a move over another one, both with their best lag, shape (blocks,)."""
+        lags = self.deviance.shape[1]
+        first, second = (k * lags + int(np.argmin(self.deviance[k])) for k in (without, move))
+        return self.fits.gain_by_block(first, second)
 
 
 @dataclass(frozen=True)
@@ -103,9 +115,18 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     # what one switch alone says may be an event beside it
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
-        if found.gained < event_gain(compared) + limit:  # what sets in some time and stays may seem late
-            return [_or_an_event(compared, found, over)]
-        return [_decided(compared, found, where, over) if found.is_common else _of_one(compared, found, over)]
+        # what sets in in some time and stays may seem late, and what answers at once early
+        rivals = (event_gain(compared), direct_gain(compared))
+        if max(rivals) > found.gained + limit:
+            return []
+        for rival, what in zip(rivals, _ELSE):
+            if found.gained < rival + limit:
+                return [_or_else(compared, found, over, what)]
+        if not found.is_common:
+            return [_of_one(compared, found, over)]
+        if found.size > 0.0 and not found.is_rate:
+            return [_late(compared, found, where, over)]
+        return [_decided(compared, found, where, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
@@ -131,18 +152,31 @@ def _decided(
         return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
     stated = max(b.channel.offset_bound for b in asked(compared))
     text = (
-        f"the response comes {abs(found.size):.3g} s {'later' if found.size > 0 else 'earlier'} than its programme "
-        f"({low:.3g} to {high:.3g} s, 95 %), where at most {stated:.3g} s are stated; {weight}"
+        f"the response comes {abs(found.size):.3g} s earlier than its programme ({low:.3g} to {high:.3g} s, 95 %), "
+        f"where at most {stated:.3g} s are stated; {weight}"
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
     return Doubt(*where, text, remedy, True, *over)
 
 
-def _or_an_event(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
-    """The doubt where something that sets in at some instant explains as much: the search knows such events."""
+def _late(
+    compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]
+) -> Doubt:  # fmt: skip
+    """The doubt where the response comes late: a dead time and many lags in series make it late too."""
+    low, high = found.interval
+    text = (
+        f"the response comes {found.size:.3g} s later than its programme ({low:.3g} to {high:.3g} s, 95 %), by more "
+        f"than one or two lags explain ({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and "
+        f"many lags in series cannot be told apart"
+    )
+    remedy = "correct `time.zero` or the programme's times, or model the dead time"
+    return Doubt(*where, text, remedy, False, *over, is_far=True)
+
+
+def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float], what: str) -> Doubt:
+    """The doubt where something else explains as much: the search knows it."""
     off = f"run {found.percent:.2g} % wrong" if found.is_rate else f"be {abs(found.size):.3g} s off"
-    text = f"the readings' clock seems to {off}, or the rig responds by another size from some instant on: "
-    text += "these cannot be told apart"
+    text = f"the readings' clock seems to {off}, or {what}: these cannot be told apart"
     remedy = "compare two instants that both clocks know"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
 
@@ -202,7 +236,7 @@ def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, u
     profile = sums[:, 1]
     zero = int(np.flatnonzero(fine == 0.0)[0])
     top = int(np.argmin(profile))
-    inside = fine[profile < profile[top] + float(chi2.isf(0.05, 1))]
+    inside = fine[profile < profile[top] + chi_square_beyond(0.05, 1)]
     step = float(near[1] - near[0]) / 12.0
     alone = coarse[:, 0]
     return Shift(
@@ -212,7 +246,7 @@ def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, u
         float(profile[zero] - profile[top]),
         float(alone[SHIFTS] - alone.min()),
         float(alone.min() - coarse[SHIFTS, 1]),
-        _spread(compared, timed),
+        _spread(compared, timed, zero, top),
         _is_common([t.deviance.min(axis=1) for t in timed], zero, top),
         float(unit[1]),
     )
@@ -248,15 +282,30 @@ def event_gain(compared: Compared) -> float:
 
     A coil that opens, or a heater that gives less, moves a response by as much as a clock does that is off.
     """
-    leads = asked(compared)
     instants = np.linspace(compared.begin, compared.end, EVENTS + 2)[1:-1]
-    total = np.zeros(EVENTS)
-    for beside in leads:
+    return _gain_of(compared, lambda times, course: [_after(times, course, t) for t in instants])
+
+
+def direct_gain(compared: Compared) -> float:
+    """What sensors gain in -2 log likelihood that answer the inputs at once, beside what the body does."""
+    return _gain_of(compared, lambda times, course: [direct(compared, times)])
+
+
+def _gain_of(compared: Compared, beside_course: Callable[[Array, Array], list[Array]]) -> float:
+    """The most that columns beside each channel's course gain, the same set for all channels.
+
+    Args:
+        compared: The recording.
+        beside_course: Times of a channel and its course to sets of columns, shape (columns, readings) each.
+    """
+    totals = []
+    for beside in asked(compared):
         at = thinned(beside)
         plain = _columns(beside, at.times, np.zeros((1, 2)), np.zeros(1))
-        steps = [np.concatenate([plain[0], _after(at.times, plain[0, 0], t)]) for t in instants]
-        total += _deviance(beside, plain).min() - _deviance(beside, np.array(steps))
-    return float(total.max())
+        sets = np.array([np.concatenate([plain[0], more]) for more in beside_course(at.times, plain[0, 0])])
+        without, by_set = (_likelihoods(beside, at, c).deviance for c in (plain, sets))
+        totals.append(without.min() - by_set)
+    return float(np.sum(totals, axis=0).max())
 
 
 def _after(times: Array, course: Array, instant: float) -> Array:
@@ -264,27 +313,6 @@ def _after(times: Array, course: Array, instant: float) -> Array:
     part = course * (times >= instant)
     span = float(times[-1] - times[0])
     return np.array([part, *(lagged(times, part, share * span) for share in SLOWER)])
-
-
-def _deviance(beside: Beside, columns: Array) -> Array:
-    """-2 log likelihood of a channel by sets of columns, the best ratio of each, shape (sets,).
-
-    Args:
-        beside: The channel.
-        columns: At its thinned readings, shape (sets, columns, readings).
-    """
-    at = thinned(beside)
-    rows = at.means(columns)
-    count, found = rows.shape[1], []
-    for ratio in RATIOS:
-        whitener = Whitener(at, float(ratio), order(beside))
-        left = _left(whitener(at.values[None])[0], whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape))
-        squares = np.sum(left**2, axis=-1)
-        degrees = rows.shape[-1] - order(beside) - count
-        variance = np.maximum(squares / degrees, 0.25 * beside.channel.deviation**2)
-        constant = whitener.log_determinant + whitener.log_trend
-        found.append(degrees * np.log(variance) + squares / variance + constant)
-    return np.asarray(np.min(found, axis=0))
 
 
 def thinned(beside: Beside) -> Thinned:
@@ -307,29 +335,13 @@ def timed_channel(beside: Beside, moves: Array, lags: Array) -> Timed:
         lags: Of its sensor, as `lag_grid` gives them.
     """
     at = thinned(beside)
-    rows = at.means(_columns(beside, at.times, moves, lags))
-    count = rows.shape[2]
-    deviance = np.full((len(RATIOS), len(moves), len(lags)), np.inf)
-    kept = []
-    for k, ratio in enumerate(RATIOS):
-        whitener = Whitener(at, float(ratio), order(beside))
-        white = whitener(at.values[None])[0]
-        columns = whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape)
-        left = _left(white, columns)
-        squares = np.sum(left**2, axis=-1)
-        degrees = rows.shape[-1] - order(beside) - count
-        # the noise that is stated, or its estimate, is what white noise is at least: half of it
-        variance = np.maximum(squares / degrees, 0.25 * beside.channel.deviation**2)
-        constant = whitener.log_determinant + whitener.log_trend
-        found = degrees * np.log(variance) + squares / variance + constant
-        deviance[k] = found.reshape(len(moves), len(lags))
-        kept.append(left.reshape(len(moves), len(lags), -1) / np.sqrt(variance).reshape(len(moves), len(lags), 1))
-    best = np.unravel_index(int(np.argmin(deviance)), deviance.shape)
-    residual = kept[int(best[0])]
-    zero = int(np.argmin(np.abs(moves).sum(axis=1)))
-    lag = int(np.argmin(deviance[best[0], zero]))
-    steps = residual[zero, lag] ** 2 - residual[int(best[1]), int(best[2])] ** 2
-    return Timed(deviance.min(axis=0), steps, at.centres)
+    fits = _likelihoods(beside, at, _columns(beside, at.times, moves, lags))
+    return Timed(fits.deviance.reshape(len(moves), len(lags)), fits, at.centres)
+
+
+def _likelihoods(beside: Beside, at: Thinned, columns: Array) -> Likelihoods:
+    """Of sets of columns at a channel's thinned readings, shape (sets, columns, readings)."""
+    return likelihoods(at, columns, order(beside), beside.channel.deviation)
 
 
 def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
@@ -356,20 +368,10 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
     return np.asarray((flat - flat[..., :1]) / scale)
 
 
-def _left(white: Array, columns: Array) -> Array:
-    """What each set of columns leaves, shape (sets, blocks)."""
-    gram = columns @ np.swapaxes(columns, 1, 2)
-    size = np.sqrt(np.maximum(np.einsum("sii->si", gram), 1e-300))
-    gram = gram / (size[:, :, None] * size[:, None, :]) + 1e-9 * np.eye(columns.shape[1])
-    right = (columns @ white) / size
-    weights = np.linalg.solve(gram, right[..., None])[..., 0] / size
-    return np.asarray(white - np.einsum("sc,scb->sb", weights, columns))
-
-
-def _spread(compared: Compared, timed: list[Timed]) -> float:
+def _spread(compared: Compared, timed: list[Timed], zero: int, top: int) -> float:
     """Gain of all stretches between switches but the one that says most for a shift."""
     ends = compared.switches()
     groups = np.zeros(len(ends) + 1)
     for one in timed:
-        np.add.at(groups, np.searchsorted(ends, one.centres), one.steps)
+        np.add.at(groups, np.searchsorted(ends, one.centres), one.steps(zero, top))
     return float(groups.sum() - groups.max())

@@ -84,3 +84,68 @@ class Whitener:
         """Whitened rows, without what the level (and slope) at the begin explain; shape (any, blocks)."""
         white = self._solved(np.atleast_2d(rows))
         return np.asarray(white - (white @ self._basis) @ self._basis.T)
+
+
+@dataclass(frozen=True)
+class Likelihoods:
+    """How well each of several sets of columns explains a channel, for every ratio of discrepancy to noise.
+
+    Args:
+        deviance: -2 log likelihood of each set with its best ratio, shape (sets,).
+        every: The same for each ratio, shape (ratios, sets).
+        variance: Of a reading's noise, shape (ratios, sets).
+        left: Whitened residuals, shape (ratios, sets, blocks).
+    """
+
+    deviance: Array
+    every: Array
+    variance: Array
+    left: Array
+
+    def gain_by_block(self, without: int, with_: int) -> Array:
+        """What the set `with_` gains over the set `without` in each block, shape (blocks,).
+
+        With the ratio that is best for the second, and with one variance for both sets, the logarithmic mean of their
+        own: of a profiled variance, n log(v / w) is n (v - w) over that mean, so that the blocks sum to the gain.
+        """
+        ratio = int(np.argmin(self.every[:, with_]))
+        v, w = (float(self.variance[ratio, k]) for k in (without, with_))
+        mean = w if np.isclose(v, w, rtol=1e-9) else (v - w) / float(np.log(v / w))
+        return np.asarray((self.left[ratio, without] ** 2 - self.left[ratio, with_] ** 2) / mean)
+
+
+def likelihoods(at: Thinned, columns: Array, order: int, noise: float) -> Likelihoods:
+    """Fit sets of columns to a channel with a smooth discrepancy and noise.
+
+    The variance is that of maximum likelihood, so that sets of different size are compared in any unit; restricted
+    likelihood, which takes the level and slope out, is for the ratio.
+
+    Args:
+        at: Readings, thinned.
+        columns: At every reading, shape (sets, columns, readings).
+        order: Of the discrepancy, see `Whitener`.
+        noise: Standard deviation of a reading that is stated or estimated: half of it is the least that is left.
+    """
+    rows = at.means(columns)
+    degrees = rows.shape[-1] - order
+    every, variances, kept = [], [], []
+    for ratio in RATIOS:
+        whitener = Whitener(at, float(ratio), order)
+        left = _left(whitener(at.values[None])[0], whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape))
+        squares = np.sum(left**2, axis=-1)
+        variance = np.maximum(squares / degrees, 0.25 * noise**2)
+        constant = whitener.log_determinant + whitener.log_trend
+        every.append(degrees * np.log(variance) + squares / variance + constant)
+        variances.append(variance)
+        kept.append(left)
+    return Likelihoods(np.min(every, axis=0), np.array(every), np.array(variances), np.array(kept))
+
+
+def _left(white: Array, columns: Array) -> Array:
+    """What each set of columns leaves of a whitened channel, shape (sets, blocks)."""
+    gram = columns @ np.swapaxes(columns, 1, 2)
+    size = np.sqrt(np.maximum(np.einsum("sii->si", gram), 1e-300))
+    gram = gram / (size[:, :, None] * size[:, None, :]) + 1e-9 * np.eye(columns.shape[1])
+    right = (columns @ white) / size
+    weights = np.linalg.solve(gram, right[..., None])[..., 0] / size
+    return np.asarray(white - np.einsum("sc,scb->sb", weights, columns))

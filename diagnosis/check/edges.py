@@ -12,12 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import poisson
 
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.clock_shift import asked, order, thinned
 from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener
+from diagnosis.check.quantiles import poisson_log
 from diagnosis.check.timing import critical, driver, listed, resolution
 from diagnosis.judge.diagnosis import Doubt
 
@@ -130,10 +130,10 @@ def _odds(compared: Compared, met: set[float], missed: list[float], extra: list[
     other = len(met) * np.log(chance) + len(missed) * np.log1p(-chance)
     switches = sorted([*met, *missed])
     own = len(met) * np.log1p(-MISSED) + _rows(switches, missed, extra) * np.log(MISSED)
-    own += float(poisson.logpmf(len(extra), EVENTS))
-    other += float(poisson.logpmf(len(extra), len(compared.switches())))
+    own += poisson_log(len(extra), EVENTS)
+    other += poisson_log(len(extra), len(compared.switches()))
     # or a programme of which some switches were moved: each with even odds
-    moved = len(switches) * np.log(0.5) + float(poisson.logpmf(len(extra), max(len(missed), 1)))
+    moved = len(switches) * np.log(0.5) + poisson_log(len(extra), max(len(missed), 1))
     both = float(np.logaddexp(other, moved)) - np.log(2.0)
     return float(np.exp(np.clip(both - own, -50.0, 50.0)))
 

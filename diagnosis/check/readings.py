@@ -9,11 +9,11 @@ from functools import cache
 from typing import cast
 
 import numpy as np
-from scipy.stats import chi2, norm, t
 
 from cosim.unit import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, explained
+from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.noise import estimate_noise, is_unresolved
 
@@ -86,7 +86,7 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     degrees = len(channel.values) / 3.0  # a bend takes three readings
     ratio = seen / stated
     tail = LEVEL / len(compared.channels)
-    least, most = chi2.isf(1.0 - tail, degrees), chi2.isf(tail, degrees)
+    least, most = chi_square_beyond(1.0 - tail, degrees), chi_square_beyond(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
     if not is_small and not degrees * (ratio / HONEST) ** 2 > most:
         return []
@@ -159,7 +159,7 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
     noise = max(
         channel.deviation if channel.is_deviation_given else measured_noise(beside), channel.quantum / np.sqrt(12.0)
     )
-    limit = float(norm.isf(LEVEL / (2.0 * len(values) * len(compared.channels)))) * np.sqrt(2.0)
+    limit = normal_beyond(LEVEL / (2.0 * len(values) * len(compared.channels))) * np.sqrt(2.0)
     low, high = float(np.min(values)), float(np.max(values))
     found = []
     for first, after in itertools.pairwise(edges):
@@ -268,13 +268,13 @@ def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
 @cache
 def _quantile(probability: float, tail: float) -> float:
     """Value that Student's t exceeds with a probability; asked for again with every channel."""
-    return float(t.isf(probability, tail))
+    return student_beyond(probability, tail)
 
 
 @cache
 def _log_height(tail: float) -> float:
     """Logarithm of the density of Student's t at 0."""
-    return float(t.logpdf(0.0, tail))
+    return student_log_height(tail)
 
 
 def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
@@ -307,8 +307,8 @@ def jumps(values: Array, noise: float, tests: float) -> list[Jump]:
         if degrees < WIDE - 1:
             continue
         own, size = float(np.std(around, ddof=1)), float(abs(sizes[i]))
-        is_rough = degrees * own**2 > float(chi2.isf(LEVEL, degrees)) * scatter**2
-        if is_rough and size <= float(t.isf(LEVEL / (2.0 * tests), degrees)) * own:
+        is_rough = degrees * own**2 > chi_square_beyond(LEVEL, degrees) * scatter**2
+        if is_rough and size <= student_beyond(LEVEL / (2.0 * tests), degrees) * own:
             continue
         # a wild reading goes and comes back: the level after the step is that before it
         after, before = values[i + 1 : i + 1 + SIDE], values[max(i + 1 - SIDE, 0) : i + 1]
@@ -355,7 +355,7 @@ def level_shifts(values: Array, noise: float, tests: float) -> list[Jump]:
     sizes = (means - 0.5 * width * slopes)[after] - (means + 0.5 * width * slopes)[before]
     deviation = noise * np.sqrt(2.0 * (1.0 / width + 0.25 * width**2 / float(index @ index)))
     limit = far(sizes, deviation, tests, width)
-    most = float(chi2.isf(LEVEL, width - 2))
+    most = chi_square_beyond(LEVEL, width - 2)
     sharp = np.abs(np.diff(values)[width - 1 : count - width] - sizes) < 0.5 * np.abs(sizes) + 3.0 * noise
     sharp &= _is_sudden(values, noise)
     good = (np.abs(sizes) > limit) & (left[before] < most) & (left[after] < most) & sharp
@@ -491,7 +491,7 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
     while left:
         first = left.pop(0)
         # both sizes are differences of two readings less means of neighbours
-        slack = float(norm.isf(LEVEL)) * noise * np.sqrt(2.0 * 2.0 * (1.0 + 1.0 / (2 * SIDE))) + 0.1 * abs(first.size)
+        slack = normal_beyond(LEVEL) * noise * np.sqrt(2.0 * 2.0 * (1.0 + 1.0 / (2 * SIDE))) + 0.1 * abs(first.size)
         back = next((j for j in left if abs(j.size + first.size) < slack), None)
         if back is not None:
             left.remove(back)
@@ -504,7 +504,7 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
             )
             remedy = "leave this stretch empty in the table, or correct it; look at plug and amplifier"
             found.append((text.replace("stand -", "stand "), remedy, begin, end, min(first.z, back.z)))
-        else:
+        elif min(first.index, len(channel.values) - first.index) >= SIDE:  # else wild readings at an end
             stays.append(first)
     if stays and is_body:
         worst = max(stays, key=lambda j: j.z)

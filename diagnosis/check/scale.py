@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
 
 from cosim.errors import InputError
 from cosim.quantity import conversion
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, Basis, Fit, basis, gain
+from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
@@ -121,7 +121,7 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
     channel = beside.channel
     as_is = _size(beside)
     worst = _score(as_is, channel.unit)
-    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 2))
+    limit = chi_square_beyond(LEVEL / max(len(compared.channels), 1), 2)
     # a channel that does not move is no question of its unit: a wire may have come off
     if worst <= limit or np.std(beside.measured) <= 3.0 * channel.deviation:
         return []
@@ -137,7 +137,7 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
         score = _score(_size(beside, factor, offset), channel.unit)
         if best is None or score < best[0]:
             best = score, unit
-    if best is None or best[0] > chi2.isf(0.05, 2) or worst - best[0] <= limit:
+    if best is None or best[0] > chi_square_beyond(0.05, 2) or worst - best[0] <= limit:
         return []
     measured, simulated = as_is.levels
     text = f"as `unit: {stated}` the readings span {as_is.ranges:.3g} times what is simulated"
@@ -164,7 +164,7 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
     if len(beside.pick) < 24:
         return []
     same, other = _signed(compared, beside)
-    limit = float(chi2.isf(LEVEL / max(len(compared.channels), 1), 1)) + (
+    limit = chi_square_beyond(LEVEL / max(len(compared.channels), 1), 1) + (
         0.0 if len(compared.switches()) else 2.0 * np.log(len(PACES))
     )
     found = gain(same, other)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import norm
 
 from cosim.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL
+from diagnosis.check.quantiles import normal_beyond
 from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
 from diagnosis.judge.diagnosis import Doubt
@@ -32,7 +32,7 @@ def start_doubts(compared: Compared) -> list[Doubt]:
     spread = max(stated, default=0.0)
     found = []
     members = [b for b in compared.channels.values() if b.channel.unit == "K" and b.simulated is not None]
-    limit = float(norm.isf(LEVEL / (2.0 * max(len(members), 1))))
+    limit = normal_beyond(LEVEL / (2.0 * max(len(members), 1)))
     usual = max(spread, RIG_START)
     for beside in members:
         if _is_driven_before(beside):

@@ -1,4 +1,8 @@
-"""Exchanged columns, coils or strings: does another assignment of channels to what was simulated explain better?"""
+"""Exchanged channels: does another assignment of channels to what was simulated explain better?
+
+Two exchanged columns of a table, two exchanged sensors and two elements whose drives are exchanged leave the same
+readings of one quantity. No data can tell them apart, so a doubt names all of them.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,12 @@ from diagnosis.judge.diagnosis import Doubt
 
 #: Share of a gain within which a bound of it is not trusted: it is computed in another order.
 SLACK = 1e-6
+#: What explains the same readings of one quantity, and the effect of the catalogue that does.
+WHICH = (
+    "Their columns in the recording are exchanged, or the sensors on the rig (wrong identity), or what drives these "
+    "elements: no reading of them tells which"
+)
+EXCHANGED = "wrong_identity"
 
 
 def swap_doubts(compared: Compared) -> list[Doubt]:
@@ -57,9 +67,12 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
         text = (
             f"{takes}: so exchanged, the simulation explains at least "
             f"{percent(fits[worst][columns[worst]].share)} of "
-            f"each, in place of {percent(fits[worst][worst].share)}"
+            f"each, in place of {percent(fits[worst][worst].share)}. {WHICH}"
         )
-        remedy = "are the columns, or the wires, exchanged? Correct `column` of these channels"
+        remedy = (
+            "look which of them are exchanged; `column` of these channels puts columns and sensors right, the scenario "
+            "what drives them"
+        )
         found.append(
             Doubt(
                 compared.recording.title,
@@ -71,6 +84,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
                 compared.begin,
                 compared.end,
                 float(np.sqrt(min(own))),
+                same_as=(EXCHANGED,) if len(cycle) == 2 else (),
             )
         )
     return found

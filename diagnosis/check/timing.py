@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.stats import chi2
 
 from cosim.components import nanoseconds
 from cosim.unit import Array
-from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import LEVEL, Fit, explained, gain
+from diagnosis.check.beside import Beside, Compared, direct
+from diagnosis.check.explain import LEVEL, Fit, design, explained, fit, gain
+from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
 
@@ -55,7 +55,7 @@ def critical(tests: float) -> float:
 
     Wilks' theorem with Bonferroni's correction; a median over channels exceeds it less often than one channel.
     """
-    return float(chi2.isf(LEVEL / tests, 1))
+    return chi_square_beyond(LEVEL / tests, 1)
 
 
 def leading(compared: Compared) -> list[Beside]:
@@ -211,6 +211,8 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
             best = found, float(shift), fits
     assert best is not None
     gained, shift, fits = best
+    if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
+        return []
     ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
     way = "later" if shift > 0 else "earlier"
     if abs(shift) < np.min(np.diff(ends)):
@@ -229,6 +231,14 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _direct_gain(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> float:
+    """What sensors gain that answer the inputs at once, beside their own course: their readings come early."""
+    with_inputs = [
+        fit(b.measured, design(b, b.times), b.tolerance, direct(compared, b.times).T) for b in leads
+    ]  # fmt: skip
+    return together(leads, own, np.array([gain(a, f) for a, f in zip(own, with_inputs)]))
 
 
 def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
@@ -309,7 +319,7 @@ def discrepant(found: Fit) -> float:
     """
     degrees = found.independent
     left = float(found.residual @ found.residual) / len(found.residual) / found.floor
-    return float(chi2.isf(max(chi2.sf(degrees * left, degrees), 1e-300), 1))
+    return chi_square_beyond(max(chi_square_tail(degrees * left, degrees), 1e-300), 1)
 
 
 def listed(instants: Sequence[float] | Array) -> str:

@@ -158,10 +158,22 @@ def accept(
     fitted = training.predict(current.fit.point, is_fitted=False)
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
-        gain(before, recalibrated, readings), agreement(after.residuals, readings),
+        gain(before, recalibrated, readings), _agreement(unfitted, current.fit.point, after, on_progress),
         agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
         agreement(recalibrated.residuals, readings), unfitted.basis, {t: judge.basis(is_local(t)) for t in gains},
     )  # fmt: skip
+
+
+def _agreement(
+    unfitted: Unfitted, point: Point, predicted: Predicted, on_progress: Callable[[str], None]
+) -> Agreement:  # fmt: skip
+    """Of a fit with unfitted readings; where noise alone rejects it, within the error of what was fitted."""
+    found = agreement(predicted.residuals, unfitted.readings)
+    if not found.is_rejected:
+        return found
+    on_progress("asking whether the error of the fitted parameters explains what is left")
+    tested = unfitted.tested(point, predicted)
+    return agreement(predicted.residuals, unfitted.readings, tested)
 
 
 def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Term) -> Explanation:
@@ -180,10 +192,10 @@ def _most_probable(judge: _Judge, outcome: Outcome) -> tuple[Explanation, tuple[
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.terms) != set(best.terms)]
     near = sorted((e for e in others if e.demerit < best.demerit + BEHIND), key=lambda e: e.demerit)[:RIVALS]
     readings = judge.unfitted.readings
-    base = judge.predict(outcome.base.point)
-    found = []
-    for explanation in (best, *near):
-        there = gain(base, judge.predict(explanation.fit.point), readings)
+    reference = judge.predict(best.fit.point)
+    found = [(best, best.demerit)]
+    for explanation in near:  # against the best: what all of them gain over the base says nothing about their order
+        there = gain(reference, judge.predict(explanation.fit.point), readings)
         found.append((explanation, explanation.demerit - there.total / there.doubt**2))
     known = {id(e) for e in near}
     far = [e for e in others if id(e) not in known]

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.agreement import Agreement
-from diagnosis.judge.diagnosis import Adequacy, Left, Moved
+from diagnosis.judge.diagnosis import Adequacy, Left, Met, Moved
+from diagnosis.judge.held_out import root_mean_square
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.search.problem import Parameter
 from diagnosis.search.shares import of_title
+from diagnosis.simulator.runs import deviation
 
 #: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
@@ -63,24 +65,42 @@ def adequacy(
         is_irregular=now.is_irregular if now.is_rejected else accepted.training.is_irregular,
         is_recalibrated=is_recalibrated,
         has_scatter=has_scatter,
+        met=met(accepted.after, readings),
+        needs_parameter_error=now.needs_parameter_error,
     )
+
+
+def met(predicted: Predicted, readings: Readings) -> tuple[Met, ...]:
+    """How each channel is met, wild readings counted, the numbers of the day as they were estimated.
+
+    Args:
+        predicted: Of the accepted model.
+        readings: What it predicted.
+    """
+    found = []
+    for number, channel in enumerate(readings.channels):
+        own = predicted.residuals[readings.channel == number]
+        if len(own):
+            rmse = deviation(channel) * root_mean_square(own)
+            found.append(Met(readings.titles[readings.of_channel[number]], channel.name, channel.unit, rmse, len(own)))
+    return tuple(found)
 
 
 def moved_day(
     predicted: Predicted, parameters: Sequence[Parameter], titles: Sequence[str] = ()
 ) -> tuple[Moved, ...]:  # fmt: skip
-    """Numbers of the day that were moved by more than `TOLD` of what is usual: name to how far.
+    """Numbers of the day that are taken to be farther from what is written down than `TOLD` of what is usual.
 
     Args:
         predicted: Of the accepted model.
         parameters: Of the model that judges.
         titles: Of its recordings, in their order: a number says nothing to who gave recordings of two kinds.
     """
-    usual = {p.name: p for p in parameters}
+    units = {p.name: p.unit for p in parameters}
     return tuple(
-        Moved(of_title(name, titles), usual[name].unit, moved, False, moved / usual[name].deviation)
-        for name, moved in predicted.day.items()
-        if abs(moved) > TOLD * usual[name].deviation
+        Moved(of_title(name, titles), units[name], amount, False, far)
+        for name, (amount, far) in predicted.day.items()
+        if abs(far) > TOLD
     )
 
 

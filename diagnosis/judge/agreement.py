@@ -1,4 +1,4 @@
-"""Whether readings reject a model, by the noise of their sensors.
+"""Whether readings reject a model, by the noise of their sensors and the error of what was fitted.
 
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
 Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
@@ -13,6 +13,7 @@ import numpy as np
 from scipy.special import chdtr, chdtri
 
 from cosim.unit import Array
+from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings
 from diagnosis.simulator.runs import ZERO, deviation
 
@@ -22,6 +23,8 @@ LEVEL = 0.001
 QUANTILE = 3.09
 #: Standard normal quantile of 99 %, by which von Neumann's ratio of white residuals may be below 1.
 WHITE = 2.33
+#: Deviations by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
+ALONE = 5.0
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
 
@@ -41,6 +44,9 @@ class ChannelAgreement:
         samples: Readings that count.
         scatter: Root mean square of what is left as far as it changes from one reading to the next, as white noise does
             [unit]; `rmse` where there is a single reading.
+        lasting: Root mean square of what is left without readings that stand out alone [unit]; `rmse` if none does.
+        tested: Chi-square per reading that is compared with the limit, where that is another: with what the error of
+            fitted numbers explains, and its price, see `diagnosis.judge.parameter_error`.
     """
 
     channel: str
@@ -52,20 +58,29 @@ class ChannelAgreement:
     limit: float
     samples: int
     scatter: float = 0.0
+    lasting: float | None = None
+    tested: float | None = None
+
+    @property
+    def statistic(self) -> float:
+        """Chi-square per reading that is compared with the limit."""
+        return self.chi_square if self.tested is None else self.tested
 
     @property
     def is_rejected(self) -> bool:
-        """Whether noise does not explain what is left."""
-        return self.chi_square > self.limit
+        """Whether noise, and the error of fitted numbers where that was asked, do not explain what is left."""
+        return self.statistic > self.limit
 
     @property
     def is_irregular(self) -> bool:
         """Whether what is left is as white as noise: neighbouring residuals differ by as much as any two of them.
 
         Von Neumann's ratio of n white residuals scatters by 1 / sqrt(n) about 1. An error of the model that lasts for
-        several readings lowers it: successive differences leave it out.
+        several readings lowers it: successive differences leave it out. Readings that stand out alone, too few or too
+        near to be set aside as wild, are no such error.
         """
-        return self.scatter**2 >= (1.0 - WHITE / math.sqrt(max(self.samples, 1))) * self.rmse**2
+        lasting = self.rmse if self.lasting is None else self.lasting
+        return self.scatter**2 >= (1.0 - WHITE / math.sqrt(max(self.samples, 1))) * lasting**2
 
     @property
     def multiple(self) -> float:
@@ -83,6 +98,7 @@ class Agreement:
         samples: Readings that count.
         wild: Single wild readings that do not count.
         channels: Each one.
+        tested: See `ChannelAgreement`.
     """
 
     chi_square: float
@@ -90,6 +106,7 @@ class Agreement:
     samples: int
     wild: int
     channels: tuple[ChannelAgreement, ...]
+    tested: float | None = None
 
     @property
     def is_irregular(self) -> bool:
@@ -100,12 +117,23 @@ class Agreement:
     @property
     def is_rejected(self) -> bool:
         """Whether the readings reject the model."""
-        return self.chi_square > self.limit or any(c.is_rejected for c in self.channels)
+        return self.statistic > self.limit or any(c.is_rejected for c in self.channels)
+
+    @property
+    def statistic(self) -> float:
+        """Chi-square per reading that is compared with the limit."""
+        return self.chi_square if self.tested is None else self.tested
+
+    @property
+    def needs_parameter_error(self) -> bool:
+        """Whether noise alone does not explain what is left, but noise and the error of fitted numbers do."""
+        by_noise = self.chi_square > self.limit or any(c.chi_square > c.limit for c in self.channels)
+        return by_noise and not self.is_rejected
 
     @property
     def worst(self) -> ChannelAgreement | None:
-        """The channel that is met worst, by its noise."""
-        return max(self.channels, key=lambda c: c.chi_square / c.limit, default=None)
+        """The channel that is met worst, by what the test compares."""
+        return max(self.channels, key=lambda c: c.statistic / c.limit, default=None)
 
     @property
     def excess(self) -> float:
@@ -131,7 +159,17 @@ def _scatter(own: Array) -> float:
     return float(np.sqrt(0.5 * np.mean(kept) / part))
 
 
-def agreement(residuals: Array, readings: Readings) -> Agreement:
+def _lasting(own: Array, scatter: float) -> float:
+    """Root mean square without residuals that stand out from both neighbours to one side, by `ALONE` of the scatter."""
+    if len(own) < 3:
+        return float(np.sqrt(np.mean(own**2)))
+    before, after = own[1:-1] - own[:-2], own[1:-1] - own[2:]
+    is_alone = np.zeros(len(own), dtype=bool)
+    is_alone[1:-1] = (np.minimum(np.abs(before), np.abs(after)) > ALONE * scatter) & (before * after > 0.0)
+    return float(np.sqrt(np.mean(own[~is_alone] ** 2)))
+
+
+def agreement(residuals: Array, readings: Readings, tested: Tested | None = None) -> Agreement:
     """Compare residuals with the noise.
 
     The zero of a channel is known to `ZERO` of its noise; a noise that was estimated has an error of its own.
@@ -139,6 +177,8 @@ def agreement(residuals: Array, readings: Readings) -> Agreement:
     Args:
         residuals: In deviations of the noise, shape (readings,).
         readings: What they belong to.
+        tested: What is left where fitted numbers may move within their own error; it is compared with the limits, and
+            everything else is of the residuals.
     """
     counted = ~readings.is_wild
     numbers = [n for n in range(len(readings.channels)) if np.any(counted & (readings.channel == n))]
@@ -150,12 +190,13 @@ def agreement(residuals: Array, readings: Readings) -> Agreement:
         total = float(own @ own - unknown / (1.0 + count * unknown) * own.sum() ** 2)
         own_error = 0.0 if channel.is_deviation_given else NOISE_ERROR / np.sqrt(count)
         limit = float(chdtri(count, LEVEL / len(numbers))) / count * (1.0 + 2.0 * QUANTILE * own_error)
-        noise = deviation(channel)
+        noise, scatter = deviation(channel), _scatter(own)
         found.append(
             ChannelAgreement(
                 channel.name, readings.titles[readings.of_channel[n]], channel.unit,
                 noise * float(np.sqrt(np.mean(own**2))), noise, total / count, limit, count,
-                noise * _scatter(own),
+                noise * scatter, noise * _lasting(own, scatter),
+                None if tested is None else float(tested.channels[n]) / count,
             )
         )  # fmt: skip
         squares += total
@@ -164,4 +205,7 @@ def agreement(residuals: Array, readings: Readings) -> Agreement:
     if not samples:
         return Agreement(0.0, 1.0, 0, int(readings.is_wild.sum()), ())
     limit = float(chdtri(samples, LEVEL)) / samples + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
-    return Agreement(squares / samples, limit, samples, int(readings.is_wild.sum()), tuple(found))
+    return Agreement(
+        squares / samples, limit, samples, int(readings.is_wild.sum()), tuple(found),
+        None if tested is None else tested.total / samples,
+    )  # fmt: skip

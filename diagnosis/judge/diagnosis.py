@@ -137,6 +137,7 @@ class Finding:
         members: Other laws and places whose predictions of all readings, training and held out, differ from its own by
             less than odds of 20 to 1 ask for, whether or not the search fitted them: it is one of this class.
         judged_by: Which readings these are, in plain words; of a fault of one recording other readings of that one.
+        is_of_either: Whether its class holds laws of the rig beside laws of sensors or inputs: it accuses neither.
     """
 
     unit: str
@@ -161,6 +162,7 @@ class Finding:
     held_out_gain: float = math.nan
     members: tuple[Member, ...] = ()
     judged_by: str = ""
+    is_of_either: bool = False
 
     @property
     def places(self) -> str:
@@ -189,8 +191,10 @@ class Doubt:
         begin: Begin of the stretch concerned [s]; that of the recording where it is all of it.
         end: End of the stretch [s].
         z: Size of the evidence in deviations of the noise.
-        is_far: Whether a start is farther off than the start of any day may be moved.
+        is_far: Whether a start is farther off than the start of any day may be moved, or a response so late that no
+            lag explains it.
         stretches: Where it is of an input: every interval in which recorded input and programme differ [s].
+        same_as: Effects of the catalogue that leave the same readings: no data can tell them from it.
     """
 
     recording: str
@@ -204,6 +208,7 @@ class Doubt:
     z: float
     is_far: bool = False
     stretches: tuple[tuple[float, float], ...] = ()
+    same_as: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -340,6 +345,25 @@ class Left:
 
 
 @dataclass(frozen=True)
+class Met:
+    """How the model meets one channel of one recording, every reading counted, wild ones too.
+
+    Args:
+        recording: Its title.
+        channel: Name.
+        unit: SI unit.
+        rmse: Root mean square of measured minus predicted [unit], with the numbers of the day as they were estimated.
+        samples: Readings.
+    """
+
+    recording: str
+    channel: str
+    unit: str
+    rmse: float
+    samples: int
+
+
+@dataclass(frozen=True)
 class Moved:
     """A number that is taken to be another than was written down.
 
@@ -364,7 +388,7 @@ class Adequacy:
 
     Args:
         basis: Which readings: `held-out recordings`, or stretches of the training that were left out of fits.
-        is_rejected: Whether the readings reject the model, by the noise of the sensors.
+        is_rejected: Whether the readings reject the model, by the noise of the sensors and the error of fitted numbers.
         chi_square: Per reading, by stage; single wild readings left out, the day's own numbers estimated.
         limit: Noise alone exceeds it in one of a thousand diagnoses.
         explained: Share of the mismatch of the scenario as it is (its squares beyond the noise) that is gone, at most
@@ -382,6 +406,10 @@ class Adequacy:
             alone, as a noise does that is larger than stated.
         is_recalibrated: Whether the model has any number that could be fitted.
         has_scatter: Whether the noise holds what the simulation scatters by itself (contacts), beside the sensors'.
+        met: How each channel is met by all readings of the basis: who knows the truth can tell by it how far the model
+            is off, whatever was set aside here.
+        needs_parameter_error: Whether noise alone would reject the model, and noise with the error of the fitted
+            parameters does not.
     """
 
     basis: str
@@ -401,6 +429,8 @@ class Adequacy:
     is_irregular: bool = False
     is_recalibrated: bool = True
     has_scatter: bool = False
+    met: tuple[Met, ...] = ()
+    needs_parameter_error: bool = False
 
 
 @dataclass(frozen=True)

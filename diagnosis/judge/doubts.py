@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.judge.diagnosis import Doubt, Finding
+from diagnosis.judge.diagnosis import Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
 MEASURED = ("measurement", "input")
@@ -17,6 +17,8 @@ _HARDLY = (
     "so many sensors and inputs are hardly at fault at once: look at the programme, the columns and the clock of this "
     "recording first"
 )
+#: Kind of doubt to what has to be done about it before physics can be told; all others are faults.
+_FIRST = {"start": "the start has to be stated", "dead time": "the times have to be checked"}
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
 OF_A_STRETCH = ("sensor", "input")
 
@@ -27,7 +29,12 @@ def is_of_another_experiment(doubt: Doubt) -> bool:
 
 
 def of_another_experiment(doubts: Sequence[Doubt]) -> list[Doubt]:
-    """Doubts by which recordings and scenario are not of the same experiment.
+    """Doubts by which recordings and scenario are not of the same experiment."""
+    return [d for d in doubts if is_of_another_experiment(d)]
+
+
+def without_consequences(doubts: Sequence[Doubt]) -> list[Doubt]:
+    """Doubts without those that a fault of a sensor explains.
 
     A sensor that stands still and catches up moves when no programme does: where a serious fault of a sensor was seen
     in a recording, that its readings change beside the programme says nothing more.
@@ -36,7 +43,17 @@ def of_another_experiment(doubts: Sequence[Doubt]) -> list[Doubt]:
         doubts: About all recordings.
     """
     faulty = {d.recording for d in faults(doubts)}
-    return [d for d in doubts if is_of_another_experiment(d) and not (d.kind == "programme" and d.recording in faulty)]
+    return [d for d in doubts if not (d.kind == "programme" and d.recording in faulty)]
+
+
+def is_physics(finding: Finding) -> bool:
+    """Whether a finding is of the rig, and no law of its class of a sensor or an input."""
+    return finding.unit not in MEASURED and not finding.is_of_either
+
+
+def accuses(finding: Finding) -> bool:
+    """Whether a finding, of a sensor or an input, blames it: it has a name, and no law of the rig does the same."""
+    return finding.standing is not Standing.UNNAMED and not finding.is_of_either
 
 
 def is_of_an_interval(finding: Finding) -> bool:
@@ -54,10 +71,16 @@ def far_starts(doubts: Sequence[Doubt]) -> list[Doubt]:
     return [d for d in doubts if d.kind == "start" and d.is_far]
 
 
+def late_responses(doubts: Sequence[Doubt]) -> list[Doubt]:
+    """Doubts about recordings whose response comes later than their programme, by a clock or by the rig itself."""
+    return [d for d in doubts if d.kind == "dead time" and d.is_far]
+
+
 def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Finding, ...]:
     """Findings, some as suggestions: physics beside a fault or start that no finding explains, too many faults at once.
 
-    A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does.
+    A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does;
+    a clock that is late looks like a lag.
 
     Args:
         findings: Of a search.
@@ -65,10 +88,11 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
     """
     told = _one_cause(findings)
     accepted = [f for f in told if f.is_accepted and f.unit in MEASURED]
-    left = [d for d in (*faults(doubts), *far_starts(doubts)) if not any(_is_explained(d, f) for f in accepted)]
+    open_ones = (*faults(doubts), *far_starts(doubts), *late_responses(doubts))
+    left = [d for d in open_ones if not any(_is_explained(d, f) for f in accepted)]
     if not left:
         return told
-    what = "the start has to be stated" if left[0].is_far else "the fault has to be cleared"
+    what = _FIRST.get(left[0].kind, "the fault has to be cleared")
     why = f"first {what}: {left[0].recording}, {left[0].subject}: {left[0].statement.rstrip('.')}"
     return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Standing, Verdict
-from diagnosis.judge.doubts import MEASURED, faults, of_another_experiment
+from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
+from diagnosis.judge.doubts import accuses, faults, is_physics, of_another_experiment
 from diagnosis.report.display import clean, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
 
@@ -32,16 +32,16 @@ def headline(
         units: In which quantities are shown.
     """
     if verdict is Verdict.RECORDING_FAULT:
-        serious = [d.statement.rstrip(".") for d in of_another_experiment(doubts)]
-        return f"The recording and the scenario are not of the same experiment: {'; '.join(serious[:2])}."
-    physics = _listed([f for f in found if f.is_accepted and f.unit not in MEASURED])
-    at_fault = [f for f in found if f.is_accepted and f.unit in MEASURED]
-    measured = _listed([f for f in at_fault if f.standing is not Standing.UNNAMED])
-    described = _listed([f for f in at_fault if f.standing is Standing.UNNAMED])
+        return _not_comparable(of_another_experiment(doubts))
+    physics = _listed([f for f in found if f.is_accepted and is_physics(f)])
+    at_fault = [f for f in found if f.is_accepted and not is_physics(f)]
+    measured = _listed([f for f in at_fault if accuses(f)])
+    described = _listed([f for f in at_fault if not accuses(f)])
     suggested = _listed([f for f in found if not f.is_accepted])
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
-        Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within {_noise(adequacy)}.",
+        Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within "
+        f"{_noise(adequacy, is_fitted=False)}.",
         Verdict.RECALIBRATED: f"The model agrees with the {_basis(adequacy)} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
         Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(measured, doubts)}.",
@@ -63,6 +63,22 @@ def headline(
     return " ".join(parts)
 
 
+def _not_comparable(serious: Sequence[Doubt]) -> str:
+    """Why nothing was fitted. Exchanged sensors are of the same experiment, and readings do not tell them apart."""
+    exchanged = all(d.kind == "swapped" for d in serious)
+    what = "Channels are exchanged" if exchanged else "The recording and the scenario are not of the same experiment"
+    kinds = list(dict.fromkeys(d.kind for d in serious))[: 1 if exchanged else 2]
+    return f"{what}: {'; '.join(_once([d for d in serious if d.kind == k]) for k in kinds)}."
+
+
+def _once(alike: Sequence[Doubt]) -> str:
+    """The first of several doubts of one kind, and how many other recordings raise it too."""
+    others = len({d.recording for d in alike} - {alike[0].recording})
+    which = "1 more recording raises" if others == 1 else f"{others} more recordings raise"
+    more = f" ({which} a doubt of this kind)" if others else ""
+    return alike[0].statement.rstrip(".") + more
+
+
 def _listed(found: Sequence[Finding]) -> str:
     """Statements of findings; of many the first ones."""
     more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
@@ -79,9 +95,11 @@ def _basis(adequacy: Adequacy) -> str:
     return f"{adequacy.basis}," if "," in adequacy.basis else adequacy.basis
 
 
-def _noise(adequacy: Adequacy) -> str:
+def _noise(adequacy: Adequacy, is_fitted: bool = True) -> str:
+    """What the readings agree within; of a model as it is no number was fitted."""
     noise = "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
-    return f"{noise} and the scatter of the contacts" if adequacy.has_scatter else noise
+    noise += " and the scatter of the contacts" if adequacy.has_scatter else ""
+    return f"{noise} and the error of the fitted parameters" if is_fitted and adequacy.needs_parameter_error else noise
 
 
 def _model(adequacy: Adequacy, is_amended: bool, has_fault: bool) -> str:
@@ -118,6 +136,7 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
     elif adequacy.explained < 0.0:
         text = f"{name} predicts the {_basis(adequacy)} worse"
         text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
+        text += f"; what is left is not more than {noise}" if is_met else ""
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
         share = "100 %" if is_whole else _percent(adequacy.explained)
@@ -139,7 +158,10 @@ def _percent(share: float) -> str:
 def _cause(adequacy: Adequacy, has_more: bool) -> str:
     """Why something stays."""
     if adequacy.is_irregular:
-        return "as much as it changes from one reading to the next, so that noise is larger than it is taken to be"
+        return (
+            "as much as it changes from one reading to the next: noise is larger than it is taken to be, or single "
+            "readings are wild"
+        )
     return f"something {'else ' if has_more else ''}is missing or wrong"
 
 

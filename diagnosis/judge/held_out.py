@@ -35,7 +35,8 @@ def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -
     known = {p.name: (z, p.deviation) for p, z in zip(trained.parameters, point.base) if is_carried(p.name)}
     found = [(p, *known.get(p.name, (0.0, 1.0))) for p in other.parameters]
     base = np.array([z * (deviation / p.deviation) for p, z, deviation in found])
-    same = {str(t): t for t in other.terms()}
+    wanted = {t.identifier for t in point.terms}  # a rig of 36 coils has thousands of terms
+    same = {str(t): t for t in other.terms() if t.identifier in wanted} if wanted else {}
     return Point(base, {same[str(t)]: v for t, v in point.terms.items() if str(t) in same})
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from cosim.unit import Array
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.faults.law import INPUT
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import (
     Adequacy,
@@ -23,7 +24,7 @@ from diagnosis.judge.diagnosis import (
     Verdict,
     class_places,
 )
-from diagnosis.judge.doubts import MEASURED, far_starts, faults
+from diagnosis.judge.doubts import MEASURED, accuses, far_starts, faults, is_physics, late_responses
 from diagnosis.judge.events import between_samples, event_of, local_estimates, since
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
@@ -76,7 +77,7 @@ def verdict(
         doubts: About the recordings.
     """
     accepted = [f for f in found if f.is_accepted]
-    physics = [f for f in accepted if f.unit not in MEASURED]
+    physics = [f for f in accepted if is_physics(f)]
     if physics:
         is_named = any(f.standing is not Standing.UNNAMED for f in physics)
         return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
@@ -89,11 +90,12 @@ def verdict(
 
 
 def is_stopgap(measured: Sequence[Finding]) -> bool:
-    """Whether accepted laws of sensors and inputs only fill a gap of the model: none has a name.
+    """Whether accepted laws of sensors and inputs only fill a gap of the model: none has a name of its own.
 
-    An offset, a gain or a box in time brings a wrong model nearer to any readings. That alone accuses no sensor.
+    An offset, a gain or a box in time brings a wrong model nearer to any readings. That alone accuses no sensor; nor
+    does a law that a law of the rig may replace.
     """
-    return all(f.standing is Standing.UNNAMED for f in measured)
+    return not any(accuses(f) for f in measured)
 
 
 def why_open(
@@ -102,9 +104,9 @@ def why_open(
     """Why it cannot be told whether something is missing, where no physics is accepted; empty if the model agrees."""
     if far_starts(doubts):
         return (_start(far_starts(doubts)[0]),)
-    reasons = []
-    if any(f.is_accepted and f.standing is Standing.UNNAMED and f.unit in MEASURED for f in found):
-        reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
+    if late := late_responses(doubts):
+        return (f"{late[0].recording}: {late[0].statement.rstrip('.')}",)
+    reasons = _open_ones(found)
     if not searched.has_physics:
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
@@ -118,7 +120,7 @@ def why_open(
     is_open = adequacy.is_rejected or adequacy.is_training_rejected
     if not is_open and abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
         reasons.append("residuals of the training recordings are alike for longer than noise is")
-    if adequacy.is_recalibration_worse:
+    if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
     strained = int(np.sum(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED))
     if strained:
@@ -127,16 +129,27 @@ def why_open(
     return tuple(reasons)
 
 
+def _open_ones(found: Sequence[Finding]) -> list[str]:
+    """Accepted laws that may be of the rig as well as of a sensor or an input."""
+    accepted, reasons = [f for f in found if f.is_accepted], []
+    if any(f.standing is Standing.UNNAMED and f.unit in MEASURED for f in accepted):
+        reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
+    if any(f.is_of_either for f in accepted):
+        reasons.append("what improves the prediction may be of the rig as well as of a sensor or an input")
+    return reasons
+
+
 def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
     """How the readings reject the model, if they do."""
     if not (adequacy.is_rejected or adequacy.is_training_rejected):
         return []
+    which = "readings" if adequacy.is_rejected else "training readings"
     if adequacy.is_irregular:
         return [
-            "the readings reject the model by the noise that was stated or estimated, but what is left scatters from "
-            "one reading to the next, as a larger noise does"
+            f"the {which} reject the model by the noise that was stated or estimated, but what is left scatters from "
+            "one reading to the next, as a larger noise or single wild readings do"
         ]
-    return [f"the {'' if adequacy.is_rejected else 'training '}readings reject the model{unexplained}"]
+    return [f"the {which} reject the model{unexplained}"]
 
 
 def _start(doubt: Doubt) -> str:
@@ -229,6 +242,8 @@ def _finding(
         doubts = (*doubts, unknown) if unknown else doubts
     if not is_small(accepted):
         doubts = (*doubts, _much_left(accepted))
+    if term.identifier == INPUT.identifier and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
+        doubts = (*doubts, _elsewhere(accepted))
     standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:
@@ -259,7 +274,16 @@ def _finding(
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
         judged_by=accepted.judged_by.get(term, accepted.basis),
+        is_of_either=_is_of_either(model, term, likely),
     )
+
+
+def _is_of_either(model: DiagnosisModel, term: Term, likely: Sequence[str]) -> bool:
+    """Whether a finding may be of the rig as well as of a sensor or an input, by the effects of its class."""
+    if not likely:  # a rig of 36 coils has thousands of terms
+        return False
+    units = {t.identifier: t.unit for t in model.terms()}
+    return len({units.get(e, term.unit) in MEASURED for e in (term.identifier, *likely)}) > 1
 
 
 def _class_of(term: Term, members: Sequence[Member], rivals: Sequence[str]) -> tuple[str, ...]:
@@ -291,6 +315,16 @@ def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
 def _measured(model: DiagnosisModel) -> set[str]:
     """Quantities that were recorded."""
     return {s.channel.target.quantity for run in model.runs for s in run.series}
+
+
+def _elsewhere(accepted: Accepted) -> str:
+    """Why a fault of an input has no name while readings that judge the whole model reject it.
+
+    What it does in its interval a law of the rig does too, where the rig is in a state that the law needs, and readings
+    of its own recording cannot tell them apart. A fault leaves nothing in other recordings, a law leaves as much there
+    wherever that state comes again.
+    """
+    return f"the {accepted.basis} reject the model with it: a law that acts there may be what it stands for"
 
 
 def _much_left(accepted: Accepted) -> str:

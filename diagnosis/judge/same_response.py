@@ -9,6 +9,7 @@ than odds of 20 to 1 ask for, on all readings together, training and held out, i
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -49,6 +50,7 @@ def same_response(
         return ()
     seen = _seen(model, point, term)
     own = _rows(model, [point, point.without(term)], seen)
+    held = _HeldOut(judge, model, point)
     if float(np.sum((own[1] - own[0]) ** 2)) < APART:
         return ()  # its own response does not show: everything small would be like it
     others = [
@@ -62,7 +64,8 @@ def same_response(
         if values is None or implausible(other, values):
             continue
         there = point.without(term).plus(other, values)
-        if _distance(model, point, there, seen) + _held_out(judge, model, point, there) < APART:
+        training = float(np.sum((own[0] - _rows(model, [there], seen)[0]) ** 2))
+        if training < APART and training + held.distance(there) < APART:
             found.append(Member(other.identifier, model.where(other)[1].label, other.is_named))
     return tuple(found)
 
@@ -105,7 +108,9 @@ def _likely(model: DiagnosisModel, point: Point, term: Term, others: Sequence[Te
     inner, without = untempered(model), point.without(term)
     here = np.asarray(inner.residuals([without])[0])
     response = np.asarray(inner.residuals([point])[0]) - here
-    slopes = np.nan_to_num(np.asarray(strength_slopes(inner, without, here, tasks), dtype=np.float64))
+    slopes = np.asarray(strength_slopes(inner, without, here, tasks), dtype=np.float64)
+    slopes = np.where(np.isfinite(slopes).all(axis=1, keepdims=True), slopes, 0.0)  # a law that runs away is like none
+    slopes /= np.maximum(np.max(np.abs(slopes), axis=1, keepdims=True), 1e-300)  # squares overflow else
     sizes = np.maximum(np.sum(slopes**2, axis=1) * np.sum(response**2), 1e-300)
     like = (slopes @ response) ** 2 / sizes
     ranked = [n for n in np.argsort(-like).tolist() if like[n] > LIKE][:MOST]
@@ -182,11 +187,6 @@ def _seen(model: DiagnosisModel, point: Point, term: Term) -> Array:
     return seen
 
 
-def _distance(model: DiagnosisModel, one: Point, other: Point, seen: Array) -> float:
-    first, second = _rows(model, [one, other], seen)
-    return float(np.sum((first - second) ** 2))
-
-
 def _rows(model: DiagnosisModel, points: Sequence[Point], seen: Array) -> Array:
     """(measured - simulated) / noise, 0 where a reading does not count, shape (points, readings).
 
@@ -201,7 +201,26 @@ def _used(model: DiagnosisModel) -> Array:
     return np.concatenate([s.used for run in model.runs for s in run.series]).astype(np.float64)
 
 
-def _held_out(judge: DiagnosisModel | None, model: DiagnosisModel, one: Point, other: Point) -> float:
-    if judge is None:
-        return 0.0
-    return _distance(judge, carried_over(one, model, judge), carried_over(other, model, judge), _used(judge))
+class _HeldOut:
+    """How far held-out readings lie from those of a fit.
+
+    Args:
+        judge: Model of the held-out recordings; None where there are none.
+        model: Model of the training recordings.
+        point: The fit.
+    """
+
+    def __init__(self, judge: DiagnosisModel | None, model: DiagnosisModel, point: Point) -> None:
+        self._judge, self._model, self._point = judge, model, point
+
+    @cached_property
+    def _own(self) -> Array:
+        return self._rows_at(self._point)
+
+    def _rows_at(self, point: Point) -> Array:
+        assert self._judge is not None
+        return np.asarray(_rows(self._judge, [carried_over(point, self._model, self._judge)], _used(self._judge))[0])
+
+    def distance(self, other: Point) -> float:
+        """Sum of squared differences at another point, in deviations of the noise; 0 without held-out recordings."""
+        return 0.0 if self._judge is None else float(np.sum((self._own - self._rows_at(other)) ** 2))

@@ -16,11 +16,13 @@ from cosim.unit import AnyArray, Array
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.own_numbers import own_numbers
+from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Point
+from diagnosis.search.shares import departures
 from diagnosis.search.validation import blocks
 from diagnosis.simulator.masked import MaskedModel
 from diagnosis.simulator.models import DiagnosisModel, RecordedRun
@@ -127,13 +129,16 @@ class Predicted:
             noise, shape (readings,).
         plain: The same with the room and the start as they are written down.
         prior: Squares of the day's numbers in prior deviations, summed: the price of that estimate.
-        day: Name of each number of the day to how far it was moved, in its own unit.
+        day: Name of each number of the day to how far it is from what is written down, in its own unit and in
+            deviations: what all recordings share of it counts too.
+        points: By which each part of the readings was predicted; one where they are no parts.
     """
 
     residuals: Array
     plain: Array
     prior: float = 0.0
-    day: Mapping[str, float] = field(default_factory=dict)
+    day: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    points: tuple[Point, ...] = ()
 
 
 class Unfitted(Protocol):
@@ -151,6 +156,15 @@ class Unfitted(Protocol):
         """
         ...
 
+    def tested(self, point: Point, predicted: Predicted) -> Tested | None:
+        """What the readings leave where fitted numbers may move within their own error; None where none can be moved.
+
+        Args:
+            point: A fit of the training model.
+            predicted: What it predicts.
+        """
+        ...
+
 
 def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
     """(measured - simulated) / noise of every reading, run by run, channel by channel; clipped where not finite."""
@@ -161,6 +175,29 @@ def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
             rows.append((measured - values) / deviation(series.channel))
     found = np.concatenate(rows)
     return _finite(found)
+
+
+def _can_be_moved(model: DiagnosisModel) -> bool:
+    """Whether derivatives of its readings are known: not where each simulation takes minutes, or bins are fitted."""
+    count = sum(len(s.samples) for run in model.runs for s in run.series)
+    return bool(getattr(model, "can_be_fitted", True)) and count == len(model.layout.time)
+
+
+def _tested(model: DiagnosisModel, readings: Readings, kept: AnyArray, may: Freedom, columns: Array) -> Tested:
+    """See `diagnosis.judge.parameter_error.tested`.
+
+    Args:
+        model: The model that predicts.
+        readings: Its readings.
+        kept: Which of them judge, shape (readings,).
+        may: How its numbers may move.
+        columns: Derivatives of all its residuals, shape (residuals, k).
+    """
+    chosen = readings.chosen[kept]
+    has_zero = np.array([c.bias_bound == 0.0 for c in readings.channels])
+    return tested(
+        may, columns[chosen], lambda point: raw_residuals(model, point)[chosen], readings.channel[kept], has_zero
+    )
 
 
 def _finite(residuals: Array) -> Array:
@@ -194,16 +231,34 @@ class HeldOutReadings:
         if self._has_beginning:
             carried = begun(self._judge, self._trained, {"": carried}, self._recordings)[1][""]
             residuals = raw_residuals(self._judge, carried)[self.readings.chosen]
-            return Predicted(residuals, residuals)
+            return Predicted(residuals, residuals, points=(carried,))
         plain = raw_residuals(self._judge, carried)[self.readings.chosen]
         if not self._own:
-            return Predicted(plain, plain)
+            return Predicted(plain, plain, points=(carried,))
         found = self._with_day(carried)
         z = found.base[self._own]
-        moved = {self._judge.parameters[i].name: self._judge.parameters[i].deviation * float(v)
-                 for i, v in zip(self._own, z)}  # fmt: skip
+        names, deviations = zip(*((p.name, p.deviation) for p in self._judge.parameters))
+        whole = departures(names, np.array(deviations), found.base)
+        moved = {names[i]: whole[names[i]] for i in self._own if names[i] in whole}
         residuals = raw_residuals(self._judge, found)[self.readings.chosen]
-        return Predicted(residuals, plain, float(z @ z), moved)
+        return Predicted(residuals, plain, float(z @ z), moved, (carried,))
+
+    def tested(self, point: Point, predicted: Predicted) -> Tested | None:
+        """See `Unfitted`; the numbers of the day are part of the move, from where they are written down.
+
+        Where they were fitted to a first stretch they move about what that gave.
+        """
+        if not _can_be_moved(self._judge) or not _can_be_moved(self._trained):
+            return None
+        may = freedom(untempered(self._trained), point, self._judge, predicted.points[0])
+        if not may.directions.shape[1]:
+            return None
+        columns = may.columns()
+        if self._has_beginning:
+            used = np.concatenate([s.used for run in self._judge.runs for s in run.series])
+            used[self.readings.chosen] = False
+            may = may.after(columns[used])
+        return _tested(self._judge, self.readings, ~self.readings.is_wild, may, columns)
 
     def _with_day(self, point: Point) -> Point:
         """The point with the day's own numbers estimated: Gauss-Newton with their priors and Huber weights.
@@ -263,12 +318,27 @@ class LeftOutReadings:
             residuals = raw_residuals(self._inner, point)[self.readings.chosen]
             return Predicted(residuals, residuals)
         found = np.zeros(len(self._model.layout.time))
+        points = []
         for number, part in enumerate(self._parts):
             self._on_progress(f"predicting part {number + 1} of {len(self._parts)} from the others")
-            other = fit(MaskedModel(self._model, ~part), point, iterations=20).point
-            found[part] = raw_residuals(self._inner, other)[part]
+            points.append(fit(MaskedModel(self._model, ~part), point, iterations=20).point)
+            found[part] = raw_residuals(self._inner, points[-1])[part]
         residuals = found[self.readings.chosen]
-        return Predicted(residuals, residuals)
+        return Predicted(residuals, residuals, points=tuple(points))
+
+    def tested(self, point: Point, predicted: Predicted) -> Tested | None:
+        """See `Unfitted`; each part by the fit to the others."""
+        if not _can_be_moved(self._inner) or not predicted.points:
+            return None
+        sums = []
+        for number, (part, other) in enumerate(zip(self._parts, predicted.points)):
+            self._on_progress(f"testing part {number + 1} of {len(self._parts)} within the error of the others")
+            may = freedom(MaskedModel(self._inner, ~part), other, self._inner, other)
+            if not may.directions.shape[1]:
+                return None
+            kept = part[self.readings.chosen] & ~self.readings.is_wild
+            sums.append(_tested(self._inner, self.readings, kept, may, may.columns()))
+        return Tested(sum(s.total for s in sums), np.sum([s.channels for s in sums], axis=0))
 
 
 def left_out_stretches(

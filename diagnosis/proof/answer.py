@@ -84,6 +84,7 @@ class Answer:
         verdicts: Verdicts that are right.
         effects: What is concealed.
         sabotage: What is wrong with recordings or scenario, or None.
+        room: How far the surroundings of all recordings are off what is written down [K]; None where it is not told.
     """
 
     case: str
@@ -93,6 +94,7 @@ class Answer:
     verdicts: tuple[str, ...]
     effects: tuple[Concealed, ...]
     sabotage: Sabotage | None = None
+    room: float | None = None
 
 
 def read_answer(path: Path) -> Answer:
@@ -114,6 +116,7 @@ def read_answer(path: Path) -> Answer:
         tuple(given["verdicts"]),
         effects,
         _sabotage(given.get("sabotage")),
+        given.get("rig", {}).get("room"),
     )
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.stats import chi2
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
 from diagnosis.proof.answer import Answer, Concealed, Sabotage
+from diagnosis.proof.departure import is_within_noise
 from diagnosis.proof.place import Rig, found_place, true_place
 from diagnosis.proof.reference import Reference
 
@@ -21,8 +21,6 @@ VISIBLE = 20.0
 LEAST_GAIN = 12.0
 #: Alternatives at least as probable as this belong to the ambiguity class that a diagnosis states.
 LEAST_PROBABLE = 0.01
-#: Probability that noise alone stays below the limit of a chi-square.
-_NOISE_LEVEL = 0.999
 #: Sabotage to the kinds of doubt (`Doubt.kind`) that tell it; a sabotage that is not here may be told by any.
 _DOUBTS: Mapping[str, frozenset[str]] = {
     "wrong_programme": frozenset({"programme", "other run", "input", "dead time", "start"}),
@@ -65,15 +63,6 @@ def stated_class(finding: Finding) -> set[str]:
     return {finding.effect}
 
 
-def noise_limit(samples: int) -> float:
-    """Chi-square per sample that noise alone exceeds once in a thousand times.
-
-    >>> round(noise_limit(3000), 3)
-    1.082
-    """
-    return float(chi2.ppf(_NOISE_LEVEL, samples)) / samples
-
-
 def held_out_chi_square(diagnosis: Diagnosis, samples: Mapping[str, int], stage: str = "after") -> float | None:
     """Mean over all held-out samples; None where a channel has no finite figure."""
     counts, values = _held_out(diagnosis, samples, stage)
@@ -95,20 +84,23 @@ def is_headline_true(diagnosis: Diagnosis, answer: Answer, rig: Rig, reference: 
     """Whether the verdict, with what it stands on, is true.
 
     - `consistent`, `recalibrated`: nothing is concealed but parameters, or nothing that training shows, and the
-      readings held out do not reject the model by the 99.9 % limit of their noise.
+      model is not farther from the held-out truth than the noise hides (`departure`).
     - `missing physics`, `unnamed physics`: every accepted finding is true, and there is one: a named one has effect and
       place right, or in the class that it states; an unnamed one has the unit right and gains on held-out readings.
-    - `measurement fault`: the same, of sensors. `recording fault`: it is the one that was committed.
+    - `measurement fault`: the same, of sensors. `recording fault`: it is the one that was committed, or of a class with
+      what is concealed, at its place.
     - `cannot tell`: always.
     """
     verdict, claims = diagnosis.verdict, accepted(diagnosis)
     if verdict is Verdict.CANNOT_TELL:
         return True
     if verdict in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        return not claims and not _is_visible(answer, reference) and _is_within_noise(diagnosis, reference)
+        is_nothing_told = not claims and not _is_visible(answer, reference)
+        return is_nothing_told and is_within_noise(diagnosis, answer, reference)
     is_sound = all(is_true(f, diagnosis, answer, rig, reference) for f in claims)
     if verdict is Verdict.RECORDING_FAULT:
-        return is_sound and _is_fault_right(diagnosis, answer.sabotage)
+        is_told = any(is_told_by_doubt(diagnosis, truth, rig) for truth in answer.effects)
+        return is_sound and (is_told or _is_fault_right(diagnosis, answer.sabotage))
     return bool(claims) and is_sound
 
 
@@ -164,6 +156,13 @@ def _is_fault_right(diagnosis: Diagnosis, sabotage: Sabotage | None) -> bool:
     return bool(told) or not doubts
 
 
+def is_told_by_doubt(diagnosis: Diagnosis | None, truth: Concealed, rig: Rig) -> bool:
+    """Whether a serious doubt is of a class with what is concealed, at its place: no data can tell them apart."""
+    doubts = [d for d in diagnosis.doubts if d.is_serious] if diagnosis is not None else []
+    there = true_place(truth, rig)
+    return any(truth.effect in d.same_as and frozenset(d.subject.split(", ")) == there for d in doubts)
+
+
 def _is_visible(answer: Answer, reference: Reference) -> bool:
     """Whether something is concealed that the recordings show."""
     if answer.sabotage is not None:
@@ -175,12 +174,6 @@ def _is_visible(answer: Answer, reference: Reference) -> bool:
     if reference.twin is not None and reference.recalibrated is not None:
         return (reference.recalibrated - reference.twin) * sum(reference.samples.values()) >= LEAST_GAIN
     return True
-
-
-def _is_within_noise(diagnosis: Diagnosis, reference: Reference) -> bool:
-    counts, _ = _held_out(diagnosis, reference.samples, "after")
-    after = held_out_chi_square(diagnosis, reference.samples)
-    return after is not None and after <= noise_limit(int(counts.sum()))
 
 
 def _gain(diagnosis: Diagnosis, reference: Reference) -> float:

@@ -17,11 +17,12 @@ from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.proof.answer import Answer, Concealed
 from diagnosis.proof.ground import read_task
 from diagnosis.proof.place import Rig, found_place, read_rig, true_place
-from diagnosis.recording.recording import Recording, load_recording
+from diagnosis.recording.recording import Channel, Recording, load_recording
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Point, Term, TermParameter
 from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.runs import deviation
 
 #: Starts that are fitted for some iterations, and those of them that are fitted to the end.
 TRIED, FINISHED, TRIAL_ITERATIONS = 6, 2, 6
@@ -145,14 +146,14 @@ def judging_samples(data: Data) -> dict[str, int]:
     return counts
 
 
-def floor(data: Data, clean: Mapping[str, Array]) -> float:
-    """Held-out chi-square per sample of the readings without noise.
+def about_truth(data: Data, clean: Mapping[str, Array]) -> dict[str, tuple[float, Channel, int]]:
+    """Held-out readings about the truth: channel to the sum of squares [unit^2], the channel and its samples.
 
     Args:
         data: Models.
         clean: `<recording>/<kind>/stamps` and `.../clean`, as the proving ground writes them.
     """
-    total, count = 0.0, 0
+    found: dict[str, tuple[float, Channel, int]] = {}
     names = read_task(data.case).held_out
     for name, run in zip(names, data.judge.runs):
         entries = yaml.safe_load((data.case / name / "recording.yaml").read_text())["channels"]
@@ -164,7 +165,18 @@ def floor(data: Data, clean: Mapping[str, Array]) -> float:
             times = series.channel.times[-len(series.samples) :]
             rows = np.abs(stamps[:, None] - times[None, :]).argmin(axis=0)
             truth = np.asarray(values[rows, header.index(entry["column"])], dtype=np.float64)
-            scaled = (series.channel.values[-len(series.samples) :] - truth) / series.channel.deviation
-            total += float(np.sum(scaled[series.used] ** 2))
-            count += int(np.sum(series.used))
-    return total / count
+            noise = (series.channel.values[-len(series.samples) :] - truth)[series.used]
+            total, _, count = found.get(series.channel.name, (0.0, series.channel, 0))
+            found[series.channel.name] = (total + float(noise @ noise), series.channel, count + len(noise))
+    return found
+
+
+def floor(about: Mapping[str, tuple[float, Channel, int]]) -> float:
+    """Chi-square per sample of readings about the truth."""
+    scaled = sum(total / channel.deviation**2 for total, channel, _ in about.values())
+    return scaled / sum(count for *_, count in about.values())
+
+
+def noises(about: Mapping[str, tuple[float, Channel, int]]) -> dict[str, tuple[float, float]]:
+    """Root mean square of the readings about the truth, and deviation of noise and rounding, by channel [unit]."""
+    return {n: ((total / count) ** 0.5, deviation(channel)) for n, (total, channel, count) in about.items() if count}

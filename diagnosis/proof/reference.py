@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 
@@ -20,6 +20,8 @@ class Reference:
             noise. Near what a model that knew the effect exactly would reach, but no bound. None where the ground wrote
             no twin.
         floor: Of the readings without their noise: nothing can do better but by chance.
+        noises: Held-out channel to the root mean square of its readings about the truth and the deviation of its noise
+            with its rounding [unit]; empty: of proofs made before.
         training_gain: Fall of -2 log posterior by the true terms in the training recordings, or None.
         baselines: Of other methods, by name; None where a forecast runs away.
         terms: Terms that sparse regression reports per channel, on average.
@@ -33,6 +35,7 @@ class Reference:
     oracle: float | None = None
     twin: float | None = None
     floor: float | None = None
+    noises: Mapping[str, Sequence[float]] = field(default_factory=dict)
     training_gain: float | None = None
     baselines: Mapping[str, float | None] = field(default_factory=dict)
     terms: float | None = None

@@ -14,7 +14,7 @@ import numpy as np
 from diagnosis.judge.diagnosis import ChannelFit
 from diagnosis.proof.answer import read_answer
 from diagnosis.proof.isolated import Files, write_files
-from diagnosis.proof.oracle import floor, held_out_fits, judging_samples, oracle_fit, read_data
+from diagnosis.proof.oracle import about_truth, floor, held_out_fits, judging_samples, noises, oracle_fit, read_data
 from diagnosis.proof.reference import Reference
 from diagnosis.search.search import recalibrate
 from diagnosis.simulator.translate import NoBank
@@ -51,12 +51,14 @@ def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
     fits = held_out_fits(data, points)
     samples = judging_samples(data)
     clean = np.load(io.BytesIO((answers / f"{folder.name}.npz").read_bytes()))
+    about = about_truth(data, clean)
     found = Reference(
         folder.name,
         samples=samples,
         recalibrated=_mean(fits, samples, "recalibrated"),
         oracle=_mean(fits, samples, "oracle") if known else None,
-        floor=floor(data, clean),
+        floor=floor(about),
+        noises=noises(about),
         training_gain=base.cost - known.cost if known else None,
         seconds={"oracle": clock.perf_counter() - begin},
     )

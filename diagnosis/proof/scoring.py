@@ -18,6 +18,7 @@ from diagnosis.proof.headline import (
     held_out_chi_square,
     is_false_claim,
     is_headline_true,
+    is_told_by_doubt,
     names_recording,
     stated_class,
 )
@@ -139,9 +140,12 @@ def score(diagnosis: Diagnosis | None, answer: Answer, rig: Rig, reference: Refe
     verdict = diagnosis.verdict.value if diagnosis else ""
     return Score(
         verdict=verdict,
-        is_verdict_right=verdict in answer.verdicts,
+        is_verdict_right=verdict in answer.verdicts or _is_doubt_right(diagnosis, answer, rig),
         is_false_alarm=_is_false_alarm(diagnosis, answer, findings),
-        effects=tuple(_effect(t, f, rig, duration, titles) for t, f in zip(answer.effects, matched)),
+        effects=tuple(
+            _doubted(t) if f is None and is_told_by_doubt(diagnosis, t, rig) else _effect(t, f, rig, duration, titles)
+            for t, f in zip(answer.effects, matched)
+        ),
         spare=len(findings) - sum(f is not None for f in matched),
         held_out=_held_out(diagnosis, answer, reference),
         suggestions=len(diagnosis.findings) - len(findings) if diagnosis else 0,
@@ -149,6 +153,22 @@ def score(diagnosis: Diagnosis | None, answer: Answer, rig: Rig, reference: Refe
         is_headline_true=is_headline_true(diagnosis, answer, rig, reference) if diagnosis else None,
         sabotage=answer.sabotage.kind if answer.sabotage else "",
     )
+
+
+def _is_doubt_right(diagnosis: Diagnosis | None, answer: Answer, rig: Rig) -> bool:
+    """Whether the recording is blamed for what no data can tell from the one fault that is concealed."""
+    is_blamed = diagnosis is not None and diagnosis.verdict is Verdict.RECORDING_FAULT
+    return is_blamed and len(answer.effects) == 1 and is_told_by_doubt(diagnosis, answer.effects[0], rig)
+
+
+def _doubted(truth: Concealed) -> EffectScore:
+    """What a doubt tells of an effect: one of a class at the right place, which no name heads."""
+    return EffectScore(
+        truth.effect, truth.unit, truth.strength, truth.is_known, found=truth.effect, found_unit=truth.unit,
+        is_unit_right=True, is_place_right=True, is_time_right=None if truth.instant is None else False,
+        is_named=False if truth.is_known else None, is_in_class=True if truth.is_known else None,
+        is_misnamed=None if truth.is_known else False,
+    )  # fmt: skip
 
 
 def _is_false_alarm(diagnosis: Diagnosis | None, answer: Answer, findings: Sequence[Finding]) -> bool | None:

@@ -76,13 +76,17 @@ def _check_unit(there: xr.Dataset, channel: Channel, file: Path) -> None:
 
 
 def _within(channel: Channel, start: float, stop: float, file: Path) -> Channel:
-    """The channel without readings that no clock as stated brings into the simulated time."""
-    slack = channel.offset_bound + _DIGITS * max(abs(start), abs(stop))
+    """The channel without readings that no clock as stated brings into the simulated time.
+
+    Readings that only a clock that is off brings into it do not count towards those that are needed: the simulation has
+    no value for them.
+    """
+    digits = _DIGITS * max(abs(start), abs(stop))
+    slack = channel.offset_bound + digits
     inside = (channel.times >= start - slack) & (channel.times <= stop + slack)
-    if inside.all():
-        return channel
-    if np.count_nonzero(inside) < FEWEST_VALUES:
-        count, span = int(np.count_nonzero(inside)), f"{channel.times[0]:.6g} s to {channel.times[-1]:.6g} s"
+    count = int(np.count_nonzero((channel.times >= start - digits) & (channel.times <= stop + digits)))
+    if count < FEWEST_VALUES:
+        span = f"{channel.times[0]:.6g} s to {channel.times[-1]:.6g} s"
         raise InputError(
             file,
             f"channels.{channel.name}",
@@ -90,6 +94,8 @@ def _within(channel: Channel, start: float, stop: float, file: Path) -> Channel:
             f"{start:.6g} s to {stop:.6g} s is simulated",
             "correct `zero` and `unit` of its clock, or `time` under `overrides`",
         )
+    if inside.all():
+        return channel
     outside = {
         "before start": int(np.count_nonzero(channel.times < start - slack)),
         "after stop": int(np.count_nonzero(channel.times > stop + slack)),

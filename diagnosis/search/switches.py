@@ -12,11 +12,13 @@ import numpy as np
 
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import cost
-from diagnosis.search.problem import Model, Point, Term
+from diagnosis.search.problem import Model, Point, Term, strength_slopes
 from diagnosis.search.score import BATCH, Score, shapes
 
 #: Prior deviations beyond which a recalibration has been pulled away by what is missing.
 STRAINED = 4.0
+#: Share of -2 log posterior by which derivatives may misjudge a law that is wholly there: they have single precision.
+ROUGH = 1e-3
 
 
 def is_strained(base: Fit) -> bool:
@@ -61,9 +63,26 @@ def switch_scores(model: Model, base: Fit, terms: Sequence[Term]) -> list[Score]
     nominal = nominal_of(base)
     best: dict[Term, Score] = {}
     for begin in range(0, len(tasks), BATCH):
-        part = tasks[begin : begin + BATCH]
+        part = _hopeful(model, base, nominal, tasks[begin : begin + BATCH])
         for (term, values), there in zip(part, costs_at(model, base, [nominal.plus(*task) for task in part])):
             gain = base.cost - there
             if gain > 0.0 and (term not in best or gain > best[term].gain):
                 best[term] = Score(term, values, float(gain), 1.0)
     return sorted(best.values(), key=lambda s: -s.gain)
+
+
+def _hopeful(
+    model: Model, base: Fit, nominal: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]
+) -> list[tuple[Term, tuple[float, ...]]]:
+    """Those that may gain something, and those whose derivative failed.
+
+    The derivative of a switch is a difference over its whole size, so that it tells what the switch does, but for
+    rounding. A bank makes those of many coils, strings and sensors with one simulation.
+    """
+    here = model.residuals([nominal])[0]
+    if not tasks or not np.isfinite(here).all() or any(t.recording is not None for t in nominal.terms):
+        return list(tasks)  # derivatives do not see what the fault of a sensor does to them
+    with np.errstate(over="ignore", invalid="ignore"):
+        rows = strength_slopes(model, nominal, here, tasks) * np.array([v[0] for _, v in tasks])[:, None] + here
+    costs = [cost(row, nominal.base, base.widths) if np.isfinite(row).all() else 0.0 for row in rows]
+    return [task for task, there in zip(tasks, costs) if base.cost > (1.0 - ROUGH) * there]

@@ -25,7 +25,7 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.simulator.priors import daily_priors, own_priors, stated_priors
 from diagnosis.simulator.rig_scales import rig_scales
-from diagnosis.simulator.runs import Run, bank_quantity, clocks, deviation
+from diagnosis.simulator.runs import Run, bank_quantity, check_rig, clocks, deviation
 from diagnosis.simulator.term_at import term_at
 from diagnosis.simulator.timeline import Seat, Timeline
 from diagnosis.simulator.translate import translate
@@ -51,7 +51,8 @@ class BankModel:
 
     Raises:
         NoBank: The scenario is none for a bank.
-        InputError: A recording does not fit the scenario, or the recordings do not say their order clearly.
+        InputError: A recording does not fit the scenario, it is of other coils, strings or supplies than the first, or
+            the recordings do not say their order clearly.
     """
 
     def __init__(
@@ -61,6 +62,8 @@ class BankModel:
         self._threads = threads
         self.simulations = 0
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
+        for recording, translation in zip(recordings, translations):
+            check_rig(translation.layout, translations[0].layout, recording)
         for recording in recordings:  # what it cannot compare is said before it is compiled
             for channel in recording.channels.values():
                 bank_quantity(channel.target, translations[0].layout, recording)

@@ -18,6 +18,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ClosedLoopModel
+from diagnosis.simulator.runs import check_rig
 from diagnosis.simulator.timeline import Timeline
 from diagnosis.simulator.translate import NoBank
 
@@ -174,7 +175,8 @@ def models_of(
         batches: See `model_of`.
 
     Raises:
-        InputError: A scenario is wrong, a recording does not fit it, or a held-out one of a fabric has a `beginning`.
+        InputError: A scenario is wrong, a recording does not fit it or is of another rig than the others, or a held-out
+            one of a fabric has a `beginning`.
     """
     model = model_of(scenario, training, catalogue, threads, without, batches)
     if not held_out:
@@ -182,6 +184,8 @@ def models_of(
     judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model))
     if isinstance(judge, FabricModel):
         _without_beginning(held_out)
+    if isinstance(model, BankModel) and isinstance(judge, BankModel):
+        check_rig(judge.coils, model.coils, held_out[0])
     if type(judge) is type(model):
         return model, judge
     both = (ClosedLoopModel(scenario, fitting(scenario, r), without, batches) for r in (training, held_out))

@@ -1,15 +1,15 @@
-"""Many independent arms on hinges in one world of Bullet, in one pass of compiled code.
+"""Many independent arms on hinges, stepped in compiled code as Bullet steps them.
 
-Bullet moves the arms, as in the unit (mechanics/bullet_pendulum.py); what is saved is a world per run, Python at every
-micro-step, and the co-simulation around a single unit. A correction of fourth order lets the step be longer than the
-unit's: angles differ from those of the unit by about 1e-6 rad after 12 s (1e-4 rad with dry friction; tests).
+Bullet moves the arm of the unit (mechanics/bullet_pendulum.py) and of every run that judges. For one link on a hinge of
+a fixed base its arithmetic is a few lines (pendulums.c), which give the angles of the unit to rounding where both take
+the same steps. A correction of fourth order lets the step be longer than the unit's: angles differ from those of the
+unit by about 1e-6 rad after 12 s (1e-4 rad with dry friction; tests).
 """
 
 from __future__ import annotations
 
 import ctypes
 import functools
-import importlib.util
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -29,41 +29,28 @@ LAWS = (
 #: unit's own.
 PHASE, DRY_PHASE, STUCK_PHASE = 0.042, 0.021, 0.0
 _DRY, _STICKS = (5 + LAWS.index(name) for name in ("coulomb_friction", "stiction"))
-#: Arms that are simulated together: one star of pendulums.c.
-TOGETHER = 4
-
-
-class NoBatch(Exception):
-    """Bullet's C interface is not to be had here: why."""
 
 
 @functools.cache
 def _library() -> ctypes.CDLL:
-    """The compiled code, connected to Bullet.
+    """The compiled code.
 
     Raises:
-        NoBatch: There is no compiler, or pybullet's library does not export Bullet's C interface.
+        CompilerError: There is no compiler.
     """
-    spec = importlib.util.find_spec("pybullet")
-    if spec is None or spec.origin is None:
-        raise NoBatch("pybullet is not installed")
-    try:
-        library = load(Path(__file__).with_name("pendulums.c").read_text(encoding="utf-8"))
-    except CompilerError as error:
-        raise NoBatch(str(error)) from error
+    library = load(Path(__file__).with_name("pendulums.c").read_text(encoding="utf-8"))
     library.pendulums_run.argtypes = [
-        ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double, ctypes.c_int, ctypes.c_int, ctypes.c_void_p,
+        ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int, ctypes.c_int, ctypes.c_void_p,
     ]  # fmt: skip
-    if library.pendulums_open(spec.origin.encode()):
-        raise NoBatch(f"{spec.origin} does not export Bullet's C interface")
+    library.pendulums_run.restype = None
     return library
 
 
 def is_available() -> bool:
-    """Whether arms can be simulated together here."""
+    """Whether there is a compiler here for them."""
     try:
         _library()
-    except NoBatch:
+    except CompilerError:
         return False
     return True
 
@@ -104,24 +91,16 @@ def swings(arms: Sequence[Sequence[float]], unit_step: float, spacing: float, sa
         samples: How many.
 
     Returns:
-        Infinite for an arm that Bullet lost.
+        Infinite for an arm that ran away.
 
     Raises:
-        NoBatch: Bullet cannot be called, or would not build the arms.
+        CompilerError: There is no compiler.
     """
-    library = _library()
+    run = _library().pendulums_run
     given = np.ascontiguousarray(arms, dtype=np.float64)
     found = np.zeros((len(given), samples, 2))
-    longest = np.where(given[:, _STICKS] > 0.0, STUCK_PHASE, np.where(given[:, _DRY] > 0.0, DRY_PHASE, PHASE))
-    for phase in (STUCK_PHASE, DRY_PHASE, PHASE):
-        members = np.flatnonzero(longest == phase)
-        for begin in range(0, len(members), TOGETHER):
-            chosen = members[begin : begin + TOGETHER]
-            own, out = np.ascontiguousarray(given[chosen]), np.zeros((len(chosen), samples, 2))
-            step = longest_step(unit_step, spacing, float(np.sqrt(np.max(own[:, 1] / own[:, 0]))), phase)
-            if library.pendulums_run(
-                own.ctypes.data, len(own), step, unit_step, round(spacing / step), samples, out.ctypes.data
-            ):  # fmt: skip
-                raise NoBatch("Bullet did not build the arms")
-            found[chosen] = out
+    phases = np.where(given[:, _STICKS] > 0.0, STUCK_PHASE, np.where(given[:, _DRY] > 0.0, DRY_PHASE, PHASE))
+    for own, out, phase in zip(given, found, phases.tolist()):
+        step = longest_step(unit_step, spacing, float(np.sqrt(own[1] / own[0])), phase)
+        run(own.ctypes.data, step, unit_step, round(spacing / step), samples, out.ctypes.data)
     return np.where(np.isfinite(found), found, np.inf)

@@ -1,4 +1,4 @@
-"""A single pendulum with its recordings: fitted by many arms at a time in Bullet, judged by the co-simulation."""
+"""A single pendulum with its recordings: fitted by many arms at a time (`swings`), judged by the co-simulation."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class _Grid:
 
 
 def is_single_pendulum(scenario: Scenario, recordings: Sequence[Recording]) -> bool:
-    """Whether a scenario is one pendulum and nothing else, seen in angle or speed, and Bullet can be called."""
+    """Whether a scenario is one pendulum and nothing else, seen in angle or speed, and there is a compiler."""
     components = list(scenario.components.values())
     if len(components) != 1 or not isinstance(components[0], PendulumComponent) or scenario.connections:
         return False
@@ -84,7 +84,7 @@ def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free],
 
 
 class PendulumModel(CosimModel):
-    """See `CosimModel`; residuals come from arms in one world, `predictions` from the co-simulation."""
+    """See `CosimModel`; residuals come from `swings`, `predictions` from the co-simulation."""
 
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
@@ -149,7 +149,7 @@ class PendulumModel(CosimModel):
         return found
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
-        """See `CosimModel`; what faults of sensors add comes from arms in one world."""
+        """See `CosimModel`; what faults of sensors add comes from `swings`."""
         found = super().predictions(wanted)
         for i, (point, number) in enumerate(wanted):
             values = found[i]

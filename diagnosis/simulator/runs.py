@@ -232,6 +232,34 @@ def _place(target: Target, layout: BankLayout) -> tuple[str, int] | None:
     return name, int(layout.string_of_coil[coil]) if name == "current" else coil
 
 
+def check_rig(layout: BankLayout, first: BankLayout, recording: Recording) -> None:
+    """Refuse a recording of another rig: numbers of one coil, and laws at its place, say nothing of another rig's.
+
+    Args:
+        layout: Coils and strings of the scenario under the conditions of the recording.
+        first: Those of the recordings before it.
+        recording: The recording.
+
+    Raises:
+        InputError: They differ.
+    """
+    if layout == first:
+        return
+    raise InputError(
+        recording.path / "recording.yaml",
+        "overrides",
+        f"its rig is not that of the other recordings: {_wired(layout)}, not {_wired(first)}",
+        "diagnose them one by one; a string that is not connected is one with an open coil (`open_coils`)",
+    )
+
+
+def _wired(layout: BankLayout) -> str:
+    if not layout.strings:
+        return f"{layout.coils} coils without a circuit"
+    supply = "one supply for all strings" if layout.supply == "common" else "a supply for each string"
+    return f"strings of {', '.join(map(str, layout.strings))} coils and {supply}"
+
+
 def _rig(layout: BankLayout) -> str:
     return f"{layout.coils} coils in {len(layout.strings)} strings" if layout.strings else f"{layout.coils} coils"
 

@@ -56,6 +56,16 @@ def test_exchanged_columns(scenario: Scenario, tmp_path: Path) -> None:
     assert serious(scenario, a) == [("swapped", "coil[1].temperature, coil[2].temperature")]
 
 
+def test_what_is_exchanged_is_named_with_all_that_leaves_the_same_readings(scenario: Scenario, tmp_path: Path) -> None:
+    """Columns, sensors and drives exchanged: the same numbers in the same table, so the same sentence, true of each."""
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)[:, ::-1])
+    (found,) = [d for d in doubts(scenario, a) if d.is_serious]
+    assert found.same_as == ("wrong_identity",)
+    for what in ("columns in the recording", "sensors on the rig (wrong identity)", "what drives these elements"):
+        assert what in found.statement
+    assert "no reading of them tells which" in found.statement
+
+
 def test_alike_driven_channels_cannot_be_told_apart(scenario: Scenario, tmp_path: Path) -> None:
     both = tuple((t, p, p) for t, p, _ in rig.FIRST)
     values = rig.readings(both)
@@ -241,3 +251,16 @@ def test_one_wild_reading_is_no_step() -> None:
     assert _least_step(window) == pytest.approx(0.0, abs=1e-9)
     stepped = np.where(np.arange(24) < 12, 0.0, 9.0)
     assert _least_step(stepped) == pytest.approx(9.0)
+
+
+@pytest.mark.parametrize(
+    ("places", "is_step"), [(slice(-2, None), False), (slice(0, 2), False), (slice(-30, None), True)]
+)
+def test_two_wild_readings_at_an_end_are_no_step_that_stays(
+    scenario: Scenario, tmp_path: Path, places: slice, is_step: bool
+) -> None:
+    readings = rig.readings(rig.FIRST).copy()
+    readings[places, 0] -= 6.0
+    a = rig.write(tmp_path / "a", rig.FIRST, readings)
+    told = [d for d in doubts(scenario, a) if d.kind == "sensor" and "step" in d.statement]
+    assert bool(told) is is_step

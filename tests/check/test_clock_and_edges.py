@@ -11,9 +11,10 @@ import pytest
 
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit import Array
-from diagnosis.check.beside import Compared, compare
-from diagnosis.check.clock_shift import clock_shift, event_gain, shift_doubts
+from diagnosis.check.beside import Compared, compare, lagged
+from diagnosis.check.clock_shift import clock_shift, direct_gain, event_gain, shift_doubts, timed_channel
 from diagnosis.check.edges import edge_doubts, edges
+from diagnosis.check.timing import timing_doubts
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
 
@@ -59,23 +60,80 @@ def test_a_clock_that_is_seconds_off(scenario: Scenario, tmp_path: Path, late: f
     assert found.size == pytest.approx(late, abs=2.5)
     (doubt,) = shift_doubts(one)
     assert doubt.kind == "dead time"
-    if late < 0.0:  # no lag makes a response earlier
+    assert f"s {'later' if late > 0.0 else 'earlier'} than its programme" in doubt.statement
+    assert "95 %" in doubt.statement
+    if late < 0.0:  # nothing in a rig makes a response earlier
         assert doubt.is_serious
-        assert "earlier than its programme" in doubt.statement
-        assert "95 %" in doubt.statement
-    else:  # two lags in series do as much
-        assert not doubt.is_serious
-        assert "a clock shift of" in doubt.statement
+    else:
+        assert (doubt.is_serious, doubt.is_far) == (False, True)
         assert "cannot be told apart" in doubt.statement
 
 
+@pytest.mark.parametrize("lags", [(10.0, 10.0), (5.0, 5.0, 5.0), (20.0, 20.0), (4.0, 8.0, 30.0)])
+def test_lags_in_series_are_no_clock(scenario: Scenario, tmp_path: Path, lags: Sequence[float]) -> None:
+    """Each behind the 12 s of the sensors: nothing is wrong with these recordings but the model."""
+    values = rig.readings(rig.SECOND)
+    for lag in lags:
+        values = np.stack([lagged(rig.instants(), row, lag) for row in values.T], axis=1)
+    assert not any(d.is_serious for d in shift_doubts(beside(scenario, tmp_path / "a", rig.SECOND, values)))
+
+
+@pytest.mark.parametrize("size", [2.0, 8.0])
+def test_a_reading_that_answers_the_power_at_once_is_no_clock(
+    scenario: Scenario, tmp_path: Path, size: float
+) -> None:  # fmt: skip
+    """A thermometer on the heater's leads reads up to `size` kelvins more while power is on."""
+    points = np.array(rig.SECOND)
+    power = points[np.searchsorted(points[:, 0], rig.instants(), side="right") - 1, 1:]
+    values = rig.readings(rig.SECOND) + size * power**1.5
+    one = beside(scenario, tmp_path / "a", rig.SECOND, values)
+    assert direct_gain(one) > 100.0
+    assert not any(d.is_serious for d in (*shift_doubts(one), *timing_doubts(one, [])))
+
+
+def test_gains_do_not_depend_on_the_unit_and_sum_over_blocks(scenario: Scenario, tmp_path: Path) -> None:
+    one = beside(scenario, tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), -8.0)
+    channel = next(iter(one.channels.values()))
+    moves, lags = np.array([[0.0, 0.0], [-8.0, 0.0]]), np.array([0.0, 10.0])
+    timed = timed_channel(channel, moves, lags)
+    gain = timed.deviance[0].min() - timed.deviance[1].min()
+    assert gain > 30.0
+    assert timed.steps(0, 1).sum() == pytest.approx(gain, rel=0.1)
+    measured, series = channel.channel, channel.simulated
+    assert series is not None
+    larger = replace(
+        channel,
+        channel=replace(measured, values=1e3 * measured.values, deviation=1e3 * measured.deviation),
+        simulated=replace(series, values=1e3 * series.values),
+    )
+    again = timed_channel(larger, moves, lags)
+    assert again.deviance[0].min() - again.deviance[1].min() == pytest.approx(gain, rel=1e-6)
+
+
+def test_an_event_gains_the_same_in_any_unit(scenario: Scenario, tmp_path: Path) -> None:
+    one = beside(scenario, tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND))
+    scaled = {}
+    for name, old in one.channels.items():
+        assert old.simulated is not None
+        channel = replace(old.channel, values=1e3 * old.channel.values, deviation=1e3 * old.channel.deviation)
+        scaled[name] = replace(
+            old, channel=channel, simulated=replace(old.simulated, values=1e3 * old.simulated.values)
+        )
+    assert event_gain(replace(one, channels=scaled)) == pytest.approx(event_gain(one), rel=1e-6)
+
+
 def test_a_clock_that_runs_wrong(scenario: Scenario, tmp_path: Path) -> None:
-    """By 4 % over ten minutes: on a slow rig a response that changes its size from some instant on does as much."""
+    """By 4 % over ten minutes; no lag and no event explains as much."""
     folder = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=1.04 * rig.instants())
-    (doubt,) = shift_doubts(compare(scenario, load_recording(folder)))
-    assert (doubt.kind, doubt.is_serious) == ("clock", False)
-    assert "clock seems to run" in doubt.statement
-    assert "cannot be told apart" in doubt.statement
+    one = compare(scenario, load_recording(folder))
+    (doubt,) = shift_doubts(one)
+    assert (doubt.kind, doubt.is_serious) == ("clock", True)
+    assert "too fast" in doubt.statement
+    found = clock_shift(one)
+    assert found is not None
+    assert found.is_rate
+    low, high = found.interval
+    assert low <= 0.04 / found.rate <= high
 
 
 def test_a_shift_within_its_bound_is_none(scenario: Scenario, tmp_path: Path) -> None:

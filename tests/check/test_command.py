@@ -40,7 +40,7 @@ def test_serious_doubt_is_exit_code_1_with_its_remedy(tmp_path: Path) -> None:
     code, text = check(str(a), "--scenario", "tclab")
     assert code == 1
     assert "`coil[1].temperature` reads like `coil[2].temperature`" in text
-    assert "-> are the columns, or the wires, exchanged?" in text
+    assert "-> look which of them are exchanged" in text
     assert text.rstrip().endswith("1 serious doubt: settle it first.")
 
 

@@ -1,4 +1,4 @@
-"""Arms simulated together in Bullet against the unit, and the model that is made of them."""
+"""Arms stepped in compiled code against the unit in Bullet, and the model that is made of them."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ SMOOTH = {
     "band_damping": 6e-4, "band_width": 0.25, "periodic_torque": 8e-4, "periodic_rate": 9.0, "periodic_phase": 0.4,
     "constant_torque": 1e-3, "tilt": 0.02,
 }  # fmt: skip
+RESTS = {"coulomb_friction": 2e-2}  # sticks beside the vertical within a second
 DRY = {"coulomb_friction": 3e-4, "stiction": 2.5e-3, "stribeck_speed": 0.4}
 
 
@@ -79,8 +80,8 @@ def test_dry_friction_is_second_order_where_the_arm_turns():
     assert np.abs(coarse - fine)[:, 0].max() < 1.5e-4
 
 
-@pytest.mark.parametrize("numbers", [SMOOTH, DRY], ids=["smooth", "dry"])
-def test_arms_of_one_world_swing_as_units_of_their_own_do(numbers):
+@pytest.mark.parametrize("numbers", [SMOOTH, DRY, RESTS], ids=["smooth", "dry", "rests"])
+def test_arms_take_the_steps_of_the_unit_in_bullet(numbers):
     # No longer step than the unit's 5 ms fits: the batch takes the same steps, and rounding is left.
     assert longest_step(5e-3, 0.01, 8.0) == 5e-3
     designs = [design(**{name: value}) for name, value in numbers.items() if name not in ("band_width", "spring_rest")]
@@ -89,6 +90,13 @@ def test_arms_of_one_world_swing_as_units_of_their_own_do(numbers):
     found = swings(given, 5e-3, 0.01, 201)
     for one, course in zip(designs, found):
         assert np.abs(course - by_unit(one, 5e-3, 2.0)).max() < 1e-9
+
+
+def test_an_arm_that_friction_holds_stands_still_where_it_does_in_bullet():
+    given = design(**RESTS)
+    found, unit = together([given], 5e-3, 2.0)[0], by_unit(given, 5e-3, 2.0)
+    assert np.abs(unit[-1, 1]) < 1e-9 < np.abs(unit[-1, 0] - math.pi)
+    assert np.abs(found[-1] - unit[-1]).max() < 1e-9
 
 
 # Ten steps of the unit in one, five with dry friction. The correction makes up for the error of weight and damping,

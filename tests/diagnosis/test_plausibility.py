@@ -124,6 +124,16 @@ def test_no_start_of_the_pendulum_is_a_number_of_the_proving_ground():
         assert min(abs(s / value - 1.0) for s in laws[law][number].starts) > 0.01, law
 
 
+def test_a_thermometer_drifts_as_its_connector_warms_and_no_faster():
+    """A connector of 10 g is warmed by 1 W at 10 K in a minute; typical readings of a thermometer are 10 K."""
+    model = BankModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("sensor_drift")])
+    drift = next(t for t in model.terms() if t.place.endswith("temperature"))
+    assert implausible(drift, (0.5,)) == []
+    assert implausible(drift, (-0.9,)) == []
+    (told,) = implausible(drift, (1.5,))
+    assert told.startswith("drift would have to be 0.25 K/s; 0.167 K/s is the most that is believed (10 K in a minute")
+
+
 def test_an_electrical_law_needs_an_electrical_channel():
     droop = candidate("shared_supply_droop")
     assert unidentified(droop, ["temperature"]) == ELECTRICAL

@@ -189,6 +189,18 @@ def test_readings_outside_the_simulated_time_are_left_out_and_counted(tmp_path):
     assert fitting(load_scenario("tclab"), [load_recording(near)])[0].channels["coil[1].temperature"].dropped == {}
 
 
+@pytest.mark.parametrize("within", [0, 1])
+def test_readings_that_only_a_late_clock_brings_into_the_simulated_time_are_not_enough(tmp_path, within):
+    """The other channel is read throughout; of this one the simulation has values for one reading at most."""
+    first = TIMES[10] - 0.5 * (TIMES[10] - TIMES[9]) if within == 0 else TIMES[9]
+    table = {"time": TIMES, "T": np.where(np.arange(len(TIMES)) < 10, WARM, math.nan), "other": WARM}
+    own = {"column": "time", "unit": "s", "zero": float(first), "offset_bound": "1 min"}
+    channels = channel(time=own) | {"coil[2].temperature": {"column": "other", "unit": "degC"}}
+    recording = load_recording(folder(tmp_path, table, channels=channels))
+    with pytest.raises(InputError, match=f"it has {within} values within the simulated time, fewer than 8"):
+        fitting(load_scenario("tclab"), [recording])
+
+
 # --- which readings count
 
 

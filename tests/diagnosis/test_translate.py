@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 import yaml
 
+from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.bank.bank import Bank
@@ -16,7 +17,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import recalibrate
 from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.models import model_of
+from diagnosis.simulator.models import model_of, models_of
 from diagnosis.simulator.translate import NoBank, translate
 from tests.amend.bench import VARIABLES
 
@@ -202,3 +203,32 @@ def test_what_a_bank_refuses_the_co_simulation_diagnoses_though_nothing_of_it_ma
     assert isinstance(model, ClosedLoopModel)
     assert list(model.parameters) == []
     assert np.abs(recalibrate(model).residuals).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("overrides", "text"),
+    [
+        ({"strings": [4]}, "strings of 4 coils and one supply for all strings, not strings of 2, 2 coils"),
+        ({"strings": [3, 1]}, "strings of 3, 1 coils"),
+        ({"supply": "per_string"}, "strings of 2, 2 coils and a supply for each string, not"),
+    ],
+)
+def test_a_recording_of_another_rig_is_refused(overrides, text, tmp_path):
+    """Simulated as the first one's coils, its misfit would be told as something that the model leaves out."""
+    (tmp_path / "scenario.yaml").write_text(yaml.safe_dump(TWO_BY_TWO))
+    times, days = np.arange(0.0, 10.0, 0.5), []
+    for name, own in (("one", {}), ("other", overrides)):
+        place = tmp_path / name
+        place.mkdir()
+        pd.DataFrame({"t": times, "T": 22.0 + 0.0 * times}).to_csv(place / "data.csv", index=False)
+        sidecar = {"title": name, "table": "data.csv", "time": {"column": "t", "unit": "s", "zero": 0},
+                   "overrides": {"components": {"circuit": own}},
+                   "channels": {"coil[1].temperature": {"column": "T", "unit": "degC"}}}  # fmt: skip
+        (place / "recording.yaml").write_text(yaml.safe_dump(sidecar))
+        days.append(load_recording(place))
+    given = load_scenario(tmp_path / "scenario.yaml")
+    for training, held_out in ((days, []), (days[:1], days[1:])):
+        with pytest.raises(InputError, match="its rig is not that of the other recordings") as caught:
+            models_of(given, training, held_out, catalogue(), 1)
+        assert text in str(caught.value)
+        assert "other" in str(caught.value.source)

@@ -235,6 +235,8 @@ def test_gain_bias_drift_and_clipping_are_what_their_laws_say():
     assert np.allclose(
         sensor(first.with_term("sensor_gain", gain=0.1, pivot=300.0), TIMES), truth + 0.1 * (truth - 300.0)
     )
+    about = sensor(first.with_term("sensor_gain", gain=0.1, zero=-2.0, scale=10.0, pivot=300.0), TIMES)
+    assert np.allclose(about, truth + 0.1 * (truth - 280.0))
     assert np.allclose(sensor(first.with_term("sensor_bias", bias=0.2, scale=10.0), TIMES), truth + 2.0)
     assert np.allclose(
         sensor(first.with_term("sensor_drift", drift=0.3, scale=10.0), TIMES), truth + 3.0 * TIMES / 60.0

@@ -7,7 +7,7 @@ import io
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cosim.native import csv_file
@@ -59,6 +59,7 @@ def test_random_bits_subnormals_and_short_decimals_are_written_as_repr_writes_th
     assert lines_of(values) == list(map(repr, values.tolist()))
 
 
+@settings(deadline=None)  # a busy machine is no error
 @given(st.floats())
 @example(5e-324)
 @example(1.7976931348623157e308)

@@ -9,9 +9,10 @@ from typing import Any
 
 import pytest
 
-from diagnosis.judge.diagnosis import Diagnosis, Standing, Verdict
-from diagnosis.proof.answer import Answer, Sabotage, read_answer
-from diagnosis.proof.headline import is_headline_true, noise_limit
+from diagnosis.judge.diagnosis import Diagnosis, Doubt, Standing, Verdict
+from diagnosis.proof.answer import Answer, Concealed, Sabotage, read_answer
+from diagnosis.proof.departure import noise_limit
+from diagnosis.proof.headline import is_headline_true
 from diagnosis.proof.scoring import score
 from tests.proof.examples import DURATION, RADIATION, REFERENCE, SHORT, SMALL, alternative, answer, diagnosis, finding
 
@@ -37,7 +38,7 @@ def test_the_limit_of_noise_is_that_of_the_chi_square_distribution() -> None:
 
 @pytest.mark.parametrize("verdict", [Verdict.CONSISTENT, Verdict.RECALIBRATED])
 def test_all_is_well_only_where_nothing_shows_and_readings_do_not_reject(verdict: Verdict) -> None:
-    limit = noise_limit(300)
+    limit = noise_limit(300) - 1.0 + 0.95  # the noise of these readings is 0.95
     well = diagnosis(verdict=verdict, after=0.999 * limit)
     assert _true(well, NULL)
     assert not _true(diagnosis(verdict=verdict, after=1.001 * limit), NULL)
@@ -117,6 +118,34 @@ def test_a_recording_fault_must_have_been_committed() -> None:
     assert not _true(diagnosis(verdict=verdict), NULL)
     assert not _true(diagnosis(verdict=verdict), answer(RADIATION))
     assert not _true(diagnosis(finding(), verdict=verdict), _sabotaged(ROOM))  # physics besides, which is not there
+
+
+def _exchanged(subject: str, same_as: tuple[str, ...] = ("wrong_identity",)) -> Diagnosis:
+    doubt = Doubt("tuesday", subject, "swapped", "exchanged", "look", True, 0.0, 100.0, 50.0, same_as=same_as)
+    return replace(diagnosis(verdict=Verdict.RECORDING_FAULT), doubts=(doubt,))
+
+
+def test_exchanged_columns_are_of_a_class_with_exchanged_sensors() -> None:
+    channels = ("coil[2,3].temperature", "coil[1,1].temperature")
+    swap = Concealed(
+        "wrong_identity", "measurement", True, False, "weak", "swap", (), channels, {"exchange": 1.0}, (), None
+    )
+    truth = answer(swap, kind="sensor", verdicts=("measurement fault",))
+    told = _exchanged("coil[1,1].temperature, coil[2,3].temperature")
+    assert _true(told, truth)
+    scored = score(told, truth, SMALL, REFERENCE, DURATION)
+    (effect,) = scored.effects
+    assert scored.is_verdict_right
+    assert (effect.is_unit_right, effect.is_place_right, effect.is_in_class) == (True, True, True)
+    assert effect.is_named is False
+    # elsewhere, not of the class, or another effect: false as before
+    assert not _true(_exchanged("coil[1,1].temperature, coil[1,2].temperature"), truth)
+    assert not _true(_exchanged("coil[1,1].temperature, coil[2,3].temperature", ()), truth)
+    assert not _true(told, answer(RADIATION))
+    assert not _true(told, NULL)
+    wrong = score(_exchanged("coil[1,1].temperature, coil[1,2].temperature"), truth, SMALL, REFERENCE, DURATION)
+    assert not wrong.is_verdict_right
+    assert not wrong.effects[0].is_place_right
 
 
 @pytest.mark.parametrize(

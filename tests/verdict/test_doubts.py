@@ -7,7 +7,13 @@ from dataclasses import replace
 import pytest
 
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.judge.doubts import MANY, doubted, is_of_another_experiment, of_another_experiment
+from diagnosis.judge.doubts import (
+    MANY,
+    doubted,
+    is_of_another_experiment,
+    of_another_experiment,
+    without_consequences,
+)
 from tests.diagnosis.report_examples import CONTACT, LAG
 
 STEP = Doubt(
@@ -50,10 +56,10 @@ def test_many_faults_of_one_recording_have_one_cause(count: int, is_accepted: bo
 
 def test_a_sensor_that_stood_still_explains_changes_beside_the_programme() -> None:
     beside = replace(STEP, kind="programme", subject="bath.temperature")
-    assert of_another_experiment([beside]) == [beside]
-    assert of_another_experiment([STEP, beside]) == []
+    assert of_another_experiment(without_consequences([beside])) == [beside]
+    assert of_another_experiment(without_consequences([STEP, beside])) == []
     unit = replace(STEP, kind="unit")
-    assert of_another_experiment([STEP, beside, unit]) == [unit]
+    assert of_another_experiment(without_consequences([STEP, beside, unit])) == [unit]
 
 
 @pytest.mark.parametrize(

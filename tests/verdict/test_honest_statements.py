@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
+from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.agreement import agreement
 from diagnosis.judge.diagnosis import Doubt, Estimate, Standing, Verdict
 from diagnosis.judge.doubts import doubted
 from diagnosis.judge.events import between_samples
 from diagnosis.judge.headline import headline, how_right
-from diagnosis.judge.judge import is_stopgap, why_open
+from diagnosis.judge.judge import _is_of_either, _rejections, is_stopgap, why_open
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.shares import of_title
+from diagnosis.simulator.models import DiagnosisModel
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 from tests.verdict.test_gain_and_agreement import COUNT, readings
 
@@ -39,6 +41,18 @@ def test_a_noise_that_is_larger_than_stated_is_told_from_an_error_that_lasts() -
         assert found.is_rejected
         assert found.is_irregular == is_irregular
     assert not agreement(drawn, readings()).is_irregular  # nothing rejects
+
+
+def test_readings_that_stand_out_alone_are_no_error_that_lasts() -> None:
+    """One in 25 by 7 deviations, either way: too little to be set aside as wild, enough to reject the model."""
+    rng = np.random.default_rng(4)
+    drawn, wave = rng.standard_normal(COUNT), np.sin(np.linspace(0.0, 25.0, COUNT))
+    wild = np.zeros(COUNT)
+    wild[5::25] = rng.choice([-7.0, 7.0], len(wild[5::25]))
+    for residuals, is_irregular in ((drawn + wild, True), (drawn + wild + 2.5 * wave, False)):
+        found = agreement(residuals, readings())
+        assert found.is_rejected
+        assert found.is_irregular == is_irregular
 
 
 def test_shares_are_those_of_the_errors_that_are_printed() -> None:
@@ -62,6 +76,15 @@ def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
     noisy = replace(ADEQUACY, is_irregular=True, day=())
     assert "something else is missing" not in how_right(noisy, False)
     assert "noise is larger than it is taken to be" in how_right(noisy, False)
+
+
+@pytest.mark.parametrize(
+    ("is_rejected", "which"), [(True, "the readings reject"), (False, "the training readings reject")]
+)
+def test_a_larger_noise_is_told_of_the_readings_that_show_it(is_rejected: bool, which: str) -> None:
+    noisy = replace(ADEQUACY, is_irregular=True, is_rejected=is_rejected, is_training_rejected=True)
+    (told,) = _rejections(noisy, "")
+    assert told.startswith(f"{which} the model by the noise")
 
 
 def test_a_larger_noise_is_corrected_and_no_recording_is_repeated_for_it() -> None:
@@ -147,3 +170,40 @@ def test_an_error_that_lasts_for_two_readings_is_no_noise() -> None:
     alike = np.convolve(drawn, np.ones(3) / np.sqrt(3.0), "same")
     assert not agreement(alike, readings(count=91, is_given=False)).is_irregular
     assert agreement(drawn, readings(count=91, is_given=False)).is_irregular
+
+
+def test_a_class_of_a_sensor_and_of_the_rig_accuses_neither() -> None:
+    """`drift of a sensor or unnamed heat` was told as a sensor at fault, `ambient drift or sensor drift` as physics."""
+    sensor = replace(LAG, standing=Standing.CLASS, ambiguous_with=("unnamed_heat_linear_time",), is_of_either=True)
+    rig = replace(CONTACT, standing=Standing.CLASS, ambiguous_with=("sensor_bias",), is_of_either=True)
+    for one in (sensor, rig):
+        told = headline(Verdict.CANNOT_TELL, [one], ADEQUACY, ["the readings reject the model"])
+        assert "is at fault" not in told
+        assert "leaves out" not in told
+        assert "the rig, a sensor or an input may do" in told
+        assert is_stopgap([one])
+    both = headline(Verdict.MISSING_PHYSICS, [replace(CONTACT, statement="a loose contact"), sensor], ADEQUACY)
+    assert both.startswith("The model leaves out: a loose contact.")
+    assert "is at fault" not in both
+
+
+@pytest.mark.parametrize(
+    ("effect", "likely", "is_either"),
+    [
+        ("sensor_lag", ("second_mass",), True),
+        ("second_mass", ("sheath",), False),
+        ("second_mass", ("sheath", "sensor_lag"), True),
+        ("sensor_lag", ("sensor_bias",), False),
+        ("sensor_lag", (), False),
+    ],
+)
+def test_whether_a_class_may_be_of_the_rig_and_of_a_sensor(
+    effect: str, likely: tuple[str, ...], is_either: bool
+) -> None:  # fmt: skip
+    known = [
+        Term(c.identifier, "all coils", c.unit, (), is_named=c.is_named)
+        for c in catalogue() if c.identifier in ("sensor_lag", "second_mass", "sheath", "sensor_bias")
+    ]  # fmt: skip
+    model = SimpleNamespace(terms=lambda: known)
+    term = next(t for t in known if t.identifier == effect)
+    assert _is_of_either(cast(DiagnosisModel, model), term, likely) is is_either

@@ -12,7 +12,7 @@ from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Point, strength_slopes
 from diagnosis.simulator.bank_model import BankModel
 from tests.events import rig
 
@@ -81,3 +81,18 @@ def test_what_does_not_show_has_no_class():
 def test_a_law_without_a_name_is_of_a_class_with_a_law_that_has_one(has_named_twin, wanted):
     step = next(t for t in model().terms() if t.identifier == "unnamed_resistance_step")
     assert standing_of(step, (), ("open_coil",), True, has_named_twin) is wanted
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("runaway", [1e200, np.inf])
+def test_a_law_whose_response_runs_away_is_no_member_and_warns_of_nothing(
+    monkeypatch: pytest.MonkeyPatch, runaway: float
+) -> None:
+    def slopes(model, point, here, tasks):  # type: ignore[no-untyped-def]
+        found = np.asarray(strength_slopes(model, point, here, tasks)).copy()
+        found[0, ::2] = runaway
+        return found
+
+    expected = members(model(), "open_coil", "coil[1,2]", 1.0, BREAK)
+    monkeypatch.setattr("diagnosis.judge.same_response.strength_slopes", slopes)
+    assert members(model(), "open_coil", "coil[1,2]", 1.0, BREAK) <= expected
