@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from diagnosis.judge.agreement import Agreement, agreement
+from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
@@ -55,6 +56,7 @@ class Accepted:
         agreement_recalibrated: Of the recalibrated model with them.
         basis: Which readings judged.
         judged_by: Term to which readings judged it: others of its own recording where no other one has it.
+        strengths: Term to its strength in the readings that judge, where they reject the model.
     """
 
     headline: Explanation
@@ -72,6 +74,7 @@ class Accepted:
     agreement_recalibrated: Agreement
     basis: str
     judged_by: Mapping[Term, str] = field(default_factory=dict)
+    strengths: Mapping[Term, Constancy] = field(default_factory=dict)
 
 
 class _Judge:
@@ -156,11 +159,14 @@ def accept(
         reasons |= dict.fromkeys(current.terms, (_DISTORTED,))
         current, after = Explanation(outcome.base), recalibrated
     fitted = training.predict(current.fit.point, is_fitted=False)
+    found = _agreement(unfitted, current.fit.point, after, on_progress)
+    strengths = _strengths(unfitted, current.fit.point, after, on_progress) if found.is_rejected else {}
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
-        gain(before, recalibrated, readings), _agreement(unfitted, current.fit.point, after, on_progress),
+        gain(before, recalibrated, readings), found,
         agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
         agreement(recalibrated.residuals, readings), unfitted.basis, {t: judge.basis(is_local(t)) for t in gains},
+        strengths,
     )  # fmt: skip
 
 
@@ -174,6 +180,16 @@ def _agreement(
     on_progress("asking whether the error of the fitted parameters explains what is left")
     tested = unfitted.tested(point, predicted)
     return agreement(predicted.residuals, unfitted.readings, tested)
+
+
+def _strengths(
+    unfitted: Unfitted, point: Point, predicted: Predicted, on_progress: Callable[[str], None]
+) -> dict[Term, Constancy]:  # fmt: skip
+    """Strengths of the laws of a fit in unfitted readings, as far as they tell."""
+    if point.terms:
+        on_progress("asking whether each law has the same strength in readings that it was not fitted to")
+    every = {t: unfitted.constancy(point, predicted, t) for t in point.terms}
+    return {t: found for t, found in every.items() if found is not None}
 
 
 def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Term) -> Explanation:

@@ -10,6 +10,7 @@ from cosim.unit import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import INPUT
 from diagnosis.judge.acceptance import Accepted
+from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
     Adequacy,
     Alternative,
@@ -244,6 +245,8 @@ def _finding(
         doubts = (*doubts, _much_left(accepted))
     if term.identifier == INPUT.identifier and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
         doubts = (*doubts, _elsewhere(accepted))
+    if term in accepted.strengths and not accepted.strengths[term].is_constant:
+        doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))
     standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:
@@ -325,6 +328,15 @@ def _elsewhere(accepted: Accepted) -> str:
     wherever that state comes again.
     """
     return f"the {accepted.basis} reject the model with it: a law that acts there may be what it stands for"
+
+
+def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) -> str:
+    """Why a law has no name that would have to have another strength in the readings that judge."""
+    here, there = units.like(strength, found.fitted), units.like(strength, found.there)
+    return (
+        f"{strength.name} is {here} in the training recordings and would have to be {there} in the {basis}: "
+        "a parameter of the rig is the same in all"
+    )
 
 
 def _much_left(accepted: Accepted) -> str:

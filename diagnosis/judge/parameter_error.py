@@ -210,6 +210,24 @@ def tested(
         has_zero: Which channels have a zero that is unknown by `ZERO`, shape (channels,).
     """
     columns = zeroed(columns, channel, has_zero)
+    u, rest, value = moved(may, columns, left, channel, has_zero)
+    count = len(has_zero)
+    together = np.bincount(channel, rest**2, count)
+    return Tested(value, np.array([_least(may, columns, rest, u, channel == n, together[n]) for n in range(count)]))
+
+
+def moved(
+    may: Freedom, columns: Array, left: Callable[[Point], Array], channel: AnyArray, has_zero: AnyArray
+) -> tuple[Array, Array, float]:  # fmt: skip
+    """The move u that readings like best, what it leaves, its squares with the price: Gauss-Newton with halved steps.
+
+    Args:
+        may: How the numbers may move.
+        columns: Derivatives of the readings by its u, `zeroed`, shape (readings, k).
+        left: (measured - simulated) / noise of the readings at a point, shape (readings,).
+        channel: Number of the channel of each reading, shape (readings,).
+        has_zero: Which channels have a zero that is unknown by `ZERO`, shape (channels,).
+    """
     lower, upper = may.objective.lower, may.objective.upper
 
     def at(u: Array) -> tuple[Array, float]:
@@ -232,9 +250,7 @@ def tested(
         fell, u, rest, value = value - other, u + step, there, other
         if fell < SETTLED:
             break
-    count = len(has_zero)
-    together = np.bincount(channel, rest**2, count)
-    return Tested(value, np.array([_least(may, columns, rest, u, channel == n, together[n]) for n in range(count)]))
+    return u, rest, value
 
 
 def _least(may: Freedom, columns: Array, rest: Array, u: Array, own: AnyArray, together: float) -> float:

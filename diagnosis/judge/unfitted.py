@@ -14,6 +14,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.judge.beginning import begun
+from diagnosis.judge.constancy import Constancy, constancy
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.own_numbers import own_numbers
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
@@ -21,7 +22,7 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.posterior import huber_weights
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Point, Term
 from diagnosis.search.shares import departures
 from diagnosis.search.validation import blocks
 from diagnosis.simulator.masked import MaskedModel
@@ -165,6 +166,16 @@ class Unfitted(Protocol):
         """
         ...
 
+    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
+        """Strength of a law in the readings; None where it cannot be estimated from them alone.
+
+        Args:
+            point: A fit of the training model with the law.
+            predicted: What it predicts.
+            term: The law.
+        """
+        ...
+
 
 def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
     """(measured - simulated) / noise of every reading, run by run, channel by channel; clipped where not finite."""
@@ -194,10 +205,15 @@ def _tested(model: DiagnosisModel, readings: Readings, kept: AnyArray, may: Free
         columns: Derivatives of all its residuals, shape (residuals, k).
     """
     chosen = readings.chosen[kept]
-    has_zero = np.array([c.bias_bound == 0.0 for c in readings.channels])
     return tested(
-        may, columns[chosen], lambda point: raw_residuals(model, point)[chosen], readings.channel[kept], has_zero
-    )
+        may, columns[chosen], lambda point: raw_residuals(model, point)[chosen], readings.channel[kept],
+        _has_zero(readings.channels),
+    )  # fmt: skip
+
+
+def _has_zero(channels: Sequence[Channel]) -> AnyArray:
+    """Which channels have a zero that is unknown by a share of their noise, shape (channels,)."""
+    return np.array([c.bias_bound == 0.0 for c in channels])
 
 
 def _finite(residuals: Array) -> Array:
@@ -244,9 +260,27 @@ class HeldOutReadings:
         return Predicted(residuals, plain, float(z @ z), moved, (carried,))
 
     def tested(self, point: Point, predicted: Predicted) -> Tested | None:
-        """See `Unfitted`; the numbers of the day are part of the move, from where they are written down.
+        """See `Unfitted`."""
+        found = self._freedom(point, predicted)
+        return None if found is None else _tested(self._judge, self.readings, ~self.readings.is_wild, *found)
 
-        Where they were fitted to a first stretch they move about what that gave.
+    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
+        """See `Unfitted`."""
+        found = self._freedom(point, predicted)
+        if found is None or term.parameters[0].is_switch or term.recording is not None:
+            return None
+        kept = ~self.readings.is_wild
+        chosen, channels = self.readings.chosen[kept], self.readings.channels
+        return constancy(
+            *found, term, point.terms[term][0], lambda p: raw_residuals(self._judge, p)[chosen],
+            self.readings.channel[kept], self.readings.block[kept], _has_zero(channels), chosen,
+        )  # fmt: skip
+
+    def _freedom(self, point: Point, predicted: Predicted) -> tuple[Freedom, Array] | None:
+        """How the numbers of a fit may move, and the derivatives of all residuals; None where none can be moved.
+
+        The numbers of the day are part of the move, from where they are written down. Where they were fitted to a first
+        stretch they move about what that gave.
         """
         if not _can_be_moved(self._judge) or not _can_be_moved(self._trained):
             return None
@@ -258,7 +292,7 @@ class HeldOutReadings:
             used = np.concatenate([s.used for run in self._judge.runs for s in run.series])
             used[self.readings.chosen] = False
             may = may.after(columns[used])
-        return _tested(self._judge, self.readings, ~self.readings.is_wild, may, columns)
+        return may, columns
 
     def _with_day(self, point: Point) -> Point:
         """The point with the day's own numbers estimated: Gauss-Newton with their priors and Huber weights.
@@ -339,6 +373,10 @@ class LeftOutReadings:
             kept = part[self.readings.chosen] & ~self.readings.is_wild
             sums.append(_tested(self._inner, self.readings, kept, may, may.columns()))
         return Tested(sum(s.total for s in sums), np.sum([s.channels for s in sums], axis=0))
+
+    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
+        """See `Unfitted`: a stretch of a recording is too short for an estimate of its own."""
+        return None
 
 
 def left_out_stretches(
