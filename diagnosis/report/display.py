@@ -253,12 +253,14 @@ def duration(seconds: float) -> str:
 
 
 def words(effect: str) -> str:
-    """An identifier in words; a parameter that the model has already is called so.
+    """An identifier in words; a parameter that the model has already is called so, and a law without a name too.
 
-    >>> words("base:reference_resistance"), words("second_mass")
-    ("the model's own reference resistance", 'second mass')
+    >>> words("base:reference_resistance"), words("second_mass"), words("unnamed_value_square")
+    ("the model's own reference resistance", 'second mass', 'a law without a name (value square)')
     """
     text = clean(effect).replace("_", " ")
+    if text.startswith("unnamed "):
+        return f"a law without a name ({text.removeprefix('unnamed ')})"
     return f"the model's own {text.removeprefix('base:')}" if text.startswith("base:") else text
 
 
