@@ -1,4 +1,4 @@
-"""Readings by themselves: noise, wild readings, gaps, readings that stand still, steps that no body can make."""
+"""Readings by themselves: noise, wild readings, gaps, readings that stand still, steps that the rig does not make."""
 
 from __future__ import annotations
 
@@ -23,6 +23,9 @@ HONEST = 2.0
 SIDE, WIDE = 4, 12
 #: Readings over which a course may go over from one line to another, and is no step then.
 RAMPS = (5.0, 8.0)
+#: A temperature that steps by so many times its largest change from one reading to the next elsewhere steps faster than
+#: the rig makes it: a heat flow may double where another comes to it.
+FASTER = 2.0
 #: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
@@ -426,7 +429,9 @@ def _steps(compared: Compared, beside: Beside) -> list[Doubt]:
     found = [_wild_doubt(compared, beside, residual - clean, wild, noise)] if wild.any() else []
     both = _merged(jumps(clean, noise, 2.0 * tests), level_shifts(clean, noise, 2.0 * tests))
     every = [j for j in both if not _at_switch(compared, channel.times, j.index)]
-    return found + _stretches(compared, beside, every, noise)
+    calm = channel.values.copy()
+    calm[wild] = np.interp(channel.times[wild], channel.times[~wild], calm[~wild])
+    return found + _stretches(compared, beside, every, noise, calm)
 
 
 def _residual(beside: Beside) -> Array:
@@ -482,10 +487,29 @@ def _at_switch(compared: Compared, times: Array, index: int) -> bool:
     return bool(((switches >= low) & (switches <= high)).any())
 
 
-def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise: float) -> list[Doubt]:
-    """Steps that are undone later, and, of a temperature, steps that stay."""
+def _fastest(values: Array, steps: Sequence[Jump]) -> float:
+    """Largest change from one reading to the next beside all steps, at least the smallest that is written down."""
+    changes = np.abs(np.diff(values))
+    kept = np.ones(len(changes), dtype=bool)
+    for step in steps:
+        kept[max(step.index - 2, 0) : step.index + 1] = False
+    return float(np.max(changes[kept], initial=0.0)) or float(np.min(changes[changes > 0.0], initial=np.inf))
+
+
+def _stretches(
+    compared: Compared, beside: Beside, every: Sequence[Jump], noise: float, calm: Array
+) -> list[Doubt]:  # fmt: skip
+    """Steps that are undone later, and, of a temperature, steps that stay.
+
+    Args:
+        compared: A recording beside its simulation.
+        beside: The channel.
+        every: Its steps.
+        noise: Standard deviation of a reading.
+        calm: The readings without single wild ones, shape (samples,).
+    """
     channel = beside.channel
-    is_body = channel.unit == "K"  # a body with a heat capacity makes no step; currents and positions may
+    is_body = channel.unit == "K"  # a heat capacity does not step there and back; currents and positions may
     left = list(every)
     found, stays = [], []
     while left:
@@ -506,14 +530,15 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
             found.append((text.replace("stand -", "stand "), remedy, begin, end, min(first.z, back.z)))
         elif min(first.index, len(channel.values) - first.index) >= SIDE:  # else wild readings at an end
             stays.append(first)
-    if stays and is_body:
+    fastest = _fastest(calm, every)  # it may change as fast as it does elsewhere
+    stays = [j for j in stays if is_body and abs(j.size) > FASTER * fastest]
+    if stays:
         worst = max(stays, key=lambda j: j.z)
         begin, end = float(channel.times[worst.index]), float(channel.times[-1])
         more = f" (the largest of {len(stays)} steps)" if len(stays) > 1 else ""
         text = (
-            f"at {begin:.4g} s the readings step by {_size(worst.size, channel.unit)} from one reading to "
-            f"the next{more}, "
-            "which no body with a heat capacity does"
+            f"at {begin:.4g} s the readings step by {_size(worst.size, channel.unit)} from one reading to the "
+            f"next{more}, {abs(worst.size) / fastest:.2g} times as much as anywhere else but at single wild readings"
         )
         found.append((text, "was the sensor moved or knocked off? Use `begin` and `end`", begin, end, worst.z))
     return [

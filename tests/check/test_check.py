@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -127,6 +128,27 @@ def test_a_sensor_that_is_off_for_a_while(scenario: Scenario, tmp_path: Path, si
     values[90:150, 1] += size
     (found,) = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
     assert (found.kind, found.subject, found.begin, found.end) == ("sensor", "coil[2].temperature", 180.0, 298.0)
+
+
+def test_a_step_that_stays_is_a_fault_where_nothing_else_is_as_fast(scenario: Scenario, tmp_path: Path) -> None:
+    values = rig.readings(rig.FIRST)
+    fastest = np.max(np.abs(np.diff(values[:, 1])))
+    values[150:, 1] -= 4.0
+    (found,) = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
+    assert (found.kind, found.subject, found.begin) == ("sensor", "coil[2].temperature", 300.0)
+    told = re.search(r"step by -(\S+) K from one reading to the next, (\S+) times as much as anywhere", found.statement)
+    assert told is not None
+    assert float(told[1]) == pytest.approx(4.0, abs=0.3)
+    assert float(told[2]) == pytest.approx(4.0 / fastest, rel=0.15)
+
+
+def test_a_step_that_stays_is_none_where_the_rig_is_as_fast(scenario: Scenario, tmp_path: Path) -> None:
+    """A body that is cooled faster than the model knows: readings that change as much are no fault of a sensor."""
+    values = rig.readings(rig.FIRST)
+    values[100:, 1] += 2.5 * (1.0 - np.exp(-np.arange(len(values) - 100) / 1.5))  # 1.2 K at once and then on
+    values[200:, 1] -= 2.0
+    found = [d for d in doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values)) if d.is_serious]
+    assert not any("from one reading to the next" in d.statement for d in found)
 
 
 def test_several_faults_at_once(scenario: Scenario, tmp_path: Path) -> None:
