@@ -33,10 +33,12 @@ def headline(
     """
     if verdict is Verdict.RECORDING_FAULT:
         return _not_comparable(of_another_experiment(doubts))
-    physics = _listed([f for f in found if f.is_accepted and is_physics(f)])
+    of_the_rig = [f for f in found if f.is_accepted and is_physics(f)]
     at_fault = [f for f in found if f.is_accepted and not is_physics(f)]
+    is_told = verdict in (Verdict.MISSING_PHYSICS, Verdict.UNNAMED_PHYSICS)
+    physics = _listed(of_the_rig if is_told else [])
     measured = _listed([f for f in at_fault if accuses(f)])
-    described = _listed([f for f in at_fault if not accuses(f)])
+    described = _listed([*([] if is_told else of_the_rig), *(f for f in at_fault if not accuses(f))])
     suggested = _listed([f for f in found if not f.is_accepted])
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
@@ -47,20 +49,27 @@ def headline(
         Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(measured, doubts)}.",
         Verdict.MISSING_PHYSICS: f"The model leaves out: {physics}.",
         Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {physics}.",
-        Verdict.CANNOT_TELL: f"It cannot be told whether something is missing: {'; '.join(reasons)}.",
+        Verdict.CANNOT_TELL: f"It cannot be told {_open(adequacy)}: {'; '.join(reasons)}.",
     }[verdict]
     parts = [first]
     if physics and measured:
         parts.append(f"Besides, a sensor or an input is at fault: {measured}.")
     if described:
-        parts.append(f"What else improves the prediction the rig, a sensor or an input may do: {described}.")
+        what = "What" if verdict is Verdict.CANNOT_TELL else "What else"
+        parts.append(f"{what} improves the prediction the rig, a sensor or an input may do: {described}.")
     if suggested:
         parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
     if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(physics), units, bool(at_fault)))
+        parts.append(how_right(adequacy, bool(of_the_rig), units, bool(at_fault)))
     elif adequacy.day:
         parts.append(f"That takes for granted: {day_of(adequacy, units)}.")
     return " ".join(parts)
+
+
+def _open(adequacy: Adequacy) -> str:
+    """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something."""
+    is_wrong = adequacy.is_rejected and not adequacy.is_irregular
+    return "what is missing or wrong" if is_wrong else "whether something is missing"
 
 
 def _not_comparable(serious: Sequence[Doubt]) -> str:

@@ -55,10 +55,14 @@ DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 #: Chi-square per reading below which errors of the model are smaller than the noise; share of what recalibration
 #: leaves that may stay where they are larger.
 BURIED, MOST_LEFT = 2.0, 0.1
+#: Share of what recalibration leaves that a law without a name has to explain to be of the rig.
+HALF = 0.5
 #: A parameter that moved by more prior deviations than this is reported.
 MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0
+#: Why a law has no name beside one that has none.
+_BESIDE = ("a law without a name acts at the same place: both may be parts of one law that is in no library",)
 #: Share of its peak from which an effect counts as being there.
 SHOWS = 0.1
 
@@ -80,14 +84,27 @@ def verdict(
     accepted = [f for f in found if f.is_accepted]
     physics = [f for f in accepted if is_physics(f)]
     if physics:
-        is_named = any(f.standing is not Standing.UNNAMED for f in physics)
-        return Verdict.MISSING_PHYSICS if is_named else Verdict.UNNAMED_PHYSICS
+        if any(f.standing is not Standing.UNNAMED for f in physics):
+            return Verdict.MISSING_PHYSICS
+        if not leaves_most(adequacy):
+            return Verdict.UNNAMED_PHYSICS
     if faults(doubts) or (accepted and not is_stopgap(accepted)):
         return Verdict.MEASUREMENT_FAULT
     if why_open(outcome, found, adequacy, searched, doubts):
         return Verdict.CANNOT_TELL
     is_needed = moved or adequacy.is_nominal_rejected or adequacy.day
     return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
+
+
+def leaves_most(adequacy: Adequacy) -> bool:
+    """Whether readings reject a model and more is left than was explained of what recalibration leaves.
+
+    A law without a name that explains less than half is bent to something else, maybe of another part of the rig or of
+    a sensor.
+    """
+    if not adequacy.is_rejected or adequacy.is_irregular:
+        return False
+    return 1.0 - adequacy.explained > HALF * (1.0 - adequacy.by_recalibration)
 
 
 def is_stopgap(measured: Sequence[Finding]) -> bool:
@@ -102,12 +119,17 @@ def is_stopgap(measured: Sequence[Finding]) -> bool:
 def why_open(
     outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
 ) -> tuple[str, ...]:  # fmt: skip
-    """Why it cannot be told whether something is missing, where no physics is accepted; empty if the model agrees."""
+    """Why it cannot be told whether something is missing, or what; empty if the model agrees.
+
+    It is asked where no physics is accepted, or none that explains most of what is left.
+    """
     if far_starts(doubts):
         return (_start(far_starts(doubts)[0]),)
     if late := late_responses(doubts):
         return (f"{late[0].recording}: {late[0].statement.rstrip('.')}",)
     reasons = _open_ones(found)
+    if any(f.is_accepted and is_physics(f) for f in found):
+        reasons.append("what improves the prediction has no name and leaves most of the mismatch")
     if not searched.has_physics:
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
@@ -219,12 +241,29 @@ def findings(
         found += [
             _finding(model, outcome, accepted, explanation, t, is_accepted, titles, units, judge) for t in ordered
         ]
+        if is_accepted:
+            found = [
+                _finding(model, outcome, accepted, explanation, t, True, titles, units, judge, _BESIDE)
+                if _is_beside_unnamed(f, found) else f
+                for t, f in zip(ordered, found)
+            ]  # fmt: skip
     return tuple(found)
+
+
+def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:
+    """Whether a law with a name acts where one without a name does: both may be parts of one law that is in no library.
+
+    The sum of such terms is what the readings confirm, and not each of them.
+    """
+    if finding.standing is Standing.UNNAMED or finding.unit in MEASURED:
+        return False
+    others = [f for f in every if f.standing is Standing.UNNAMED and f.unit == finding.unit]
+    return any(set(f.elements) & set(finding.elements) for f in others)
 
 
 def _finding(
     model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None,
+    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None, reasons: Sequence[str] = (),
 ) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
     fit = explanation.fit
@@ -247,6 +286,7 @@ def _finding(
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))
+    doubts = (*doubts, *reasons)
     standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:

@@ -15,14 +15,25 @@ from diagnosis.judge.diagnosis import Doubt, Estimate, Standing, Verdict
 from diagnosis.judge.doubts import doubted
 from diagnosis.judge.events import between_samples
 from diagnosis.judge.headline import headline, how_right
-from diagnosis.judge.judge import _is_of_either, _rejections, is_stopgap, why_open
+from diagnosis.judge.judge import (
+    _is_beside_unnamed,
+    _is_of_either,
+    _rejections,
+    findings,
+    is_stopgap,
+    verdict,
+    why_open,
+)
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.shares import of_title
 from diagnosis.simulator.models import DiagnosisModel
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
+from tests.search.line_model import BEND, TIME, WAVE
+from tests.verdict.lines import Lines
 from tests.verdict.test_gain_and_agreement import COUNT, readings
+from tests.verdict.test_parameter_error import fitted, held_out, judged
 
 START = Doubt("monday", "coil[1].temperature", "start", "begins at 35 degC, where 21 degC is simulated", "state it",
               False, 0.0, 9.0, 90.0, is_far=True)  # fmt: skip
@@ -207,3 +218,55 @@ def test_whether_a_class_may_be_of_the_rig_and_of_a_sensor(
     model = SimpleNamespace(terms=lambda: known)
     term = next(t for t in known if t.identifier == effect)
     assert _is_of_either(cast(DiagnosisModel, model), term, likely) is is_either
+
+
+@pytest.mark.parametrize(("explained", "word"), [(0.69, Verdict.CANNOT_TELL), (0.8, Verdict.UNNAMED_PHYSICS)])
+def test_a_law_without_a_name_that_leaves_most_of_the_mismatch_says_nothing_of_the_rig(
+    explained: float, word: Verdict
+) -> None:  # fmt: skip
+    """Recalibration explains 56 %: with 69 % more is left than was explained of the rest, with 80 % less."""
+    outcome: Any = SimpleNamespace(base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)))
+    searched: Any = SimpleNamespace(has_physics=True, untried=())
+    unnamed = replace(CONTACT, standing=Standing.UNNAMED, is_named=False, statement="an effect without a name, coils")
+    right = replace(ADEQUACY, explained=explained, by_recalibration=0.56)
+    assert verdict(outcome, [unnamed], right, searched) is word
+    assert verdict(outcome, [CONTACT], right, searched) is Verdict.MISSING_PHYSICS
+    assert verdict(outcome, [unnamed], replace(right, is_rejected=False), searched) is Verdict.UNNAMED_PHYSICS
+    reasons = why_open(outcome, [unnamed], right, searched)
+    assert reasons[0] == "what improves the prediction has no name and leaves most of the mismatch"
+    told = headline(word, [unnamed], right, reasons)
+    is_open = word is Verdict.CANNOT_TELL
+    assert ("The model leaves out" in told) is not is_open
+    assert told.startswith("It cannot be told what is missing or wrong: what improves the prediction has") is is_open
+    assert ("What improves the prediction the rig, a sensor or an input may do: an effect without" in told) is is_open
+    assert f"The amended model explains {100.0 * explained:.0f} % of the mismatch" in told
+
+
+def test_whether_something_is_missing_is_open_only_where_the_readings_do_not_reject_the_model() -> None:
+    met, noisy = replace(ADEQUACY, is_rejected=False), replace(ADEQUACY, is_irregular=True)
+    for right in (met, noisy):
+        told = headline(Verdict.CANNOT_TELL, [], right, ["a reason"])
+        assert told.startswith("It cannot be told whether something is missing: a reason.")
+    assert headline(Verdict.CANNOT_TELL, [], ADEQUACY, ["a reason"]).startswith("It cannot be told what is missing or")
+
+
+def test_a_law_with_a_name_beside_one_without_at_the_same_place_loses_its_name() -> None:
+    """A wave that no law with a name describes, and a bend that may be a part of the same law."""
+    truth = 0.3 + 0.5 * TIME + 0.3 * np.sin(25.0 * TIME) + 4.0 * TIME**2
+    training, judge = Lines(truth, 1), Lines(truth, 2)
+    outcome = fitted(training, WAVE, BEND)
+    accepted = judged(training, held_out(judge, training), WAVE, BEND)
+    found = {f.effect: f for f in findings(training, outcome, accepted, ["training"])}
+    assert all(f.is_accepted and f.standing is Standing.UNNAMED for f in found.values())
+    assert any("at the same place" in d for d in found["bend"].doubts)
+    assert not found["wave"].doubts
+    alone = fitted(training, BEND), judged(Lines(truth, 1), held_out(judge, training), BEND)
+    assert not any("at the same place" in d for f in findings(training, *alone, ["training"]) for d in f.doubts)
+
+
+def test_a_law_with_a_name_elsewhere_keeps_it() -> None:
+    unnamed = replace(CONTACT, standing=Standing.UNNAMED, elements=("string[2]",))
+    assert not _is_beside_unnamed(CONTACT, [CONTACT, unnamed])
+    assert not _is_beside_unnamed(CONTACT, [CONTACT, replace(unnamed, elements=CONTACT.elements, unit="thermal")])
+    assert _is_beside_unnamed(CONTACT, [CONTACT, replace(unnamed, elements=CONTACT.elements)])
+    assert not _is_beside_unnamed(LAG, [LAG, replace(LAG, standing=Standing.UNNAMED)])  # sensors: two of one channel
