@@ -15,6 +15,7 @@ from diagnosis.check.explain import LEVEL, Fit, design, explained, fit, gain
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
+from diagnosis.recording.series import sample
 
 #: Channels of one recording that are asked for timing; more of the same rig say the same again.
 MOST_CHANNELS = 6
@@ -22,6 +23,8 @@ MOST_CHANNELS = 6
 SHIFTS, FACTORS = 24, 16
 #: Greatest factor on time that is called a drifting clock; beyond it the unit of time is asked for.
 FASTEST = 0.3
+#: Bends of a sensor's characteristic that are tried, at quantiles of what it should read.
+KNOTS = 8
 #: Instants at which an unknown switch may lie.
 INSTANTS = 120
 
@@ -276,10 +279,9 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
     """Switches at other instants than the programme's explain the readings, and the programme does not.
 
     Three tests, all of which must hold: the programme leaves more than a model's discrepancy (chi-square over
-    independent
-    samples); as many switches of any size at free instants behind one lag leave no more than that; and at most half
-    of the
-    switches to which the simulation responds are among these instants: what a rig does of itself comes beside them.
+    independent samples), also with a sensor whose characteristic bends; as many switches of any size at free instants
+    behind one lag leave no more than that; and at most half of the switches to which the simulation responds are among
+    these instants: what a rig does of itself comes beside them.
     """
     switches = compared.switches()
     if len(switches) > 12:  # a recorded course that moves all the time: its instants are no statement
@@ -292,7 +294,7 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
         near = resolution(compared, b.channel) + 1.5 * span / INSTANTS
         met = [t for t in switches if min(abs(t - c) for c in chosen) < near]
         is_other = len(met) <= 0.5 * len(switches)
-        excess, left = discrepant(plain), discrepant(free)
+        excess, left = min(discrepant(plain), discrepant(_bent(b))), discrepant(free)
         pairs.append((excess if is_other and left < critical(4.0) else 0.0, plain, free, chosen, near))
     gained = float(np.median([p[0] for p in pairs]))
     if not gained > 0.0:
@@ -309,6 +311,15 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])
     return [Rival("programme", driver(compared), text, remedy, gained, *shares)]
+
+
+def _bent(beside: Beside) -> Fit:
+    """The best fit by a sensor whose characteristic bends: one that clips changes only when the programme does."""
+    assert beside.simulated is not None
+    own = sample(beside.simulated, beside.times)
+    knots = np.unique(np.quantile(own, np.linspace(0.0, 1.0, KNOTS + 2)[1:-1]))
+    bends = np.maximum(own[:, None] - knots, 0.0)
+    return fit(beside.measured, design(beside, beside.times), beside.tolerance, bends)
 
 
 def discrepant(found: Fit) -> float:

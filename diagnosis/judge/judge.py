@@ -86,7 +86,7 @@ def verdict(
     if physics:
         if any(f.standing is not Standing.UNNAMED for f in physics):
             return Verdict.MISSING_PHYSICS
-        if not leaves_most(adequacy):
+        if not leaves_most(adequacy) and not _has_stopgap(accepted):
             return Verdict.UNNAMED_PHYSICS
     if faults(doubts) or (accepted and not is_stopgap(accepted)):
         return Verdict.MEASUREMENT_FAULT
@@ -116,19 +116,25 @@ def is_stopgap(measured: Sequence[Finding]) -> bool:
     return not any(accuses(f) for f in measured)
 
 
+def _has_stopgap(accepted: Sequence[Finding]) -> bool:
+    """Whether laws of sensors or inputs that accuse nothing are accepted: beside laws of the rig without a name, all
+    of them may describe one thing, of either."""
+    return any(not is_physics(f) and not accuses(f) for f in accepted)
+
+
 def why_open(
     outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
 ) -> tuple[str, ...]:  # fmt: skip
     """Why it cannot be told whether something is missing, or what; empty if the model agrees.
 
-    It is asked where no physics is accepted, or none that explains most of what is left.
+    It is asked where no physics is accepted, or none that has a name and could not as well be of a sensor.
     """
     if far_starts(doubts):
         return (_start(far_starts(doubts)[0]),)
     if late := late_responses(doubts):
         return (f"{late[0].recording}: {late[0].statement.rstrip('.')}",)
     reasons = _open_ones(found)
-    if any(f.is_accepted and is_physics(f) for f in found):
+    if any(f.is_accepted and is_physics(f) for f in found) and leaves_most(adequacy):
         reasons.append("what improves the prediction has no name and leaves most of the mismatch")
     if not searched.has_physics:
         reasons.append(
@@ -255,10 +261,12 @@ def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:
 
     The sum of such terms is what the readings confirm, and not each of them.
     """
-    if finding.standing is Standing.UNNAMED or finding.unit in MEASURED:
+    if finding.standing is Standing.UNNAMED:
         return False
-    others = [f for f in every if f.standing is Standing.UNNAMED and f.unit == finding.unit]
-    return any(set(f.elements) & set(finding.elements) for f in others)
+    others = [f for f in every if f.standing is Standing.UNNAMED and f.unit not in MEASURED]
+    if finding.unit in MEASURED:  # a sensor takes part in all that its readings show
+        return any(set(f.channels) & set(finding.channels) for f in others)
+    return any(set(f.elements) & set(finding.elements) for f in others if f.unit == finding.unit)
 
 
 def _finding(

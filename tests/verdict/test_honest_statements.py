@@ -37,6 +37,12 @@ from tests.verdict.test_parameter_error import fitted, held_out, judged
 
 START = Doubt("monday", "coil[1].temperature", "start", "begins at 35 degC, where 21 degC is simulated", "state it",
               False, 0.0, 9.0, 90.0, is_far=True)  # fmt: skip
+#: A search in which nothing was moved far and no structure was seen, of a model that offers places for laws.
+QUIET: Any = SimpleNamespace(
+    base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)),
+    base_structure=SimpleNamespace(z=0.0, limit=4.0),
+)
+SEARCHED: Any = SimpleNamespace(has_physics=True, untried=())
 
 
 def test_a_noise_that_is_larger_than_stated_is_told_from_an_error_that_lasts() -> None:
@@ -225,17 +231,16 @@ def test_a_law_without_a_name_that_leaves_most_of_the_mismatch_says_nothing_of_t
     explained: float, word: Verdict
 ) -> None:  # fmt: skip
     """Recalibration explains 56 %: with 69 % more is left than was explained of the rest, with 80 % less."""
-    outcome: Any = SimpleNamespace(base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)))
-    searched: Any = SimpleNamespace(has_physics=True, untried=())
+    outcome, searched = QUIET, SEARCHED
     unnamed = replace(CONTACT, standing=Standing.UNNAMED, is_named=False, statement="an effect without a name, coils")
     right = replace(ADEQUACY, explained=explained, by_recalibration=0.56)
     assert verdict(outcome, [unnamed], right, searched) is word
     assert verdict(outcome, [CONTACT], right, searched) is Verdict.MISSING_PHYSICS
     assert verdict(outcome, [unnamed], replace(right, is_rejected=False), searched) is Verdict.UNNAMED_PHYSICS
     reasons = why_open(outcome, [unnamed], right, searched)
-    assert reasons[0] == "what improves the prediction has no name and leaves most of the mismatch"
-    told = headline(word, [unnamed], right, reasons)
     is_open = word is Verdict.CANNOT_TELL
+    assert (reasons[0] == "what improves the prediction has no name and leaves most of the mismatch") is is_open
+    told = headline(word, [unnamed], right, reasons)
     assert ("The model leaves out" in told) is not is_open
     assert told.startswith("It cannot be told what is missing or wrong: what improves the prediction has") is is_open
     assert ("What improves the prediction the rig, a sensor or an input may do: an effect without" in told) is is_open
@@ -269,4 +274,20 @@ def test_a_law_with_a_name_elsewhere_keeps_it() -> None:
     assert not _is_beside_unnamed(CONTACT, [CONTACT, unnamed])
     assert not _is_beside_unnamed(CONTACT, [CONTACT, replace(unnamed, elements=CONTACT.elements, unit="thermal")])
     assert _is_beside_unnamed(CONTACT, [CONTACT, replace(unnamed, elements=CONTACT.elements)])
-    assert not _is_beside_unnamed(LAG, [LAG, replace(LAG, standing=Standing.UNNAMED)])  # sensors: two of one channel
+
+
+def test_a_sensor_is_not_accused_of_what_a_law_without_a_name_does_in_its_readings() -> None:
+    """Creep that no law with a name describes was told as a term without a name and a sensor that drifts."""
+    creep = replace(CONTACT, standing=Standing.UNNAMED, channels=LAG.channels, statement="an effect without a name")
+    assert _is_beside_unnamed(LAG, [LAG, creep])
+    assert not _is_beside_unnamed(LAG, [LAG, replace(creep, channels=("string[1].current",))])
+    assert not _is_beside_unnamed(LAG, [LAG, replace(LAG, standing=Standing.UNNAMED)])  # two faults of one sensor
+    outcome, searched = QUIET, SEARCHED
+    sensor = replace(LAG, standing=Standing.UNNAMED, is_named=False)
+    right = replace(ADEQUACY, is_rejected=False)
+    assert verdict(outcome, [creep], right, searched) is Verdict.UNNAMED_PHYSICS
+    assert verdict(outcome, [creep, sensor], right, searched) is Verdict.CANNOT_TELL
+    assert verdict(outcome, [CONTACT, sensor], right, searched) is Verdict.MISSING_PHYSICS
+    told = headline(Verdict.CANNOT_TELL, [creep, sensor], right, why_open(outcome, [creep, sensor], right, searched))
+    assert "by a law of a sensor or an input, but not identified" in told
+    assert "the rig, a sensor or an input may do: an effect without a name; sensor lag" in told
