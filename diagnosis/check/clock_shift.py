@@ -36,6 +36,7 @@ EVENTS = 100
 _ELSE = (
     "the rig responds by another size from some instant on",
     "the readings answer an input at once, before the body does",
+    "the response to the same input changes in the course of the recording",
 )
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
 SUPPORT = chi_square_beyond(0.05, 1)
@@ -116,7 +117,7 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
         # what sets in in some time and stays may seem late, and what answers at once early
-        rivals = (event_gain(compared), direct_gain(compared))
+        rivals = (event_gain(compared), direct_gain(compared), growth_gain(compared))
         if max(rivals) > found.gained + limit:
             return []
         for rival, what in zip(rivals, _ELSE):
@@ -289,6 +290,20 @@ def event_gain(compared: Compared) -> float:
 def direct_gain(compared: Compared) -> float:
     """What sensors gain in -2 log likelihood that answer the inputs at once, beside what the body does."""
     return _gain_of(compared, lambda times, course: [direct(compared, times)])
+
+
+def growth_gain(compared: Compared) -> float:
+    """What a response, of the body or of a sensor, gains that grows or fades steadily: a drift, wear, an input's too.
+
+    Seen beside the course it moves as one does whose clock runs wrong.
+    """
+
+    def grown(times: Array, course: Array) -> list[Array]:
+        share = (times - times[0]) / max(float(times[-1] - times[0]), 1e-300)
+        inputs = direct(compared, times)
+        return [np.array([course * share, course * share**2]), np.concatenate([inputs, inputs * share])]
+
+    return max(_gain_of(compared, lambda t, c, k=k: [grown(t, c)[k]]) for k in range(2))
 
 
 def _gain_of(compared: Compared, beside_course: Callable[[Array, Array], list[Array]]) -> float:

@@ -187,13 +187,24 @@ def _start(doubt: Doubt) -> str:
 
 
 def is_small(accepted: Accepted) -> bool:
-    """Whether what the accepted model leaves of unfitted readings is so little that names may stand.
+    """Whether what the accepted model leaves of unfitted readings is so little that no other way is searched.
 
-    That is less than the noise of a single reading, or a tenth of what the recalibrated model leaves: where more stays,
-    the laws that were found are bent to what is missing besides.
+    That is less than the noise of a single reading, or a tenth of what the recalibrated model leaves.
     """
     left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
     return left.chi_square < BURIED or left.excess < MOST_LEFT * recalibrated.excess
+
+
+def bears_names(accepted: Accepted) -> bool:
+    """Whether a law may be called by its name though something is left of unfitted readings.
+
+    Where readings reject the model by what lasts, as little may be left as in training (`is_trusted`): another law than
+    the named one explains most of a mismatch too.
+    """
+    left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
+    if not left.is_rejected or left.is_irregular:
+        return True
+    return left.excess < UNEXPLAINED * recalibrated.excess
 
 
 def is_trusted(outcome: Outcome) -> bool:
@@ -288,7 +299,7 @@ def _finding(
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))
         doubts = (*doubts, unknown) if unknown else doubts
-    if not is_small(accepted):
+    if not bears_names(accepted):
         doubts = (*doubts, _much_left(accepted))
     if term.identifier == INPUT.identifier and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
         doubts = (*doubts, _elsewhere(accepted))

@@ -51,6 +51,33 @@ def test_40_clean_recordings_raise_no_doubt(
         assert edge_doubts(noisy) == []
 
 
+def test_a_response_that_grows_is_no_clock_that_runs_wrong(
+    scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    """Sensors that read more while the power is on, by up to 6 K at the end: a clock 2 % slow would gain 100."""
+    share = rig.instants()[:, None] / rig.SPAN
+    starts = np.array([p[0] for p in rig.FIRST])
+    power = np.array([p[1:] for p in rig.FIRST])[np.searchsorted(starts, rig.instants(), side="right") - 1]
+    values = rig.readings(rig.FIRST) + 6.0 * (power > 0.5) * np.expm1(2.0 * share) / np.expm1(2.0)
+    one = beside(scenario, tmp_path / "a", rig.FIRST, values)
+    monkeypatch.setattr("diagnosis.check.clock_shift.direct_gain", lambda compared: 0.0)
+    monkeypatch.setattr("diagnosis.check.clock_shift.event_gain", lambda compared: 0.0)
+    assert shift_doubts(one) == []
+    monkeypatch.setattr("diagnosis.check.clock_shift.growth_gain", lambda compared: 0.0)
+    assert shift_doubts(one) != []
+
+
+@pytest.mark.parametrize("rate", [0.03, -0.03])
+def test_a_clock_that_runs_wrong_is_no_response_that_grows(scenario: Scenario, tmp_path: Path, rate: float) -> None:
+    times = rig.instants() * (1.0 + rate)
+    one = compare(
+        scenario, load_recording(rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=times))
+    )
+    (doubt,) = [*timing_doubts(one, [])] or [d for d in shift_doubts(one) if d.is_serious]
+    assert doubt.kind == "clock"
+    assert f"too {'fast' if rate > 0 else 'slow'}" in doubt.statement
+
+
 @pytest.mark.parametrize("late", [8.0, 15.0, -8.0, -15.0])
 def test_a_clock_that_is_seconds_off(scenario: Scenario, tmp_path: Path, late: float) -> None:
     """The sensors lag by 12 s, which the scenario lacks."""
