@@ -298,12 +298,20 @@ def growth_gain(compared: Compared) -> float:
     Seen beside the course it moves as one does whose clock runs wrong.
     """
 
-    def grown(times: Array, course: Array) -> list[Array]:
-        share = (times - times[0]) / max(float(times[-1] - times[0]), 1e-300)
-        inputs = direct(compared, times)
-        return [np.array([course * share, course * share**2]), np.concatenate([inputs, inputs * share])]
+    def of_the_body(times: Array, course: Array) -> list[Array]:
+        share = _share(times)
+        return [np.array([course * share, course * share**2])]
 
-    return max(_gain_of(compared, lambda t, c, k=k: [grown(t, c)[k]]) for k in range(2))
+    def of_the_inputs(times: Array, course: Array) -> list[Array]:
+        inputs = direct(compared, times)
+        return [np.concatenate([inputs, inputs * _share(times)])]
+
+    return max(_gain_of(compared, of_the_body), _gain_of(compared, of_the_inputs))
+
+
+def _share(times: Array) -> Array:
+    """Share of a recording that is over, 0 to 1."""
+    return np.asarray((times - times[0]) / max(float(times[-1] - times[0]), 1e-300))
 
 
 def _gain_of(compared: Compared, beside_course: Callable[[Array, Array], list[Array]]) -> float:

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from diagnosis.faults.law import INPUT
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
 from diagnosis.proof.answer import Answer, Concealed, Sabotage
 from diagnosis.proof.departure import is_within_noise
@@ -38,6 +39,8 @@ _DOUBTS: Mapping[str, frozenset[str]] = {
     "sensor_off": frozenset({"sensor", "noise"}),
     "sensor_stuck": frozenset({"sensor", "noise"}),
 }
+#: Sabotage to findings that say the same of the recordings that were spoiled.
+_FINDINGS: Mapping[str, frozenset[str]] = {"input_offset": frozenset({INPUT.identifier})}
 
 
 def accepted(diagnosis: Diagnosis | None) -> tuple[Finding, ...]:
@@ -137,11 +140,11 @@ def _is_in_stated_class(finding: Finding, truth: Concealed, rig: Rig) -> bool:
 
 def _tells(finding: Finding, sabotage: Sabotage, rig: Rig) -> bool:
     """Whether a finding says what the sabotage did: the same in other words, or a fault of a spoiled channel."""
-    if finding.effect in sabotage.same_as:
-        return True
     channel, _, title = finding.place.partition(" (")  # a fault of one recording names it behind its channel
     if title and title.rstrip(")") not in sabotage.titles:
         return False
+    if finding.effect in sabotage.same_as or finding.effect in _FINDINGS.get(sabotage.kind, ()):
+        return True
     channels = {channel, *finding.elements, *found_place(channel, rig)}
     return finding.unit == "measurement" and bool(channels & set(sabotage.channels))
 
@@ -177,7 +180,13 @@ def _is_visible(answer: Answer, reference: Reference) -> bool:
 
 
 def _gain(diagnosis: Diagnosis, reference: Reference) -> float:
-    """Fall of the held-out chi-square per sample by the findings; negative where it is not known."""
+    """Fall of the held-out chi-square per sample by the findings; negative where it is not known.
+
+    With the numbers of the day as the diagnosis states them, if it does: an arm that begins 3 mrad off is far from its
+    course after ten swings, with and without what was found.
+    """
+    if diagnosis.adequacy is not None and diagnosis.adequacy.day:
+        return diagnosis.adequacy.chi_square["recalibrated"] - diagnosis.adequacy.chi_square["after"]
     stages = [held_out_chi_square(diagnosis, reference.samples, s) for s in ("recalibrated", "after")]
     before, after = stages
     return -1.0 if before is None or after is None else before - after

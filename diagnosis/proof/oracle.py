@@ -22,6 +22,7 @@ from diagnosis.search.fit import Fit, fit
 from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Point, Term, TermParameter
 from diagnosis.simulator.bank_model import BankModel
+from diagnosis.simulator.models import DiagnosisModel, models_of
 from diagnosis.simulator.runs import deviation
 
 #: Starts that are fitted for some iterations, and those of them that are fitted to the end.
@@ -146,22 +147,36 @@ def judging_samples(data: Data) -> dict[str, int]:
     return counts
 
 
-def about_truth(data: Data, clean: Mapping[str, Array]) -> dict[str, tuple[float, Channel, int]]:
+def read_judge(case: Path) -> DiagnosisModel:
+    """The model that judges a case, of whatever kind: of its held-out recordings."""
+    task = read_task(case)
+    training, held_out = ([load_recording(case / n) for n in names] for names in (task.training, task.held_out))
+    _, judge = models_of(load_scenario(case / "scenario.yaml"), training, held_out, catalogue(), threads=1)
+    assert judge is not None, "the proving ground holds recordings out in every case"
+    return judge
+
+
+def about_truth(
+    case: Path, judge: DiagnosisModel, clean: Mapping[str, Array]
+) -> dict[str, tuple[float, Channel, int]]:  # fmt: skip
     """Held-out readings about the truth: channel to the sum of squares [unit^2], the channel and its samples.
 
     Args:
-        data: Models.
-        clean: `<recording>/<kind>/stamps` and `.../clean`, as the proving ground writes them.
+        case: Its folder.
+        judge: Model of its held-out recordings.
+        clean: `<recording>/<quantity>/stamps` and `.../clean`, as the proving ground writes them.
     """
     found: dict[str, tuple[float, Channel, int]] = {}
-    names = read_task(data.case).held_out
-    for name, run in zip(names, data.judge.runs):
-        entries = yaml.safe_load((data.case / name / "recording.yaml").read_text())["channels"]
+    names = read_task(case).held_out
+    for name, run in zip(names, judge.runs):
+        given = yaml.safe_load((case / name / "recording.yaml").read_text())
         for series in run.series:
-            entry = entries[series.channel.name]
-            kind = Path(entry["table"]).stem
-            header = (data.case / name / entry["table"]).read_text().partition("\n")[0].split(",")[1:]
-            stamps, values = clean[f"{name}/{kind}/stamps"], clean[f"{name}/{kind}/clean"]
+            entry = given["channels"][series.channel.name]
+            table = entry.get("table", given.get("table", ""))
+            header = (case / name / table).read_text().partition("\n")[0].split(",")[1:]
+            kind = next(k for k in (Path(table).stem, entry["column"]) if f"{name}/{k}/stamps" in clean)
+            stamps, values = (np.asarray(clean[f"{name}/{kind}/{what}"]) for what in ("stamps", "clean"))
+            values = values.reshape(len(stamps), -1)
             times = series.channel.times[-len(series.samples) :]
             rows = np.abs(stamps[:, None] - times[None, :]).argmin(axis=0)
             truth = np.asarray(values[rows, header.index(entry["column"])], dtype=np.float64)

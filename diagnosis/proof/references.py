@@ -14,7 +14,16 @@ import numpy as np
 from diagnosis.judge.diagnosis import ChannelFit
 from diagnosis.proof.answer import read_answer
 from diagnosis.proof.isolated import Files, write_files
-from diagnosis.proof.oracle import about_truth, floor, held_out_fits, judging_samples, noises, oracle_fit, read_data
+from diagnosis.proof.oracle import (
+    about_truth,
+    floor,
+    held_out_fits,
+    judging_samples,
+    noises,
+    oracle_fit,
+    read_data,
+    read_judge,
+)
 from diagnosis.proof.reference import Reference
 from diagnosis.search.search import recalibrate
 from diagnosis.simulator.translate import NoBank
@@ -38,7 +47,7 @@ def make_reference(case: str, files: Files, answer: Files, has_baselines: bool) 
             found = _reference(Path(name) / case, Path(name) / "answers", has_baselines)
             return _with_twin(found, Path(name) / case, Path(name) / "answers" / f"{case}_twin")
         except NoBank as reason:
-            return Reference(case, failure=f"no reference: {reason}")
+            return _of_noise(Path(name) / case, Path(name) / "answers", f"no reference: {reason}")
 
 
 def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
@@ -51,7 +60,7 @@ def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
     fits = held_out_fits(data, points)
     samples = judging_samples(data)
     clean = np.load(io.BytesIO((answers / f"{folder.name}.npz").read_bytes()))
-    about = about_truth(data, clean)
+    about = about_truth(folder, data.judge, clean)
     found = Reference(
         folder.name,
         samples=samples,
@@ -68,6 +77,14 @@ def _reference(folder: Path, answers: Path, has_baselines: bool) -> Reference:
         values, terms, seconds = baselines(data, base)
         found = replace(found, baselines=values, terms=terms, seconds={**found.seconds, **seconds})
     return found
+
+
+def _of_noise(folder: Path, answers: Path, failure: str) -> Reference:
+    """What is known of a rig for which there is no model that knows the effect: the noise of its readings."""
+    clean = np.load(io.BytesIO((answers / f"{folder.name}.npz").read_bytes()))
+    about = about_truth(folder, read_judge(folder), clean)
+    samples = {channel: count for channel, (*_, count) in about.items()}
+    return Reference(folder.name, samples=samples, floor=floor(about), noises=noises(about), failure=failure)
 
 
 def _with_twin(found: Reference, case: Path, recordings: Path) -> Reference:

@@ -9,11 +9,12 @@ from typing import Any
 
 import pytest
 
-from diagnosis.judge.diagnosis import Diagnosis, Doubt, Standing, Verdict
+from diagnosis.judge.diagnosis import Diagnosis, Doubt, Moved, Standing, Verdict
 from diagnosis.proof.answer import Answer, Concealed, Sabotage, read_answer
 from diagnosis.proof.departure import noise_limit
 from diagnosis.proof.headline import is_headline_true
 from diagnosis.proof.scoring import score
+from tests.diagnosis.report_examples import ADEQUACY
 from tests.proof.examples import DURATION, RADIATION, REFERENCE, SHORT, SMALL, alternative, answer, diagnosis, finding
 
 NULL = answer(kind="null", verdicts=("consistent", "recalibrated"))
@@ -85,6 +86,27 @@ def test_unnamed_physics_is_true_in_the_right_unit_and_with_a_gain_held_out() ->
     assert not _true(diagnosis(unnamed, verdict=verdict), NULL)
     # What a standing of `unnamed` has as identifier does not matter.
     assert _true(diagnosis(finding(standing=Standing.UNNAMED), verdict=verdict), OUTSIDE)
+
+
+def test_the_gain_is_judged_with_the_numbers_of_the_day_that_are_stated() -> None:
+    """An arm whose start is 3 mrad off: as written both models are far from its readings."""
+    unnamed = finding("unnamed_heat_time", is_named=False)
+    told = diagnosis(unnamed, verdict=Verdict.UNNAMED_PHYSICS, after=3.5)  # recalibrated: 3.0
+    day = (Moved("arm.initial_angle of recording arm, held out 1", "rad", -0.003, False, -0.6),)
+    square = {"before": 5.9, "recalibrated": 4.8, "after": 1.6}
+    assert _true(replace(told, adequacy=replace(ADEQUACY, day=day, chi_square=square)), OUTSIDE)
+    assert not _true(replace(told, adequacy=replace(ADEQUACY, day=day, chi_square=square | {"after": 4.9})), OUTSIDE)
+    assert not _true(replace(told, adequacy=replace(ADEQUACY, day=(), chi_square=square)), OUTSIDE)
+
+
+def test_an_input_that_was_off_for_a_while_is_told_by_its_law() -> None:
+    spoiled = replace(STUCK, kind="input_offset", channels=(), same_as=())
+    right = finding("input_gain_in_interval", "measurement", "voltage of the supply (small, training 1)")
+    other = replace(right, place="voltage of the supply (small, training 2)")
+    bias = replace(right, effect="sensor_bias", elements=())
+    for one, is_right in ((right, True), (other, False), (bias, False)):
+        told = diagnosis(replace(one, elements=()), verdict=Verdict.MEASUREMENT_FAULT)
+        assert _true(told, _sabotaged(spoiled)) is is_right
 
 
 def test_cannot_tell_is_always_true() -> None:

@@ -59,3 +59,17 @@ def test_without_a_twin_everything_else_is_the_same(folder: Folder, reference: R
     found = make_reference(CASE, files_of(old.case(CASE)), answer_files(old, CASE), False)
     assert found.twin is None
     assert replace(found, twin=reference.twin, seconds=reference.seconds) == reference
+
+
+def test_of_a_rig_without_a_bank_the_noise_is_known_all_the_same(tmp_path: Path) -> None:
+    """A pendulum: readings about the truth scatter by the noise that is stated and the encoder's steps."""
+    made = Folder(tmp_path)
+    make_cases(made.path / "ground", Draw(1, 2, ("null",), ("pendulum",)))
+    found = make_reference(CASE, files_of(made.case(CASE)), answer_files(made, CASE), False)
+    assert found.failure.startswith("no reference: ")
+    assert found.recalibrated is None
+    ((channel, (scatter, deviation)),) = found.noises.items()
+    assert channel == "arm.angle"
+    assert scatter == pytest.approx(deviation, rel=0.1)
+    assert found.samples[channel] == pytest.approx(1200, abs=60)
+    assert found.floor == pytest.approx((scatter / deviation) ** 2, rel=0.5)
