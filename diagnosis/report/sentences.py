@@ -29,9 +29,18 @@ def where(finding: Finding) -> str:
     return f"described at {told}" if finding.standing is Standing.UNNAMED else told
 
 
+#: Parameters that say when a law acts.
+_INSTANTS = ("instant", "begin", "end")
+
+
 def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
-    """Intervals of a finding, in the recording that shows it most."""
+    """Intervals of a finding, in the recording that shows it most.
+
+    Of a law with an instant, or with begin and end, that is when it acts; of any other, where it is seen.
+    """
     told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    if not any(p.name in _INSTANTS for p in finding.parameters):
+        told = f"seen {told}" if finding.intervals else told
     return f"{told} of {clean(finding.recording)}" if finding.recording else told
 
 

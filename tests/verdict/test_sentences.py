@@ -15,7 +15,7 @@ from cosim.scenario import Scenario, load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.check import check_recordings
 from diagnosis.faults.model import with_faults
-from diagnosis.judge.diagnosis import Domain, Searched, Verdict
+from diagnosis.judge.diagnosis import Domain, Estimate, Searched, Verdict
 from diagnosis.judge.headline import headline, how_right
 from diagnosis.judge.judge import why_open
 from diagnosis.judge.location import WHOLE, Location
@@ -24,7 +24,7 @@ from diagnosis.recording.noise import is_unresolved
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.report.network import Network
 from diagnosis.report.page import page
-from diagnosis.report.sentences import sureness
+from diagnosis.report.sentences import sureness, when
 from diagnosis.report.undecided import departing, model_note, what_decides
 from diagnosis.search.problem import Point
 from diagnosis.search.score import Scoring
@@ -214,3 +214,14 @@ def test_a_stuck_sensor_is_fitted_where_no_parameter_is() -> None:
     term = next(t for t in model.faults() if t.identifier == "sensor_stuck_in_interval")
     point = Point(np.zeros(0), {term: (1.0, 0.5, 1.0)})
     assert model.base_jacobian(point).shape == (len(TIME), 0)
+
+
+def test_a_law_that_always_acts_is_seen_at_times_and_one_with_an_instant_acts_then() -> None:
+    """A drag of the air was told as `when 2.02 to 9.16 s`, which is where it moves the readings most."""
+    drag = replace(CONTACT, intervals=((2.02, 9.16),), recording="monday")
+    assert when(drag) == "seen 2.02 to 9.16 s of monday"
+    broken = replace(drag, intervals=((7.998, 60.0),), parameters=(Estimate("instant", "s", 7.998, 7.98, 8.01),))
+    assert when(broken) == "8.00 to 60.0 s of monday"
+    off = replace(FAULT, intervals=((35.4, 59.8),), parameters=(Estimate("begin", "s", 35.4, 35.0, 35.6),))
+    assert when(off) == "35.4 to 59.8 s"
+    assert when(replace(drag, intervals=())) == "– of monday"
