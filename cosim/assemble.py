@@ -166,7 +166,7 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
 
 def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
     reports_events = getattr(scenario.algorithm, "on_event", "continue") == "synchronise"
-    unit = build_fmu(name, component, parameters, source, reports_events)
+    unit = build_fmu(name, component, parameters, source, reports_events, scenario.time.stop.to("s"))
     if isinstance(unit, CoSimulationUnit):
         try:
             unit.check_step(nanoseconds(scenario.time.macro_step))

@@ -28,8 +28,9 @@ def fmu_folder() -> Path:
 
 
 def build_fmu(
-    name: str, component: FmuComponent, parameters: Resolved, source: Path, reports_events: bool = False
-) -> Unit:
+    name: str, component: FmuComponent, parameters: Resolved, source: Path, reports_events: bool = False,
+    stop: float | None = None,
+) -> Unit:  # fmt: skip
     """The unit of an FMU component.
 
     Args:
@@ -38,6 +39,7 @@ def build_fmu(
         parameters: Its parameters; for an FMU of any author their units are those of its own description.
         source: File of the scenario.
         reports_events: Whether its steps end at their first event (`on_event: synchronise`).
+        stop: End of the simulation [s], which the FMU is told; None: it is not known.
 
     Raises:
         InputError: There is no such FMU, it cannot be loaded, or a parameter or start value does not fit.
@@ -46,7 +48,7 @@ def build_fmu(
     try:
         tolerance = component.tolerance.to("1") if component.tolerance is not None else None
         settings = FmuSettings(
-            component.structure, parameters.values, component.start, tuple(component.record), tolerance,
+            component.structure, parameters.values, component.start, tuple(component.record), tolerance, stop,
             report_early_return=reports_events, added_terms=given_terms(component.added_terms),
         )  # fmt: skip
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit

@@ -99,6 +99,8 @@ class Binding(ABC):
     def __init__(self, archive: FmuArchive, interface: Interface, name: str) -> None:
         self.archive, self.interface, self.name = archive, interface, name
         self.messages: list[str] = []
+        #: Parameters and start values that were given, by name of the variable.
+        self.given: dict[str, Access] = {}
         description = archive.description
         kind = description.coSimulation if interface == "co_simulation" else description.modelExchange
         if kind is None:
@@ -214,6 +216,14 @@ class Binding(ABC):
     def writer(self, variable: FmuVariable, values: AnyArray) -> Access:
         """A call that copies `values` (its address is kept) to the FMU."""
         return self._access("Set", (Access, ConvertingWriter, TextWriter, BinaryWriter), (variable,), values)
+
+    def give(self, variable: FmuVariable, values: AnyArray) -> None:
+        """Set a parameter or a start value before initialisation.
+
+        An FMU that initialises itself when the experiment is set up forgets it, so it is set there once more.
+        """
+        access = self.given[variable.variable.name] = self.writer(variable, values)
+        access()
 
     def reader(self, variable: FmuVariable, values: AnyArray) -> Access:
         """A call that fills `values` (its address is kept) from the FMU."""

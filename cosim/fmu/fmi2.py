@@ -73,8 +73,10 @@ class Fmi2Binding(Binding):
                              "build the FMU for this size, or use FMI 3.0")  # fmt: skip
 
     def enter_initialisation(self, time: float, tolerance: float | None, stop: float | None) -> None:
-        """Set up the experiment, enter Initialization Mode."""
+        """Set up the experiment, give parameters and start values once more, enter Initialization Mode."""
         self.call(lambda: self.fmu.setupExperiment(tolerance, time, stop))
+        for access in self.given.values():
+            access()
         self.call(self.fmu.enterInitializationMode)
 
     def do_step(self, time: float, size: float, is_final: bool = True) -> StepResult:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding
@@ -15,7 +17,10 @@ from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
 from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array, start_value
 from cosim.quantity import PhysicalValue
-from cosim.unit import AnyArray, Causality
+from cosim.unit import AnyArray, Causality, UnitError
+
+#: Relative rounding of a parameter that an FMU keeps in single precision.
+_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -77,6 +82,7 @@ class Table:
             self.all = fmu_variables(archive.description, settings.structure, self.units)
         except StructureFault as error:
             raise InputError(archive.path, f"{name}.structure", str(error)) from error
+        self._given: dict[str, tuple[FmuVariable, AnyArray]] = {}
         recorded = {self._recorded(n) for n in settings.record}
         self.exposed = {
             n: v
@@ -116,7 +122,33 @@ class Table:
             if key in self.all and self.all[key].is_structural:
                 continue  # `configure` has set it
             variable = self._find("parameters", key, is_parameter)
-            binding.writer(variable, self._array("parameters", key, variable, value))()
+            array = self._array("parameters", key, variable, value)
+            binding.give(variable, array)
+            self._given[key] = variable, array
+
+    def check_accepted(self, binding: Binding) -> None:
+        """Read the numbers that were given to parameters back, in Initialization Mode.
+
+        Raises:
+            InputError: The FMU keeps another value. A parameter that cannot be read is taken to be accepted.
+        """
+        for key, (variable, array) in self._given.items():
+            if not (variable.variable.type.is_float or array.dtype.kind in "iub"):
+                continue
+            kept = np.empty_like(array)
+            try:
+                binding.reader(variable, kept)()
+            except UnitError:
+                continue
+            rounding = _ROUNDING if array.dtype.kind == "f" else 0.0
+            wrong = np.flatnonzero(~np.isclose(kept, array, rtol=rounding, atol=0.0, equal_nan=True))
+            if len(wrong):
+                element = f"[{wrong[0] + 1}]" if array.ndim else ""
+                raise InputError(
+                    self.archive.path, f"{self.name}.parameters.{key}{element}",
+                    f"the FMU does not take {array.flat[wrong[0]]:g}: it keeps {kept.flat[wrong[0]]:g}",
+                    "give a value that it takes; it may limit or round it, or set this parameter itself",
+                )  # fmt: skip
 
     def start_values(self, binding: Binding) -> dict[str, AnyArray]:
         """Set start values before initialisation; those of inputs are returned, by name of the input.
@@ -131,7 +163,7 @@ class Table:
             if key in self.exposed and variable.variable.causality is Causality.INPUT:
                 inputs[key] = array
             else:
-                binding.writer(variable, array)()
+                binding.give(variable, array)
         return inputs
 
     def _array(self, part: str, key: str, variable: FmuVariable, value: Any) -> AnyArray:

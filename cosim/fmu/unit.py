@@ -166,6 +166,7 @@ class FmuUnit(Unit):
         """Enter Initialization Mode with the inputs set so far; what was not set keeps the FMU's own start value."""
         self.binding.enter_initialisation(seconds(time), self.settings.tolerance, self.settings.stop_time)
         self._mode = Mode.INITIALISATION
+        self.table.check_accepted(self.binding)
         for name, write in self.writers.items():
             if name in self._given:
                 write()

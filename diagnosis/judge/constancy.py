@@ -26,6 +26,9 @@ from diagnosis.search.problem import Point, Term
 CONSTANT = 0.2
 #: Standard errors by which it has to differ; noise alone does in one of a thousand.
 ERRORS = 3.3
+#: Squared change of all readings, in deviations of the noise, by as much as the strength itself, below which they do not
+#: show a law: what belongs to another day alone.
+SHOWN = 1.0
 
 
 @dataclass(frozen=True)
@@ -67,8 +70,11 @@ def constancy(
         chosen: Numbers of these readings among all residuals, shape (readings,).
     """
     strength = _coordinate(may, term)
+    scale = float(may.objective.scale[strength - may.objective.count])
     here = may.objective.residuals(may.at)
     own = without_whitening(may.objective.model, _column(may, strength, here))  # type: ignore[arg-type]
+    if not float(np.sum((own[chosen] * fitted / scale) ** 2)) > SHOWN:
+        return Constancy(fitted, fitted, float("inf"))
     others = columns - own * may.directions[strength]  # the strength alone moves it, not what is shared with others
     every = zeroed(np.hstack([others, own])[chosen], channel, has_zero)
     free = _released(may, strength)
@@ -78,7 +84,6 @@ def constancy(
     pull = np.zeros((int(block.max(initial=-1)) + 1, every.shape[1]))
     np.add.at(pull, block, every * rest[:, None])
     noise = inverse @ (pull.T @ pull + free.precision) @ inverse
-    scale = float(may.objective.scale[strength - may.objective.count])
     by_fit = float(np.sum(may.directions[strength] ** 2))
     # sums over few blocks may cancel: noise alone gives the least
     by_readings = max(float(noise[-1, -1]), float(inverse[-1, -1]))

@@ -76,6 +76,20 @@ def test_readings_that_hardly_show_a_law_say_nothing_against_it():
         assert found.is_constant
 
 
+def test_a_law_that_the_readings_do_not_show_at_all_is_as_it_was_fitted():
+    """A draught of one day: no other recording changes with it, and its strength there is not known."""
+
+    class Without(Lines):
+        def signal(self, point: Point) -> Array:
+            return super().signal(Point(point.base))
+
+    found = strength(Lines(LINE + 4.0 * TIME**2, 1), Without(LINE + 1.0 * TIME**2, 2))
+    assert found is not None
+    assert found.there == found.fitted
+    assert found.error == np.inf
+    assert found.is_constant
+
+
 def test_errors_of_a_model_that_last_widen_the_error_of_a_strength():
     """A wave of a fifth of the line looks like a bend in some recordings; the blocks say by how much."""
     far = 0

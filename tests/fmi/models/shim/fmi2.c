@@ -36,7 +36,8 @@ void fmi2FreeInstance(fmi2Component c) { ((const fmi2CallbackFunctions *)((Insta
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start, fmi2Boolean has_stop, fmi2Real stop) {
     IN_MODES(INSTANTIATED, "fmi2SetupExperiment")
-    (void)has_tolerance; (void)tolerance; (void)has_stop; (void)stop; V.time = start; return fmi2OK;
+    (void)has_tolerance; (void)tolerance;
+    V.time = start; model_setup(&V, has_stop ? stop : -1.0); return fmi2OK;
 }
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
     IN_MODES(INSTANTIATED, "fmi2EnterInitializationMode") instance->state.mode = INITIALISATION; return fmi2OK;
