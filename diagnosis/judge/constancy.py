@@ -26,8 +26,8 @@ from diagnosis.search.problem import Point, Term
 CONSTANT = 0.2
 #: Standard errors by which it has to differ; noise alone does in one of a thousand.
 ERRORS = 3.3
-#: Squared change of all readings, in deviations of the noise, by as much as the strength itself, below which they do not
-#: show a law: what belongs to another day alone.
+#: Squared change of all readings by the whole strength, in deviations of the noise, below which they do not show a law:
+#: one of another day alone.
 SHOWN = 1.0
 
 
