@@ -19,6 +19,7 @@ import itertools
 import json
 import os
 import platform
+import re
 import subprocess
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 _PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
 
+_NOT_NETCDF = re.compile(r"[\x00-\x1f\x7f/]| $")
 _MAKE_ROOM = "free some room, then go on with `--resume`"
 
 
@@ -157,14 +159,36 @@ class RunFolder:
             InputError: One of the files cannot be written.
         """
         with writing(self.path):
-            numbers = [name for name, values in dataset.data_vars.items() if values.dtype.kind in "biuf"]
+            stored = with_netcdf_names(dataset)
+            numbers = [name for name, values in stored.data_vars.items() if values.dtype.kind in "biuf"]
             encoding = {name: {"zlib": True, "complevel": 4} for name in numbers}
             with replacing(self.results) as partial:
-                dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+                stored.to_netcdf(partial, engine="netcdf4", encoding=encoding)
             write_series(self.path / "series.csv", dataset)
             if self.has_csv or self.results_csv.exists():  # a resumed run leaves no half of a file behind
                 self.write_csv(trace)
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
+
+
+def with_netcdf_names(dataset: xr.Dataset) -> xr.Dataset:
+    """The dataset with names that NetCDF allows; a variable that had to be renamed has its own as attribute `name`.
+
+    Not allowed are control characters, `/` and a blank at the end (NetCDF Users Guide, names); they are written as in
+    addresses, with `%` and two hexadecimal digits, and so is `%` itself in such a name.
+    """
+    names = {n: _netcdf_name(str(n)) for n in (*dataset.variables, *dataset.dims)}
+    changed = {old: new for old, new in names.items() if old != new}
+    stored = dataset.rename(changed)
+    for old, new in changed.items():
+        if new in stored.variables:
+            stored[new].attrs = {**stored[new].attrs, "name": str(old)}
+    return stored
+
+
+def _netcdf_name(name: str) -> str:
+    if not _NOT_NETCDF.search(name):
+        return name
+    return _NOT_NETCDF.sub(lambda found: f"%{ord(found[0]):02X}", name.replace("%", "%25"))
 
 
 def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:

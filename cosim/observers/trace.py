@@ -13,6 +13,8 @@ from cosim.system import System
 from cosim.unit import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
 
 _RECORDED = {Causality.OUTPUT, Causality.LOCAL}
+#: Bytes as text: NetCDF has no bytes of variable length, and scenarios give them so too.
+_HEXADECIMAL = np.frompyfunc(bytes.hex, 1, 1)
 
 
 @dataclass(frozen=True)
@@ -57,14 +59,18 @@ class Trace:
             c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels
         }
         units = system.units
-        self._bound = [(self.rows[c.name], units[c.unit].get, c.variable.name) for c in self.channels]
+        bound = [(c, (self.rows[c.name], units[c.unit].get, c.variable.name)) for c in self.channels]
+        self._bound = [b for c, b in bound if c.variable.type is not VariableType.BINARY]
+        self._binary = [b for c, b in bound if c.variable.type is VariableType.BINARY]
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
         if self.times[self.count] != time:
             raise ValueError(f"output {self.count} belongs to {self.times[self.count]} ns, not {time} ns")
         for rows, get, name in self._bound:
-            rows[self.count] = get(name)
+            rows[self.count, ...] = get(name)  # without the dots a text would be kept as an array of its own
+        for rows, get, name in self._binary:
+            rows[self.count, ...] = _HEXADECIMAL(get(name))
         self.count += 1
 
     def chunk(self, first: int) -> dict[str, np.ndarray[Any, Any]]:
@@ -87,6 +93,8 @@ class Trace:
             attributes = {"long_name": channel.variable.description or channel.name}
             if channel.variable.type.is_number:  # text, switches and enumerations have no unit
                 attributes["units"] = channel.variable.unit
+            if channel.variable.type is VariableType.BINARY:
+                attributes["comment"] = "bytes in hexadecimal"
             values = self.rows[channel.name][: self.count]
             variables[channel.name] = (("time", *channel.dims), values, attributes)
         moments = np.array([seconds(t) for t in self.times[: self.count]])
@@ -100,8 +108,8 @@ def _channels(system: System) -> list[Channel]:
     result = []
     for name, unit in system.units.items():
         for variable in unit.variables.values():
-            if variable.causality not in _RECORDED or not variable.recorded or variable.type is VariableType.BINARY:
-                continue  # NetCDF has no bytes of variable length
+            if variable.causality not in _RECORDED or not variable.recorded:
+                continue
             dims = []
             for dim, size in zip(variable.dims, variable.shape, strict=True):
                 shared = dim if sizes.setdefault(dim, size) == size else f"{name}_{dim}"
