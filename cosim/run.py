@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,6 +24,8 @@ from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import Scenario
 from cosim.system import ConnectionFault, System
 from cosim.unit import StepStatus, UnitError, seconds
+
+_LOG = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -246,6 +249,7 @@ def _step_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
 ) -> None:
     per_checkpoint = nanoseconds(state.scenario.time.checkpoint_step) // state.macro
+    has_checkpoints = state.total <= per_checkpoint or _can_checkpoint(state)
     while state.index < state.total:
         due = min((state.index // per_checkpoint + 1) * per_checkpoint, state.total)
         try:
@@ -256,7 +260,7 @@ def _step_to_end(
             raise UnitError("algorithm", f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} "
                             "cannot repeat a step", outcome.time,
                             "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
-        if state.index == due < state.total:
+        if state.index == due < state.total and has_checkpoints:
             _checkpoint(state, folder)
         if on_progress is not None:
             elapsed = clock.perf_counter() - state.begin
@@ -264,6 +268,18 @@ def _step_to_end(
             on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
                                  seconds(state.macro)))  # fmt: skip
         interrupt.check()
+
+
+def _can_checkpoint(state: _Clockwork) -> bool:
+    """Whether all units can write their state; else that is said once, and the run goes on without checkpoints."""
+    unable = [name for name, unit in state.assembly.system.units.items() if not unit.can_checkpoint]
+    if unable:
+        _LOG.warning(
+            "%s: an FMU that cannot serialise its state (canSerializeFMUstate), so there are no checkpoints: "
+            "a run that is interrupted keeps its results and begins anew",
+            ", ".join(unable),
+        )
+    return not unable
 
 
 def _finish(state: _Clockwork, reason: str) -> xr.Dataset:

@@ -40,12 +40,18 @@ class TimeSettings(Strict):
     stop: Time = Field(description="Simulated time at which the run ends; met exactly.")
     macro_step: Duration = Field(description="Communication step of the co-simulation.")
     output_step: Duration = Field(description="Interval between recorded values; a multiple of the macro-step.")
-    checkpoint_step: Duration = Field(default=PhysicalValue(2.0, "s"), description="Interval between checkpoints.")
+    checkpoint_step: Duration = Field(
+        default=PhysicalValue(2.0, "s"),
+        description="Interval between checkpoints; default: 2 s, or the next longer multiple of the output step.",
+    )
 
     @model_validator(mode="after")
     def _check(self) -> TimeSettings:
         start, stop, macro = nanoseconds(self.start), nanoseconds(self.stop), nanoseconds(self.macro_step)
         output, checkpoint = nanoseconds(self.output_step), nanoseconds(self.checkpoint_step)
+        if "checkpoint_step" not in self.model_fields_set and checkpoint % output:
+            checkpoint = -(-checkpoint // output) * output
+            self.__dict__["checkpoint_step"] = PhysicalValue(checkpoint / 1e9, "s")
         if stop <= start:
             raise ValueError(f"stop ({self.stop}) must come after start ({self.start})")
         for name, value, divisor, of in (

@@ -104,6 +104,8 @@ class Unit(Protocol):
     initial_feedthrough: Mapping[str, frozenset[str]] = {}
     #: Whether `save` and `restore` work, so that a step can be repeated.
     can_restore: bool = False
+    #: Whether `checkpoint` works, so that a run that was interrupted can go on.
+    can_checkpoint: bool = True
 
     def set(self, name: str, value: AnyArray) -> None:
         """Copy `value` (shape of the variable) to an input. Raises UnitError if it is not finite."""

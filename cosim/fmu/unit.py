@@ -100,6 +100,7 @@ class FmuUnit(Unit):
         self.binding: Binding = bind(archive, interface, name)
         try:
             self.can_restore = bool(self.binding.capabilities.canGetAndSetFMUstate)
+            self.can_checkpoint = bool(self.binding.capabilities.canSerializeFMUstate)
             self.table.configure(self.binding)
             self.table.set_parameters(self.binding, settings.parameters)
             self.buffers = Buffers(self.binding, self.table.exposed)

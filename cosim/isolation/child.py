@@ -114,7 +114,7 @@ class Server:
         return Frame(Kind.DONE, payload={
             "variables": dict(unit.variables), "coordinates": dict(unit.coordinates),
             "feedthrough": dict(unit.feedthrough), "initial_feedthrough": dict(unit.initial_feedthrough),
-            "can_restore": unit.can_restore,
+            "can_restore": unit.can_restore, "can_checkpoint": unit.can_checkpoint,
         })  # fmt: skip
 
     def put_inputs(self) -> None:

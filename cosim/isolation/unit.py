@@ -57,6 +57,7 @@ class IsolatedUnit(Unit):
         self.feedthrough: Mapping[str, frozenset[str]] = facts["feedthrough"]
         self.initial_feedthrough: Mapping[str, frozenset[str]] = facts["initial_feedthrough"]
         self.can_restore: bool = facts["can_restore"]
+        self.can_checkpoint: bool = facts["can_checkpoint"]
         self._shared = SharedArrays(self._process.memory, self.variables, is_owner=False)
         self._arrays = self._shared.arrays
         self._indices = {n: i for i, n in enumerate(self._shared.inputs)}

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from cosim.native.action import Action
 from cosim.native.compose import Composer, Kind
 from cosim.native.plan import Actions, Grid, Plan
-from cosim.observers.trace import Trace
+from cosim.observers.trace import Trace, keep
 from cosim.system import System
-from cosim.unit import AnyArray
+from cosim.unit import AnyArray, Unit, Variable
 
 #: Integers up to this are exact as doubles, so that both loops compute the same times (104 days) [ns].
 LATEST = 2**53
@@ -66,7 +66,7 @@ def native_plan(system: System, kind: Kind, grid: Grid, watch: Watch) -> Plan:
         if live is not None and live.dtype == rows.dtype:
             recordings.append((live, rows))
         else:
-            record.append(Action(_recorder(system, channel.unit, channel.variable.name, rows, grid)))
+            record.append(Action(_recorder(unit, channel.variable, rows, grid)))
     record += _called(watch.each_record)
     return Plan(system, grid, Actions(step, record, recordings, composer.kept, composer.stepped))
 
@@ -81,12 +81,10 @@ def _called(callback: Callable[[], object] | None) -> list[Action]:
     return [Action(perform)]
 
 
-def _recorder(
-    system: System, unit: str, variable: str, rows: AnyArray, grid: Grid
-) -> Callable[[int, int], None]:  # fmt: skip
+def _recorder(unit: Unit, variable: Variable, rows: AnyArray, grid: Grid) -> Callable[[int, int], None]:
     """Records a variable that has no array to be read by address."""
 
     def perform(time: int, size: int) -> None:
-        rows[(time + size - grid.start) // (grid.size * grid.per_record)] = system.units[unit].get(variable)
+        keep(rows, (time + size - grid.start) // (grid.size * grid.per_record), variable, unit.get(variable.name))
 
     return perform

@@ -59,18 +59,18 @@ class Trace:
             c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels
         }
         units = system.units
-        bound = [(c, (self.rows[c.name], units[c.unit].get, c.variable.name)) for c in self.channels]
-        self._bound = [b for c, b in bound if c.variable.type is not VariableType.BINARY]
-        self._binary = [b for c, b in bound if c.variable.type is VariableType.BINARY]
+        bound = [(self.rows[c.name], units[c.unit].get, c.variable) for c in self.channels]
+        self._numbers = [(rows, get, v.name) for rows, get, v in bound if rows.dtype != object]
+        self._texts = [b for b in bound if b[0].dtype == object]
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
         if self.times[self.count] != time:
             raise ValueError(f"output {self.count} belongs to {self.times[self.count]} ns, not {time} ns")
-        for rows, get, name in self._bound:
-            rows[self.count, ...] = get(name)  # without the dots a text would be kept as an array of its own
-        for rows, get, name in self._binary:
-            rows[self.count, ...] = _HEXADECIMAL(get(name))
+        for rows, get, name in self._numbers:
+            rows[self.count] = get(name)
+        for rows, get, variable in self._texts:
+            keep(rows, self.count, variable, get(variable.name))
         self.count += 1
 
     def chunk(self, first: int) -> dict[str, np.ndarray[Any, Any]]:
@@ -101,6 +101,19 @@ class Trace:
         coordinates: dict[str, Any] = {"time": ("time", moments, {"units": "s", "long_name": "simulated time"})}
         coordinates.update(_coordinates(self.system, self.channels))
         return xr.Dataset(variables, coordinates)
+
+
+def keep(rows: AnyArray, row: int, variable: Variable, value: AnyArray) -> None:
+    """Record one value of a variable, bytes as text.
+
+    Args:
+        rows: Values of all output times, shape (output times, ...).
+        row: Number of the output time.
+        variable: What is recorded.
+        value: Its value.
+    """
+    # without the dots a text would be kept as an array of its own
+    rows[row, ...] = _HEXADECIMAL(value) if variable.type is VariableType.BINARY else value
 
 
 def _channels(system: System) -> list[Channel]:

@@ -17,7 +17,7 @@ from cosim.scenario import load_scenario
 #: As XML has it, to the name of the variable.
 NAMES = {
     "a/b": "a/b", "line&#10;break": "line\nbreak", "tab&#9;": "tab\t", "100%/h": "100%/h", "blank ": "blank ",
-    "Größe μ": "Größe μ", "comma, &quot;quote&quot;": 'comma, "quote"', 
+    "Größe μ": "Größe μ", "comma, &quot;quote&quot;": 'comma, "quote"',
     "&lt;der(x)&gt;": "<der(x)>", "der(x)": "der(x)",
 }  # fmt: skip
 

@@ -1,0 +1,70 @@
+"""FMUs that cannot serialise their state, and output steps of any length: no run ends for a checkpoint."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+import yaml
+
+from cosim.errors import InputError
+from cosim.run import run
+from cosim.scenario import Scenario, load_scenario
+
+
+def scenario(folder: Path, fmu: Path, **time: Any) -> Scenario:
+    path = folder / "scenario.yaml"
+    component = {"kind": "fmu", "fmu": str(fmu), "fmi": 2, **time.pop("component", {})}
+    times = {"stop": "6 s", "macro_step": "0.1 s", "output_step": "0.5 s"} | time
+    path.write_text(yaml.safe_dump({"title": "any", "time": times, "components": {"u": component}}))
+    return load_scenario(path)
+
+
+@pytest.fixture
+def mute(built: dict[tuple[str, int], Path], tmp_path: Path) -> Path:
+    """An FMU without canSerializeFMUstate."""
+    path = tmp_path / "mute.fmu"
+    with zipfile.ZipFile(built["early", 2]) as source, zipfile.ZipFile(path, "w") as target:
+        for entry in source.namelist():
+            content = source.read(entry)
+            if entry == "modelDescription.xml":
+                content = content.replace(b'canSerializeFMUstate="true"', b'canSerializeFMUstate="false"')
+            target.writestr(entry, content)
+    return path
+
+
+@pytest.mark.parametrize("isolation", ["none", "process"])
+def test_a_long_run_goes_on_without_checkpoints_and_says_so_once(
+    mute: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture, isolation: str
+) -> None:  # fmt: skip
+    run(scenario(tmp_path, mute, component={"isolation": isolation}), tmp_path / "run")
+    assert xr.load_dataset(tmp_path / "run" / "results.nc").sizes["time"] == 13
+    (line,) = caplog.messages
+    assert line.startswith(
+        "u: an FMU that cannot serialise its state (canSerializeFMUstate), so there are no checkpoints"
+    )
+    assert list((tmp_path / "run" / "checkpoints").iterdir()) == []
+
+
+def test_a_short_run_has_no_checkpoint_to_miss(mute: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    run(scenario(tmp_path, mute, stop="2 s"), tmp_path / "run")
+    assert caplog.messages == []
+
+
+@pytest.mark.parametrize(("output", "wanted"), [("10 s", 10.0), ("0.3 s", 2.1), ("0.5 s", 2.0), ("2 s", 2.0)])
+def test_the_interval_of_checkpoints_follows_the_output_step(
+    mute: Path, tmp_path: Path, output: str, wanted: float
+) -> None:  # fmt: skip
+    found = scenario(tmp_path, mute, output_step=output, stop="60 s")
+    assert found.time.checkpoint_step.to("s") == pytest.approx(wanted)
+    again = tmp_path / "again.yaml"
+    again.write_text(found.to_yaml())
+    assert load_scenario(again).time.checkpoint_step.to("s") == pytest.approx(wanted)
+
+
+def test_an_interval_that_was_written_and_does_not_fit_is_refused(mute: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"checkpoint_step \(2 s\) must be a multiple of output_step \(10 s\)"):
+        scenario(tmp_path, mute, output_step="10 s", stop="60 s", checkpoint_step="2 s")
