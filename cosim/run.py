@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import chdir
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from cosim.alone import alone
 from cosim.assemble import Assembly, assemble
 from cosim.components import nanoseconds
 from cosim.errors import InputError
@@ -120,7 +122,17 @@ def run(
         RunStopped: A unit failed, the disk is full or the user interrupted; the values so far are in it and, where
             they could be written, in the folder.
     """
-    folder = RunFolder(out, csv) if out is not None else None
+    if out is None:
+        return _run(scenario, None, resume, on_progress)
+    # An FMU may change the working folder: files are found all the same, and who called is where he was.
+    folder = RunFolder(out.absolute(), csv)
+    with chdir(Path.cwd()), alone(folder.path, "run"):
+        return _run(scenario, folder, resume, on_progress)
+
+
+def _run(
+    scenario: Scenario, folder: RunFolder | None, resume: bool, on_progress: Callable[[Progress], None] | None
+) -> xr.Dataset:  # fmt: skip
     if resume:
         _check_resumable(folder)
     elif folder is not None:
@@ -130,7 +142,7 @@ def run(
         if folder is not None and resume:
             folder.refuse_other(assembly.scenario, assembly.parameters)
         state = _begin(scenario, assembly, folder if resume else None)
-        # The folder is made once all units are initialised: a run that cannot begin leaves none behind.
+        # Files are written once all units are initialised: a run that cannot begin leaves none behind.
         if folder is not None and not resume:
             folder.create(assembly.scenario, assembly.parameters, assembly.versions)
         return _run_to_end(state, folder, on_progress)

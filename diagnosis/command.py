@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
+from cosim.alone import alone
 from cosim.errors import InputError
 from cosim.run_folder import writing
 from cosim.scenario import load_scenario
@@ -66,7 +67,6 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.alone import alone  # late: `--help` must not load Bullet
     from diagnosis.compute.batch import Batches
     from diagnosis.compute.cache import Cache
     from diagnosis.compute.cluster import choose_place
@@ -85,7 +85,11 @@ def diagnose(
     kept = Cache(out / "simulations")
     display = Display(Console(stderr=True))
     try:
-        with alone(out), display.drawn(), Batches(choose_place(jobs, cluster), kept, display.progress) as batches:
+        with (
+            alone(out, "diagnosis"),
+            display.drawn(),
+            Batches(choose_place(jobs, cluster), kept, display.progress) as batches,
+        ):
             if kept.count() and not resume:
                 raise InputError(out, "", "an interrupted diagnosis left its simulations here",
                                  "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import yaml
 
+from cosim.alone import alone
 from cosim.errors import InputError
 from cosim.scenario import load_scenario
-from diagnosis.alone import NAME, alone
 from diagnosis.candidates.registry import catalogue
 from diagnosis.command import diagnose
 from diagnosis.recording.recording import load_recording
@@ -94,7 +94,7 @@ def test_a_recording_of_85_minutes_is_simulated_in_hundreds_of_steps(rig, shippe
 def test_its_diagnosis_is_right_and_a_second_one_at_once_is_refused(rig, shipped_fmus, monkeypatch, tmp_path, capsys):
     monkeypatch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
     out = tmp_path / "out"
-    with alone(out), pytest.raises(InputError, match="another diagnosis is at work in this folder"):
+    with alone(out, "diagnosis"), pytest.raises(InputError, match="another diagnosis is at work in this folder"):
         answer(rig, out)
     assert not out.exists()
     answer(rig, out)
@@ -103,7 +103,7 @@ def test_its_diagnosis_is_right_and_a_second_one_at_once_is_refused(rig, shipped
     held_out = [f for f in found["fit"] if f["is_held_out"]]
     assert max(f["chi_square"]["after"] for f in held_out) < 1.25  # 510 readings: 4 deviations of their mean square
     assert [p.name for p in out.iterdir()] == ["diagnosis.json"]
-    assert NAME not in capsys.readouterr().out
+    assert ".diagnosis-at-work" not in capsys.readouterr().out
 
 
 def test_a_full_disk_does_not_cost_the_answer(rig, shipped_fmus, monkeypatch, tmp_path, capsys):

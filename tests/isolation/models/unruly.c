@@ -69,6 +69,7 @@ static void flood(Instance *i)
 
 static void flood_and_crash(Instance *i) { flood(i), printf("\033[2Jthe \001last words\n"), segfault(i); }
 
+static void wander(Instance *i) { (void)i, no_address = chdir("/") ? no_address : NULL; }
 static void nap(Instance *i) { (void)i, usleep(1000); }
 
 static int count_matches(const char *pattern)
