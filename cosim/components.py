@@ -34,6 +34,8 @@ def nanoseconds(value: PhysicalValue) -> int:
     exact = value.to("s") * NANOSECONDS
     if abs(exact - round(exact)) > 1e-3:
         raise ValueError(f"`{value}` is not a whole number of nanoseconds")
+    if exact and not round(exact):
+        raise ValueError(f"`{value}` is less than a nanosecond, the resolution of simulated time")
     return round(exact)
 
 

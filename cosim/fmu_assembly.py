@@ -69,11 +69,11 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
     """File of an FMU: a path beside the scenario, or one of the shipped FMUs of the size that the scenario needs."""
     if component.fmu.endswith(".fmu"):
         beside = source.parent / component.fmu
-        return beside if beside.is_file() else Path(component.fmu)
+        return beside if os.path.isfile(beside) else Path(component.fmu)  # of a name too long it is False
     coils = component.structure.get("coils", 36)
     suffix = f"_n{coils}" if component.fmi == 2 and coils != 36 else ""
     path = fmu_folder() / f"{component.fmu}_fmi{component.fmi}{suffix}.fmu"
-    if not path.is_file():
+    if not os.path.isfile(path):
         there = ", ".join(sorted(p.stem for p in fmu_folder().glob("*.fmu"))) or "none built"
         how = f"make -C fmus COILS={coils}" if suffix else "make fmus"
         raise InputError(source, "fmu", f"there is no FMU `{path.stem}` (there: {there})",

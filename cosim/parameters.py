@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -77,7 +78,7 @@ def find_parameter_set(name: str, scenario_file: Path) -> Path:
     """
     folder = scenario_folder() / "parameter_sets"
     for candidate in (scenario_file.parent / name, folder / f"{name}.yaml"):
-        if candidate.is_file():
+        if os.path.isfile(candidate):  # of a name too long it is False
             return candidate
     shipped = ", ".join(sorted(p.stem for p in folder.glob("*.yaml")))
     raise InputError(scenario_file, "parameter_set", f"there is no parameter set `{name}`",

@@ -80,9 +80,13 @@ class PhysicalValue:
         if isinstance(value, PhysicalValue):
             return value
         if isinstance(value, int | float) and not isinstance(value, bool):
-            if not math.isfinite(value):
+            try:
+                number = float(value)
+            except OverflowError:
+                raise ValueError(f"a whole number of {len(str(value))} digits is too large") from None
+            if not math.isfinite(number):
                 raise ValueError(f"{value} is not a finite number")
-            return cls(float(value), "")
+            return cls(number, "")
         match = _TEXT.match(value) if isinstance(value, str) else None
         if match is None:
             raise ValueError(f"{value!r} is not a number with a unit, such as `1.5 mm`")

@@ -267,7 +267,7 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
         fmu = getattr(component, "fmu", "")
         if fmu.endswith(".fmu") and scenario.path is not None:
             beside = scenario.path.parent / fmu
-            update["fmu"] = str((beside if beside.is_file() else Path(fmu)).resolve())
+            update["fmu"] = str((beside if os.path.isfile(beside) else Path(fmu)).resolve())
         components[name] = component.model_copy(update=update)
     return scenario.model_copy(update={"components": components})
 

@@ -6,6 +6,7 @@ their units. `json_schema()` is what editors use to complete and check a file.
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -235,7 +236,7 @@ def shipped_scenarios() -> dict[str, Path]:
 def find_scenario(path: str | Path) -> Path:
     """A file as given, or a shipped scenario by name."""
     direct = Path(path)
-    if direct.is_file():
+    if os.path.isfile(direct):  # of a name too long it is False
         return direct
     shipped = shipped_scenarios()
     if str(path) in shipped:

@@ -13,10 +13,15 @@ import yaml
 from cosim.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
-_MEMBER = re.compile(r"^(bool|function-plain\[.*|list\[.*|float|int|str)$")
+_MEMBER = re.compile(r"^(bool|function-plain\[.*|union\[.*|list\[.*|float|int|str)$")
 _KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass", "bullet_pendulum",
           "gauss_seidel", "jacobi", "iterated", "step_doubling",
           "contact", "lead", "drop", "source_resistance", "current_limit")  # fmt: skip
+
+
+#: Levels that a file may have; and marks of a level in the text up to which nothing can be nested too deeply.
+DEEPEST, SAFE = 100, 2000
+_NESTING = ("[", "{", "- ", "? ", ": ")
 
 
 class _UniqueKeyLoader(yaml.CSafeLoader):
@@ -55,6 +60,8 @@ def parse_yaml(text: str, source: Path) -> Any:
         InputError: It is no YAML, or a key stands twice; the text names line and column.
     """
     try:
+        if sum(map(text.count, _NESTING)) > SAFE:
+            _check_depth(text, source)
         return yaml.load(text, Loader=_UniqueKeyLoader)  # a SafeLoader
     except (yaml.YAMLError, ValueError) as error:  # ValueError: an impossible date, which YAML takes for a value
         mark = getattr(error, "problem_mark", None)
@@ -62,6 +69,15 @@ def parse_yaml(text: str, source: Path) -> Any:
         raise InputError(source, where, f"not valid YAML: {getattr(error, 'problem', error)}", "correct it") from error
     except RecursionError as error:
         raise InputError(source, "", "not valid YAML: nested too deeply", "correct it") from error
+
+
+def _check_depth(text: str, source: Path) -> None:
+    """Refuse what is nested so deeply that a parser in C, which calls itself for each level, would end the process."""
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.CSafeLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST:
+            raise InputError(source, "", f"not valid YAML: nested more than {DEEPEST} deep", "correct it")
 
 
 def input_error(source: Path, error: pydantic.ValidationError, remedy: str) -> InputError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -65,7 +66,7 @@ def default_parameter_set(component: FmuComponent) -> str | None:
     if component.parameter_set is not None or component.fmu.endswith(".fmu"):
         return component.parameter_set
     name = PARAMETER_SETS.get(component.fmu, component.fmu)
-    return name if (scenario_folder() / "parameter_sets" / f"{name}.yaml").is_file() else None
+    return name if os.path.isfile(scenario_folder() / "parameter_sets" / f"{name}.yaml") else None
 
 
 def _neighbours(component: ActuatorComponent, units: Mapping[str, Unit], source: Path) -> dict[str, tuple[str, Unit]]:

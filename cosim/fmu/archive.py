@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -43,7 +44,7 @@ def open_fmu(path: Path) -> FmuArchive:
         InputError: No such file, no zip, no valid modelDescription.xml, no binary for this platform, or an archive
             that `cosim.fmu.extraction` refuses.
     """
-    if not path.is_file():
+    if not os.path.isfile(path):  # also of a name too long, where `Path` raises
         raise InputError(path, "", "there is no such FMU", "build the FMUs with `make fmus`, or correct the path")
     directory = make_folder()
     try:
