@@ -22,7 +22,7 @@ from cosim.loop import Loop, Watched, choose_loop
 from cosim.native.plan import Grid
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
-from cosim.run_folder import RunFolder, read_checkpoint
+from cosim.run_folder import RunFolder, read_checkpoint, useless_checkpoint
 from cosim.scenario import Scenario
 from cosim.system import ConnectionFault, System
 from cosim.unit import StepStatus, UnitError, seconds
@@ -200,15 +200,35 @@ def _trace(scenario: Scenario, system: System, times: range) -> Trace:
 
 
 def _restore(state: _Clockwork, files: Sequence[Path]) -> None:
-    for file in files:
-        state.trace.load(_part(read_checkpoint(file), "trace/"))
-    content = read_checkpoint(files[-1])
-    state.index = int(content["index"])
-    state.meter.electrical, state.meter.largest = content["energy"].tolist()
-    for name, unit in state.assembly.system.units.items():
-        unit.resume(_part(content, f"unit/{name}/"), state.now)
-        state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
-    state.assembly.algorithm.resume(_part(content, "algorithm/"))
+    """Everything as it was at the last checkpoint.
+
+    Raises:
+        InputError: A checkpoint is missing or useless, or a unit does not take its state.
+    """
+    contents = {file: read_checkpoint(file) for file in files}
+    for file, content in contents.items():
+        try:
+            index, values = int(content["index"]), _part(content, "trace/")
+            wanted = index // (nanoseconds(state.scenario.time.output_step) // state.macro) + 1
+            rows = {len(v) for v in values.values()}
+            if set(values) != set(state.trace.rows) or rows not in ({wanted - state.trace.count}, set()):
+                raise useless_checkpoint(file, f"does not go on from the one before, at output {state.trace.count}")
+            state.trace.load(values)
+            state.trace.count = wanted
+        except (KeyError, ValueError, TypeError) as error:
+            raise useless_checkpoint(file, f"lacks something or has too much: {error}") from error
+    last = files[-1]
+    try:
+        state.index = int(contents[last]["index"])
+        state.meter.electrical, state.meter.largest = contents[last]["energy"].tolist()
+        for name, unit in state.assembly.system.units.items():
+            unit.resume(_part(contents[last], f"unit/{name}/"), state.now)
+            state.assembly.system.wall_time[name] = float(contents[last][f"wall/{name}"])
+        state.assembly.algorithm.resume(_part(contents[last], "algorithm/"))
+    except (KeyError, ValueError, TypeError) as error:
+        raise useless_checkpoint(last, f"lacks something or has too much: {error}") from error
+    except UnitError as error:
+        raise useless_checkpoint(last, f"is refused by {error.unit}: {error.what}") from error
     state.written, state.is_resumed = state.trace.count, True
 
 

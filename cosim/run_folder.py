@@ -124,12 +124,15 @@ class RunFolder:
         """Whether the run in this folder has reached its end."""
         try:
             return bool(json.loads(self.summary.read_text(encoding="utf-8"))["status"] == "complete")
-        except (OSError, ValueError, KeyError):
+        except (OSError, ValueError, KeyError, TypeError):
             return False
 
     def checkpoints(self) -> list[Path]:
-        """Checkpoint files in order of time."""
-        return sorted((self.path / "checkpoints").glob("*.npz"), key=lambda path: int(path.stem))
+        """Checkpoint files in order of time; files of other names are none."""
+        found = [
+            path for path in (self.path / "checkpoints").glob("*.npz") if path.stem.isascii() and path.stem.isdigit()
+        ]
+        return sorted(found, key=lambda path: int(path.stem))
 
     def write_checkpoint(self, index: int, content: Mapping[str, np.ndarray[Any, Any]]) -> None:
         """Write checkpoint `index` as a whole or not at all."""
@@ -197,8 +200,14 @@ def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:
         with file.open("rb") as stream, np.load(stream) as content:
             return dict(content)
     except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise InputError(file, "", f"this checkpoint cannot be read: {error}",
-                         "delete it and those after it, then resume from the one before") from error  # fmt: skip
+        raise useless_checkpoint(file, f"cannot be read: {error}") from error
+
+
+def useless_checkpoint(file: Path, why: str) -> InputError:
+    """The error for a checkpoint from which no run can go on."""
+    return InputError(
+        file, "", f"this checkpoint {why}", "delete it and those after it, then resume from the one before"
+    )
 
 
 @contextmanager

@@ -4,6 +4,9 @@ import json
 import os
 import signal
 import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +15,8 @@ import xarray as xr
 from circuit.unit import CircuitUnit
 from cosim.errors import InputError
 from cosim.interrupt import deferred_interrupt
-from cosim.run import RunStopped, run
+from cosim.run import Progress, RunStopped, run
+from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import load_scenario
 
 from .short_runs import changed, drape, heating, quantity, with_parameters
@@ -195,3 +199,68 @@ def test_a_run_too_long_for_memory_is_refused():
     with pytest.raises(InputError, match="outputs do not fit into memory") as caught:
         run(heating().model_copy(update={"time": clock}))
     assert caught.value.key == "time.output_step"
+
+
+def with_two_checkpoints(folder: Path) -> list[Path]:
+    """A run of 3 s that stopped at 2.2 s, with its checkpoints at 1 and 2 s."""
+
+    def stop(progress: Progress) -> None:
+        if progress.time > 2.2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(RunStopped):
+        run(heating(), folder, on_progress=stop)
+    return RunFolder(folder).checkpoints()
+
+
+def rewritten(file: Path, change: Callable[[dict[str, Any]], None]) -> None:
+    content = read_checkpoint(file)
+    change(content)
+    np.savez(file, **content)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "what"),
+    [
+        (lambda files: files[0].unlink(), "does not go on from the one before"),
+        (lambda files: rewritten(files[-1], lambda c: c.pop("index")), "lacks something or has too much"),
+        (lambda files: rewritten(files[-1], lambda c: c.pop("energy")), "lacks something or has too much"),
+        (lambda files: rewritten(files[-1], lambda c: c.update(index=np.array(10**9))), "does not go on"),
+        (lambda files: rewritten(files[-1], _one_row_more), "does not go on from the one before"),
+        (lambda files: rewritten(files[-1], _another_state), "is refused by|lacks something or has too much"),
+        (lambda files: files[-1].write_bytes(b"no archive"), "cannot be read"),
+    ],
+    ids=["missing", "no index", "no energy", "index too large", "a row more", "another state", "no archive"],
+)
+def test_a_useless_checkpoint_is_named_with_what_to_do(
+    tmp_path: Path, spoil: Callable[[list[Path]], None], what: str
+) -> None:  # fmt: skip
+    files = with_two_checkpoints(tmp_path / "run")
+    assert len(files) >= 2
+    spoil(files)
+    with pytest.raises(InputError, match=what) as refused:
+        run(heating(), tmp_path / "run", resume=True)
+    assert "delete it and those after it" in refused.value.remedy
+    # and that is so: without it the run goes on, from the one before or from the beginning
+    for file in files if "does not" in what and not files[0].exists() else files[-1:]:
+        file.unlink(missing_ok=True)
+    whole = run(heating())
+    resumed = run(heating(), tmp_path / "run", resume=True)
+    assert all(np.array_equal(resumed[n].values, whole[n].values) for n in whole.data_vars)
+
+
+def _one_row_more(content: dict[str, Any]) -> None:
+    for name in [n for n in content if n.startswith("trace/")]:
+        content[name] = np.concatenate([content[name], content[name][-1:]])
+
+
+def _another_state(content: dict[str, Any]) -> None:
+    for name in [n for n in content if n.endswith("/state")]:
+        content[name] = content[name][:3]
+
+
+def test_foreign_files_among_checkpoints_and_a_summary_that_is_none(tmp_path: Path) -> None:
+    files = with_two_checkpoints(tmp_path / "run")
+    (files[0].parent / "notes.npz").write_bytes(b"mine")
+    (tmp_path / "run" / "summary.json").write_text("[]")
+    assert run(heating(), tmp_path / "run", resume=True).sizes["time"] == 31

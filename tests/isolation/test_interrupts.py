@@ -44,7 +44,7 @@ def test_a_second_ctrl_c_ends_an_endless_step(tmp_path, fmu, scenario, start):
     scenario({"unruly": fmu("never_return", "step")})
     folder = tmp_path / "run"
     running = start("run", tmp_path / "scenario.yaml", "--out", folder, "--no-plots")
-    wait_for(folder.is_dir, running)
+    wait_for((folder / "scenario.yaml").is_file, running)
     time.sleep(0.5)
     os.killpg(running.pid, signal.SIGINT)
     time.sleep(0.2)
@@ -63,7 +63,7 @@ def test_when_the_simulation_is_killed_its_fmus_end_and_remove_their_files(
     scenario({"one": fmu(deed, "step"), "two": fmu("nap", "step")}, stop=100, checkpoint="1 s")
     folder = tmp_path / "run"
     running = start("run", tmp_path / "scenario.yaml", "--out", folder, "--no-plots")
-    wait_for(folder.is_dir, running)
+    wait_for((folder / "scenario.yaml").is_file, running)
     time.sleep(0.5)
     assert len(processes(str(temporary))) == 2
     assert len(list(temporary.iterdir())) == 2
