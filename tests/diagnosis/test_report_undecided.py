@@ -82,7 +82,7 @@ def test_units_that_depart_in_nothing_when_driven_alone_are_told_so(tmp_path: Pa
 def test_what_is_not_accepted_is_told_as_a_suggestion_and_not_as_found(tmp_path: Path) -> None:
     text = page_of(refuted(), [series()], tmp_path)
     top = text[: text.index("Where and when it would act")]
-    for part in ("Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); 10.0 to 95.0 s", WHY,
+    for part in ("Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); seen 10.0 to 95.0 s", WHY,
                  "Record a training programme once more",
                  "out/amended/scenario.yaml (recalibrated, nothing added)"):  # fmt: skip
         assert part in top, part
