@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -79,13 +80,23 @@ class _Reader:
         version = validate(self.document, top, tag(SSD, "SystemStructureDescription"))
         self._definitions = Definitions(self.document, top, SSD)
         experiment = top.find(tag(SSD, "DefaultExperiment"))
-        times = {} if experiment is None else dict(experiment.attrib)
         system = self._system(top.find(tag(SSD, "System")), self._depth)
-        start, stop = (float(times[k]) if k in times else None for k in ("startTime", "stopTime"))
+        start, stop = (self._time(experiment, key) for key in ("startTime", "stopTime"))
         return Structure(
             top.get("name"), version, top.get("description", ""), system, start, stop,
             own_settings(self.document, experiment), other_step(top), tuple(self._notes), self.document.place(top),
         )  # fmt: skip
+
+    def _time(self, experiment: Any, key: str) -> float | None:
+        text = None if experiment is None else experiment.get(key)
+        if text is None:
+            return None
+        value = float(text)
+        if not math.isfinite(value):
+            raise self.document.place(experiment).error(
+                f"{key} is `{text}`, which is no time", "give a number of seconds"
+            )
+        return value
 
     def _system(self, element: Any, depth: int) -> System:
         place = self.document.place(element)

@@ -50,6 +50,8 @@ REAL_TO_NOTHING = p.component("a", "feedthrough_fmi2.fmu", p.connector("x", "out
          r"breaks the schema of SSP 1\.0: Element 'ssd:Parts'"),
         (root(p.component("c", "chassis_fmi2.fmu", p.connector("z", "output", unit="blorb")), p.feedthrough("f"),
               connections=[p.connection("c.z", "f.u")]), r"connector `z`: m cannot be converted to blorb"),
+        *((p.description(p.system("root", *TWO), experiment=f'<ssd:DefaultExperiment stopTime="{time}"/>'),
+           f"stopTime is `{time}`, which is no time") for time in ("NaN", "INF")),
         (root(p.system("empty")), r"there is no component in it"),
         (root(*TWO, connections=[p.connection("a.y", "c.u")]), r"there is no element `c`"),
         (root(*TWO, connections=[p.connection("a.z", "b.u")]), r"`a` has no connector `z`"),
