@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
 import xarray as xr
 
 from cosim.scenario import Scenario
@@ -19,7 +20,7 @@ from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import without_consequences
-from diagnosis.recording.recording import Recording
+from diagnosis.recording.recording import FEWEST_VALUES, Recording
 
 
 def check_recordings(
@@ -56,6 +57,8 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
         relation = [] if known else _relation(one, [o for o in every if o is not one])
         units = unit_doubts(one)
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
+        if not any(d.is_serious for d in (*relation, *units)):  # milliseconds for seconds, say, are known as such
+            found += _outside(one)
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
@@ -68,3 +71,22 @@ def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:
     if timing or swaps:
         return timing if not swaps or (timing and timing[0].z > max(d.z for d in swaps)) else swaps
     return sign_doubts(one) or shift_doubts(one) or edge_doubts(one) or switch_doubts(one)
+
+
+def _outside(one: Compared) -> list[Doubt]:
+    """Channels whose readings are not of the time that is simulated: nothing can be compared with them."""
+    start, stop = (t.to("s") for t in (one.scenario.time.start, one.scenario.time.stop))
+    found = []
+    for channel in (b.channel for b in one.channels.values()):
+        count = int(np.count_nonzero((channel.times >= start) & (channel.times <= stop)))
+        if count < FEWEST_VALUES:
+            text = (
+                f"{count} of its readings are within the simulated time: they are from {channel.times[0]:.6g} to "
+                f"{channel.times[-1]:.6g} s, and {start:.6g} to {stop:.6g} s is simulated"
+            )
+            remedy = "correct `zero` and `unit` of its clock, or `time` under `overrides`"
+            found.append(
+                Doubt(one.recording.title, channel.name, "clock", text, remedy, True, float(channel.times[0]),
+                      float(channel.times[-1]), float(FEWEST_VALUES))
+            )  # fmt: skip
+    return found

@@ -125,6 +125,15 @@ def test_milliseconds_taken_for_seconds(scenario: Scenario, tmp_path: Path) -> N
     assert "with ms taken for s corrected" in found.statement
 
 
+def test_readings_of_another_time_than_the_simulated_one(scenario: Scenario, tmp_path: Path) -> None:
+    """A clock that was never set back: nothing was compared, and no doubt was told."""
+    said = {**rig.programme(rig.FIRST), "time": {"stop": f"{rig.SPAN} s"}}
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + 1e4, overrides=said)
+    found = [d for d in doubts(scenario, a) if d.is_serious]
+    assert [(d.kind, d.subject) for d in found] == [("clock", f"coil[{k}].temperature") for k in (1, 2)]
+    assert "0 of its readings are within the simulated time: they are from 10000 to 10598 s" in found[0].statement
+
+
 def test_minutes_stated_as_seconds(scenario: Scenario, tmp_path: Path) -> None:
     a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() / 60.0)
     (found,) = [d for d in doubts(scenario, a) if d.is_serious]
