@@ -39,7 +39,7 @@ def build_fmu(
         parameters: Its parameters; for an FMU of any author their units are those of its own description.
         source: File of the scenario.
         reports_events: Whether its steps end at their first event (`on_event: synchronise`).
-        stop: End of the simulation [s], which the FMU is told; None: it is not known.
+        stop: End of the simulation [s], passed to the FMU; None: it is not known.
 
     Raises:
         InputError: There is no such FMU, it cannot be loaded, or a parameter or start value does not fit.

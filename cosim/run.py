@@ -205,8 +205,9 @@ def _restore(state: _Clockwork, files: Sequence[Path]) -> None:
     Raises:
         InputError: A checkpoint is missing or useless, or a unit does not take its state.
     """
-    contents = {file: read_checkpoint(file) for file in files}
-    for file, content in contents.items():
+    content: dict[str, np.ndarray[Any, Any]] = {}
+    for file in files:
+        content = read_checkpoint(file)
         try:
             index, values = int(content["index"]), _part(content, "trace/")
             wanted = index // (nanoseconds(state.scenario.time.output_step) // state.macro) + 1
@@ -219,12 +220,12 @@ def _restore(state: _Clockwork, files: Sequence[Path]) -> None:
             raise useless_checkpoint(file, f"lacks something or has too much: {error}") from error
     last = files[-1]
     try:
-        state.index = int(contents[last]["index"])
-        state.meter.electrical, state.meter.largest = contents[last]["energy"].tolist()
+        state.index = int(content["index"])
+        state.meter.electrical, state.meter.largest = content["energy"].tolist()
         for name, unit in state.assembly.system.units.items():
-            unit.resume(_part(contents[last], f"unit/{name}/"), state.now)
-            state.assembly.system.wall_time[name] = float(contents[last][f"wall/{name}"])
-        state.assembly.algorithm.resume(_part(contents[last], "algorithm/"))
+            unit.resume(_part(content, f"unit/{name}/"), state.now)
+            state.assembly.system.wall_time[name] = float(content[f"wall/{name}"])
+        state.assembly.algorithm.resume(_part(content, "algorithm/"))
     except (KeyError, ValueError, TypeError) as error:
         raise useless_checkpoint(last, f"lacks something or has too much: {error}") from error
     except UnitError as error:

@@ -160,7 +160,10 @@ def accept(
         current, after = Explanation(outcome.base), recalibrated
     fitted = training.predict(current.fit.point, is_fitted=False)
     found = _agreement(unfitted, current.fit.point, after, on_progress)
-    strengths = _strengths(unfitted, current.fit.point, after, on_progress) if found.is_rejected else {}
+    strengths = {}
+    if found.is_rejected and current.terms:
+        on_progress("asking whether each law has the same strength in readings that it was not fitted to")
+        strengths = unfitted.strengths(current.fit.point, after)
     return Accepted(
         headline, current, reasons, gains, rivals, before, recalibrated, after,
         gain(before, recalibrated, readings), found,
@@ -180,16 +183,6 @@ def _agreement(
     on_progress("asking whether the error of the fitted parameters explains what is left")
     tested = unfitted.tested(point, predicted)
     return agreement(predicted.residuals, unfitted.readings, tested)
-
-
-def _strengths(
-    unfitted: Unfitted, point: Point, predicted: Predicted, on_progress: Callable[[str], None]
-) -> dict[Term, Constancy]:  # fmt: skip
-    """Strengths of the laws of a fit in unfitted readings, as far as they tell."""
-    if point.terms:
-        on_progress("asking whether each law has the same strength in readings that it was not fitted to")
-    every = {t: unfitted.constancy(point, predicted, t) for t in point.terms}
-    return {t: found for t, found in every.items() if found is not None}
 
 
 def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Term) -> Explanation:

@@ -52,15 +52,23 @@ class Constancy:
         return apart <= max(CONSTANT * abs(self.fitted), ERRORS * self.error)
 
 
+def columns_by_terms(may: Freedom) -> Array:
+    """Derivatives of all readings by the scaled parameters of the terms, shape (residuals, term parameters)."""
+    objective = may.objective
+    found = objective.term_columns(may.at, objective.residuals(may.at))
+    return without_whitening(objective.model, found)  # type: ignore[arg-type]
+
+
 def constancy(
-    may: Freedom, columns: Array, term: Term, fitted: float, left: Callable[[Point], Array], channel: AnyArray,
-    block: AnyArray, has_zero: AnyArray, chosen: AnyArray,
+    may: Freedom, columns: Array, by_terms: Array, term: Term, fitted: float, left: Callable[[Point], Array],
+    channel: AnyArray, block: AnyArray, has_zero: AnyArray, chosen: AnyArray,
 ) -> Constancy:  # fmt: skip
     """Estimate the strength of a law again from readings that it was not fitted to.
 
     Args:
         may: How the numbers may move within the error of their fit.
         columns: Derivatives of all residuals of the model that judges by its u, shape (residuals, k).
+        by_terms: The same by the parameters of its terms (`columns_by_terms`), shape (residuals, term parameters).
         term: The law; its first parameter is its strength.
         fitted: Value of that.
         left: (measured - simulated) / noise of the readings that judge at a point, shape (readings,).
@@ -71,8 +79,7 @@ def constancy(
     """
     strength = _coordinate(may, term)
     scale = float(may.objective.scale[strength - may.objective.count])
-    here = may.objective.residuals(may.at)
-    own = without_whitening(may.objective.model, _column(may, strength, here))  # type: ignore[arg-type]
+    own = by_terms[:, [strength - may.objective.count]]
     if not float(np.sum((own[chosen] * fitted / scale) ** 2)) > SHOWN:
         return Constancy(fitted, fitted, float("inf"))
     others = columns - own * may.directions[strength]  # the strength alone moves it, not what is shared with others
@@ -94,12 +101,6 @@ def _coordinate(may: Freedom, term: Term) -> int:
     """Number of the strength of a law among the scaled coordinates."""
     terms = may.objective.terms
     return may.objective.count + sum(len(t.parameters) for t in terms[: terms.index(term)])
-
-
-def _column(may: Freedom, strength: int, here: Array) -> Array:
-    """Derivatives of the residuals by the strength alone, shape (residuals, 1)."""
-    every = may.objective.term_columns(may.at, here)
-    return np.asarray(every[:, strength - may.objective.count][:, None])
 
 
 def _released(may: Freedom, strength: int) -> Freedom:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -62,7 +63,7 @@ MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0
 #: Why a law has no name beside one that has none.
-_BESIDE = ("a law without a name acts at the same place: both may be parts of one law that is in no library",)
+_BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
 #: Share of its peak from which an effect counts as being there.
 SHOWS = 0.1
 
@@ -260,10 +261,9 @@ def findings(
         ]
         if is_accepted:
             found = [
-                _finding(model, outcome, accepted, explanation, t, True, titles, units, judge, _BESIDE)
-                if _is_beside_unnamed(f, found) else f
+                _without_name(f, model.where(t)[0].name) if _is_beside_unnamed(f, found) else f
                 for t, f in zip(ordered, found)
-            ]  # fmt: skip
+            ]
     return tuple(found)
 
 
@@ -280,9 +280,18 @@ def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:
     return any(set(f.elements) & set(finding.elements) for f in others if f.unit == finding.unit)
 
 
+def _without_name(finding: Finding, name: str) -> Finding:
+    """The finding of a law of this name, told as one that has none."""
+    place = finding.statement.removeprefix(statement(name, "", finding.standing, finding.ambiguous_with))
+    return replace(
+        finding, is_named=False, standing=Standing.UNNAMED, doubts=(*finding.doubts, _BESIDE),
+        statement=statement(name, place, Standing.UNNAMED, ()),
+    )  # fmt: skip
+
+
 def _finding(
     model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None, reasons: Sequence[str] = (),
+    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None,
 ) -> Finding:  # fmt: skip
     candidate, place = model.where(term)
     fit = explanation.fit
@@ -305,7 +314,6 @@ def _finding(
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))
-    doubts = (*doubts, *reasons)
     standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:

@@ -14,7 +14,7 @@ import numpy as np
 
 from cosim.unit import AnyArray, Array
 from diagnosis.judge.beginning import begun
-from diagnosis.judge.constancy import Constancy, constancy
+from diagnosis.judge.constancy import Constancy, columns_by_terms, constancy
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.own_numbers import own_numbers
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
@@ -166,13 +166,12 @@ class Unfitted(Protocol):
         """
         ...
 
-    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
-        """Strength of a law in the readings; None where it cannot be estimated from them alone.
+    def strengths(self, point: Point, predicted: Predicted) -> dict[Term, Constancy]:
+        """Strengths of the laws of a fit in the readings, of those that can be estimated from them alone.
 
         Args:
-            point: A fit of the training model with the law.
+            point: A fit of the training model.
             predicted: What it predicts.
-            term: The law.
         """
         ...
 
@@ -264,17 +263,21 @@ class HeldOutReadings:
         found = self._freedom(point, predicted)
         return None if found is None else _tested(self._judge, self.readings, ~self.readings.is_wild, *found)
 
-    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
+    def strengths(self, point: Point, predicted: Predicted) -> dict[Term, Constancy]:
         """See `Unfitted`."""
-        found = self._freedom(point, predicted)
-        if found is None or term.parameters[0].is_switch or term.recording is not None:
-            return None
-        kept = ~self.readings.is_wild
+        terms = [t for t in point.terms if not t.parameters[0].is_switch and t.recording is None]
+        found = self._freedom(point, predicted) if terms else None
+        if found is None:
+            return {}
+        kept, by_terms = ~self.readings.is_wild, columns_by_terms(found[0])
         chosen, channels = self.readings.chosen[kept], self.readings.channels
-        return constancy(
-            *found, term, point.terms[term][0], lambda p: raw_residuals(self._judge, p)[chosen],
-            self.readings.channel[kept], self.readings.block[kept], _has_zero(channels), chosen,
-        )  # fmt: skip
+        return {
+            term: constancy(
+                *found, by_terms, term, point.terms[term][0], lambda p: raw_residuals(self._judge, p)[chosen],
+                self.readings.channel[kept], self.readings.block[kept], _has_zero(channels), chosen,
+            )
+            for term in terms
+        }  # fmt: skip
 
     def _freedom(self, point: Point, predicted: Predicted) -> tuple[Freedom, Array] | None:
         """How the numbers of a fit may move, and the derivatives of all residuals; None where none can be moved.
@@ -374,9 +377,9 @@ class LeftOutReadings:
             sums.append(_tested(self._inner, self.readings, kept, may, may.columns()))
         return Tested(sum(s.total for s in sums), np.sum([s.channels for s in sums], axis=0))
 
-    def constancy(self, point: Point, predicted: Predicted, term: Term) -> Constancy | None:
+    def strengths(self, point: Point, predicted: Predicted) -> dict[Term, Constancy]:
         """See `Unfitted`: a stretch of a recording is too short for an estimate of its own."""
-        return None
+        return {}
 
 
 def left_out_stretches(

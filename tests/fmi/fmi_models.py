@@ -38,3 +38,14 @@ def build(model: str, version: int, folder: Path) -> Path:
         archive.write(MODELS / model / f"fmi{version}.xml", "modelDescription.xml")
         archive.write(library, f"binaries/{platform}/{model}{fmpy.sharedLibraryExtension}")
     return path
+
+
+def described(fmu: Path, path: Path, old: str, new: str) -> Path:
+    """A copy of an FMU at `path` with another text in its modelDescription.xml."""
+    with zipfile.ZipFile(fmu) as source, zipfile.ZipFile(path, "w") as target:
+        for name in source.namelist():
+            content = source.read(name)
+            if name == "modelDescription.xml":
+                content = content.replace(old.encode(), new.encode())
+            target.writestr(name, content)
+    return path

@@ -20,6 +20,7 @@ from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.temporary import PREFIX, make_folder, remove_folder, sweep
 from cosim.fmu.unit import FmuSettings
 from cosim.unit import NANOSECONDS
+from tests.fmi.fmi_models import described
 
 
 def entry(name, mode=0o644, kind=stat.S_IFREG):
@@ -117,13 +118,8 @@ def test_a_damaged_archive_is_refused(tmp_path):
 
 
 def test_a_description_that_breaks_a_rule_but_can_be_read_is_used_with_a_warning(built, tmp_path, caplog):
-    path = tmp_path / "sloppy.fmu"
-    with zipfile.ZipFile(built["stair", 2]) as source, zipfile.ZipFile(path, "w") as archive:
-        for name in source.namelist():
-            data = source.read(name)
-            if name == "modelDescription.xml":
-                data = data.replace(b'modelName="stair"', b'modelName="stair" mood="sloppy"')
-            archive.writestr(name, data)
+    stated = 'modelName="stair"'
+    path = described(built["stair", 2], tmp_path / "sloppy.fmu", stated, f'{stated} mood="sloppy"')
     unit = CoSimulationUnit("stair", open_fmu(path), FmuSettings())
     unit.initialise(0)
     unit.do_step(0, NANOSECONDS)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import yaml
 
 from cosim.run import run
 from cosim.scenario import load_scenario
+from tests.fmi.fmi_models import described
 
 #: As XML has it, to the name of the variable.
 NAMES = {
@@ -20,18 +20,6 @@ NAMES = {
     "Größe μ": "Größe μ", "comma, &quot;quote&quot;": 'comma, "quote"',
     "&lt;der(x)&gt;": "<der(x)>", "der(x)": "der(x)",
 }  # fmt: skip
-
-
-def with_name(fmu: Path, folder: Path, name: str) -> Path:
-    """A copy of the FMU whose output `y` is called otherwise."""
-    path = folder / "named.fmu"
-    with zipfile.ZipFile(fmu) as source, zipfile.ZipFile(path, "w") as target:
-        for entry in source.namelist():
-            content = source.read(entry)
-            if entry == "modelDescription.xml":
-                content = content.decode().replace('name="y"', f'name="{name}"').encode()
-            target.writestr(entry, content)
-    return path
 
 
 def results(folder: Path, fmu: Path, fmi: int = 2, **settings: Any) -> xr.Dataset:
@@ -48,7 +36,8 @@ def results(folder: Path, fmu: Path, fmi: int = 2, **settings: Any) -> xr.Datase
 def test_every_name_is_stored_and_read_back(
     built: dict[tuple[str, int], Path], tmp_path: Path, written: str, name: str
 ) -> None:  # fmt: skip
-    found = results(tmp_path, with_name(built["early", 2], tmp_path, written), parameters={"gain": 3})
+    named = described(built["early", 2], tmp_path / "named.fmu", 'name="y"', f'name="{written}"')
+    found = results(tmp_path, named, parameters={"gain": 3})
     (values,) = [v for n, v in found.data_vars.items() if v.attrs.get("name", n) == f"u.{name}"]
     assert values.values.tolist() == [3.0] * 5
     with (tmp_path / "run" / "results.csv").open(newline="", encoding="utf-8") as file:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import yaml
 from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from tests.fmi.fmi_models import described
 
 
 def scenario(folder: Path, fmu: Path, **time: Any) -> Scenario:
@@ -26,14 +26,8 @@ def scenario(folder: Path, fmu: Path, **time: Any) -> Scenario:
 @pytest.fixture
 def mute(built: dict[tuple[str, int], Path], tmp_path: Path) -> Path:
     """An FMU without canSerializeFMUstate."""
-    path = tmp_path / "mute.fmu"
-    with zipfile.ZipFile(built["early", 2]) as source, zipfile.ZipFile(path, "w") as target:
-        for entry in source.namelist():
-            content = source.read(entry)
-            if entry == "modelDescription.xml":
-                content = content.replace(b'canSerializeFMUstate="true"', b'canSerializeFMUstate="false"')
-            target.writestr(entry, content)
-    return path
+    stated = 'canSerializeFMUstate="{}"'
+    return described(built["early", 2], tmp_path / "mute.fmu", stated.format("true"), stated.format("false"))
 
 
 @pytest.mark.parametrize("isolation", ["none", "process"])

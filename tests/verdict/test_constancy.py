@@ -22,7 +22,7 @@ from tests.verdict.test_parameter_error import LINE, SHORT, Seen, fitted, held_o
 def strength(training: Lines, judge: Lines, term: Term = BEND) -> Constancy | None:
     point = fitted(training, term).best.fit.point
     unfitted = held_out(judge, training)
-    return unfitted.constancy(point, unfitted.predict(point), term)
+    return unfitted.strengths(point, unfitted.predict(point)).get(term)
 
 
 def test_the_strength_there_is_that_of_generalised_least_squares():
@@ -30,7 +30,7 @@ def test_the_strength_there_is_that_of_generalised_least_squares():
     training, judge = Lines(LINE + 4.0 * TIME**2, 1), Lines(LINE + 6.0 * TIME**2, 2)
     point = fitted(training, BEND).best.fit.point
     unfitted = held_out(judge, training)
-    found = unfitted.constancy(point, unfitted.predict(point), BEND)
+    found = unfitted.strengths(point, unfitted.predict(point)).get(BEND)
     assert found is not None
     columns = np.column_stack([np.ones_like(TIME), TIME, TIME**2]) / training.noise
     sigma = np.linalg.inv(columns.T @ columns + np.diag([1.0, 1.0, 0.0]))
@@ -129,7 +129,7 @@ def test_stretches_of_the_training_and_switches_have_no_strength_of_their_own():
     training = Lines(LINE + 4.0 * TIME**2, 1)
     unfitted = left_out_stretches(training, ["training"])
     point = fitted(training, BEND).best.fit.point
-    assert unfitted.constancy(point, unfitted.predict(point), BEND) is None
+    assert unfitted.strengths(point, unfitted.predict(point)).get(BEND) is None
     lid = Point(np.zeros(2), {LID: (1.0, 0.9)})
     held = held_out(training, training)
-    assert held.constancy(lid, held.predict(lid), LID) is None
+    assert held.strengths(lid, held.predict(lid)).get(LID) is None
