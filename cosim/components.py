@@ -163,12 +163,23 @@ class Isolation(Strict):
     )
 
 
+class AddedStateEntry(Strict):
+    """A state that a term has of its own."""
+
+    rate: StrictStr = Field(description="Formula of its derivative.")
+    start: StrictStr = Field(description="Formula of its value at the start.")
+    unit: StrictStr = Field(default="1", description="Its unit.")
+
+
 class AddedTermEntry(Strict):
     """A term that the master adds to an FMU."""
 
     to: StrictStr = Field(description="der(state) of a Model Exchange FMU, or the name of an input or output.")
     formula: StrictStr = Field(description="In the FMU's variables, `time` and the parameters; units are checked.")
     parameters: dict[str, AnyQuantity] = {}
+    states: dict[str, AddedStateEntry] = Field(
+        default={}, description="States of its own: what it adds may depend on the past."
+    )
 
 
 class FmuComponent(Strict):

@@ -13,7 +13,7 @@ import numpy as np
 from cosim.errors import InputError
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
-from cosim.fmu.settings import AddedTerm, Table
+from cosim.fmu.settings import AddedState, AddedTerm, Table
 from cosim.fmu.units import is_known
 from cosim.formula import Formula, FormulaError, to_base
 from cosim.quantity import PhysicalValue
@@ -32,16 +32,61 @@ class _Term:
         formula: Its formula.
         parameters: In SI base units.
         factor: From SI base units to those of the target.
+        own: Its own states, where it has some.
     """
 
     target: str
     formula: Formula
     parameters: Mapping[str, AnyArray]
     factor: float
+    own: OwnStates | None = None
 
     def amount(self, values: Mapping[str, AnyArray]) -> Any:
         """What is added, in the unit of the target."""
-        return self.factor * np.asarray(self.formula.value({**self.parameters, **values}))
+        own = {} if self.own is None else self.own.values
+        return self.factor * np.asarray(self.formula.value({**self.parameters, **own, **values}))
+
+    @property
+    def names(self) -> set[str]:
+        """Names that its formulas use."""
+        return self.formula.names | (self.own.names if self.own is not None else set())
+
+
+class OwnStates:
+    """States of one term, in SI base units.
+
+    Args:
+        rates: Name to the formula of its derivative.
+        starts: Name to the formula of its value at the start.
+        parameters: Of the term, SI base units.
+    """
+
+    def __init__(
+        self, rates: Mapping[str, Formula], starts: Mapping[str, Formula], parameters: Mapping[str, AnyArray]
+    ) -> None:
+        self._rates, self._starts, self._parameters = rates, starts, parameters
+        #: Name to its value now.
+        self.values: dict[str, AnyArray] = {name: np.zeros(()) for name in rates}
+
+    @property
+    def names(self) -> set[str]:
+        """Names that its formulas use."""
+        return {n for f in (*self._rates.values(), *self._starts.values()) for n in f.names}
+
+    def start(self, environment: Mapping[str, AnyArray]) -> Array:
+        """Values at the start, shape (states,)."""
+        known = {**self._parameters, **environment}
+        return np.array([float(f.value(known)) for f in self._starts.values()])
+
+    def take(self, values: Array) -> None:
+        """Set them, shape (states,)."""
+        for name, value in zip(self.values, values.tolist()):
+            self.values[name] = np.asarray(value)
+
+    def rates(self, environment: Mapping[str, AnyArray]) -> Array:
+        """Their derivatives, shape (states,)."""
+        known = {**self._parameters, **self.values, **environment}
+        return np.array([float(f.value(known)) for f in self._rates.values()])
 
 
 @dataclass
@@ -70,6 +115,8 @@ class AddedTerms:
         self._units = {_TIME: "s"}
         #: Time that outputs belong to [s].
         self.time = 0.0
+        #: States of terms, one after the other in the order of the terms.
+        self.owners: list[OwnStates] = []
         if not self.table.settings.added_terms:
             return
         if self.is_model_exchange:
@@ -87,6 +134,10 @@ class AddedTerms:
     def is_empty(self) -> bool:
         """Whether there is none."""
         return not (self.derivatives or self.inputs or self.outputs)
+
+    def continuous_states(self) -> dict[str, AnyArray]:
+        """State to the places of its elements among the continuous states; empty where the FMU does not say."""
+        return self.states or self._states()
 
     def _states(self) -> dict[str, AnyArray]:
         places: dict[str, dict[int, int]] = {}
@@ -123,17 +174,98 @@ class AddedTerms:
             units[name] = value.unit or "1"
             factor, offset = to_base(units[name])
             parameters[name] = np.asarray(factor * value.number + offset)
+        own = self._own_states(given, units, parameters, key)
         try:
             formula = Formula(given.formula, units, f"({unit})/s" if match else unit)
         except FormulaError as error:
             raise InputError(self.table.archive.path, f"{key}.formula", str(error), "correct the formula") from error
-        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0])
+        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0], own)
         if match:
             self.derivatives.append(term)
         elif self.table.all[target].variable.causality is Causality.INPUT:
             self.inputs.append(term)
         else:
             self.outputs.append(term)
+
+    def _own_states(
+        self, given: AddedTerm, units: dict[str, str], parameters: Mapping[str, AnyArray], key: str
+    ) -> OwnStates | None:
+        """States of a term, whose names `units` has afterwards."""
+        path = self.table.archive.path
+        known = dict(units)
+        for name, state in given.states.items():
+            if name in units:
+                raise InputError(path, f"{key}.states.{name}", "a variable or a parameter has this name",
+                                 "choose another one")  # fmt: skip
+            if not is_known(state.unit):
+                raise InputError(path, f"{key}.states.{name}.unit", f"`{state.unit}` is not a unit that is known here",
+                                 "write it as in `m/s^2`")  # fmt: skip
+        units |= {name: state.unit for name, state in given.states.items()}
+        rates, starts = {}, {}
+        for name, state in given.states.items():
+            try:
+                rates[name] = Formula(state.rate, units, f"({state.unit})/s")
+                starts[name] = Formula(state.start, known, state.unit)
+            except FormulaError as error:
+                raise InputError(path, f"{key}.states.{name}", str(error), "correct the formula") from error
+        if not given.states:
+            return None
+        own = OwnStates(rates, starts, parameters)
+        self.owners.append(own)
+        return own
+
+    @property
+    def own_count(self) -> int:
+        """Number of states of terms."""
+        return sum(len(o.values) for o in self.owners)
+
+    def start_own(self, time: float, states: Array | None) -> Array:
+        """States of terms at the start, shape (own_count,), SI base units; they are taken."""
+        if not self.owners:
+            return np.zeros(0)
+        self._read()
+        environment = self._environment(time, states)
+        found = [owner.start(environment) for owner in self.owners]
+        values = np.concatenate(found) if found else np.zeros(0)
+        self.take_own(values)
+        return values
+
+    def take_own(self, values: Array) -> None:
+        """Set the states of terms, shape (own_count,)."""
+        begin = 0
+        for owner in self.owners:
+            owner.take(values[begin : begin + len(owner.values)])
+            begin += len(owner.values)
+
+    @property
+    def own_values(self) -> Array:
+        """States of terms, shape (own_count,)."""
+        return np.array([float(v) for owner in self.owners for v in owner.values.values()])
+
+    def own_rates(self, time: float, states: Array | None) -> Array:
+        """Their derivatives, shape (own_count,)."""
+        self._read()
+        environment = self._environment(time, states)
+        return np.concatenate([owner.rates(environment) for owner in self.owners])
+
+    def step_own(self, time: float, size: float) -> None:
+        """Advance the states of terms beside a Co-Simulation FMU, whose inputs and outputs are held over the step.
+
+        The classical Runge-Kutta method (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, Springer
+        1993, section II.1).
+        """
+        if not self.owners:
+            return
+        begin: Array = self.own_values
+        slopes: list[Array] = []
+        for share in (0.0, 0.5, 0.5, 1.0):
+            self.take_own(begin + (share * size * slopes[-1] if slopes else 0.0))
+            slopes.append(self.own_rates(time, None))
+        one, two, three, four = slopes
+        end = begin + size / 6.0 * (one + 2.0 * (two + three) + four)
+        if not np.isfinite(end).all():
+            raise UnitError(self.name, "a state of an added term is not a finite number")
+        self.take_own(end)
 
     def _target_unit(self, given: AddedTerm, target: str, is_derivative: bool, key: str) -> str:
         """Unit of the state, input or output that a term is added to."""
@@ -155,7 +287,7 @@ class AddedTerms:
     def bind(self, binding: Binding, values: Mapping[str, AnyArray]) -> None:
         """Connect to an instance; `values` are its inputs (as given from outside) and outputs."""
         self._outside = values
-        used = {n for t in (*self.derivatives, *self.inputs) for n in t.formula.names}
+        used = {n for t in (*self.derivatives, *self.inputs) for n in t.names}
         self._inner: dict[str, AnyArray] = {}
         self._readers: list[Access] = []
         self._writers: dict[str, tuple[Access, AnyArray]] = {}
@@ -172,7 +304,7 @@ class AddedTerms:
         """Every quantity in SI base units at a point of the integration; without states at a communication point."""
         found: dict[str, AnyArray] = {_TIME: np.asarray(time)}
         inside = states is not None
-        for name in {n for t in (*self.derivatives, *self.inputs, *self.outputs) for n in t.formula.names}:
+        for name in {n for t in (*self.derivatives, *self.inputs, *self.outputs) for n in t.names}:
             if name not in self._units or name == _TIME:
                 continue
             if inside and name in self.states:
@@ -188,7 +320,14 @@ class AddedTerms:
         return found
 
     def place(self, time: float, states: Array) -> None:
-        """The FMU stands at a point of the integration: its inputs get what is added to them there."""
+        """The FMU stands at a point of the integration: its inputs get what is added to them there.
+
+        Args:
+            time: Time [s].
+            states: Of the FMU, then those of terms.
+        """
+        if self.owners:
+            self.take_own(np.asarray(states)[-self.own_count :])
         if self.inputs:
             self._read()
             self._write_inputs(self._environment(time, states))
@@ -211,13 +350,15 @@ class AddedTerms:
             self._write_inputs(self._environment(time, None))
 
     def add_rates(self, time: float, states: Array, rates: Array) -> None:
-        """Add to derivatives, shape (states,)."""
-        if self.derivatives:
+        """Add to derivatives; fill those of terms, which come last. Shape (states,)."""
+        if self.derivatives or self.owners:
             self._read()
             environment = self._environment(time, states)
             for term in self.derivatives:
                 places = self.states[term.target]
                 rates[places] += np.broadcast_to(self._amount(term, environment), places.shape)
+            if self.owners:
+                rates[-self.own_count :] = np.concatenate([o.rates(environment) for o in self.owners])
 
     def add_outputs(self) -> None:
         """Add to outputs that were just read."""
@@ -246,5 +387,9 @@ class AddedTerms:
 def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
     """Terms as a scenario gives them."""
     return tuple(
-        AddedTerm(t.to, t.formula, {n: PhysicalValue.parse(v) for n, v in t.parameters.items()}) for t in given
-    )
+        AddedTerm(
+            t.to, t.formula, {n: PhysicalValue.parse(v) for n, v in t.parameters.items()},
+            {n: AddedState(s.rate, s.start, s.unit) for n, s in t.states.items()},
+        )
+        for t in given
+    )  # fmt: skip

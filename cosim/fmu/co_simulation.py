@@ -71,6 +71,7 @@ class CoSimulationUnit(FmuUnit):
 
     def _begin(self, time: int) -> None:
         self._now = seconds(time)
+        self.added.start_own(self._now, None)
         self._mode = Mode.EVENT if self.binding.uses_event_mode else Mode.RUNNING
         if self._mode is Mode.EVENT:
             self._enter_step_mode = self.binding.checked("EnterStepMode")
@@ -145,6 +146,7 @@ class CoSimulationUnit(FmuUnit):
             self.added.write_inputs(begin)
             self.added.time = end
             status = self._advance(begin, end, length)
+            self.added.step_own(begin, self._now - begin)
         except UnitError as error:
             raise UnitError(self.name, error.what, self._reached, error.remedy) from error
         if status is StepStatus.DISCARDED:
@@ -232,14 +234,17 @@ class CoSimulationUnit(FmuUnit):
     def _extra(self) -> tuple[float, ...]:
         event = math.nan if self.next_event is None else self.next_event
         ticks = [x for clock in self.clocks.timed for x in clock.state()]
-        return (self._now, event, math.nan if self._size is None else self._size, *ticks)
+        own = self.added.own_values.tolist()
+        return (self._now, event, math.nan if self._size is None else self._size, *own, *ticks)
 
     def _take_extra(self, extra: tuple[float, ...], time: int) -> None:
         self._now, event, size = extra[:3]
         self.next_event = None if math.isnan(event) else event
         self._size = None if math.isnan(size) else int(size)
+        own = 3 + self.added.own_count
+        self.added.take_own(np.array(extra[3:own]))
         for i, clock in enumerate(self.clocks.timed):
-            clock.take(extra[3 + 4 * i : 7 + 4 * i])
+            clock.take(extra[own + 4 * i : own + 4 * (i + 1)])
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
         return {"clockwork": np.array(self._extra())}

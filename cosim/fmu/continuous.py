@@ -35,6 +35,8 @@ class ContinuousModel:
         if is_fmi3:
             self.states = int(binding.call(binding.fmu.getNumberOfContinuousStates))
             self.indicators = int(binding.call(binding.fmu.getNumberOfEventIndicators))
+        #: States that terms of the master add; they come last.
+        self.own = 0 if self._added is None else self._added.own_count
         array = ctypes.c_void_p, ctypes.c_size_t
         self._set_time = binding.checked("SetTime", ctypes.c_double)
         self._set_states = binding.function("SetContinuousStates", *array)
@@ -52,15 +54,17 @@ class ContinuousModel:
         self._addresses = [a.ctypes.data for a in self._scratch]
 
     def get_states(self) -> Array:
-        """Continuous states, shape (states,), a copy."""
-        result = np.zeros(self.states)
+        """Continuous states, then those of terms, shape (states + own,), a copy."""
+        result = np.zeros(self.states + self.own)
         if self.states:
             self._get_states(result.ctypes.data, self.states)
+        if self._added is not None and self.own:
+            result[self.states :] = self._added.own_values
         return result
 
     def nominals(self) -> Array:
-        """Nominal values of the states, shape (states,); where the FMU gives zero or nonsense, one."""
-        result = np.ones(self.states)
+        """Nominal values of the states, shape (states + own,); where the FMU gives zero or nonsense, one."""
+        result = np.ones(self.states + self.own)
         if self.states:
             self._get_nominals(result.ctypes.data, self.states)
         result = np.abs(result)
@@ -79,15 +83,15 @@ class ContinuousModel:
             if status > WARNING:
                 self._binding.check(f"{self._binding.prefix}SetContinuousStates", status)
         if self._added is not None:
-            self._added.place(time, states)
+            self._added.place(time, states[: self.states + self.own])
 
     def derivatives(self, time: float, states: Array, rates: Array) -> None:
         """Fill `rates`; with NaN where the FMU discards the point, so that the integrator takes a smaller step."""
         rates[self.states :] = 0.0
         if self.states:
             rates[: self.states] = self._evaluate(self._get_derivatives, 1, "Derivatives", time, states)
-            if self._added is not None:
-                self._added.add_rates(time, states, rates)
+        if self._added is not None:
+            self._added.add_rates(time, states[: self.states + self.own], rates[: self.states + self.own])
 
     def event_indicators(self, time: float, states: Array, result: Array) -> None:
         """Fill `result`, shape (indicators,)."""
@@ -101,7 +105,7 @@ class ContinuousModel:
             self._scratch[0][:] = states[: self.states]
             status = self._set_states(component, self._addresses[0], self.states)
         if status <= WARNING and self._added is not None:
-            self._added.place(time, states)
+            self._added.place(time, states[: self.states + self.own])
         if status <= WARNING:
             status = function(component, self._addresses[slot], result.size)
         if status > WARNING:

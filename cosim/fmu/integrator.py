@@ -51,8 +51,8 @@ class Integrator:
     def __init__(self, model: ContinuousModel, relative_tolerance: float, reports_steps: bool) -> None:
         self._model, self._rtol, self._reports_steps = model, relative_tolerance, reports_steps
         #: A model with event indicators but no states gets one that stays zero: CVODE finds roots of ODEs only.
-        self._count = max(model.states, 1)
-        self._is_needed = model.states > 0 or model.indicators > 0
+        self._count = max(model.states + model.own, 1)
+        self._is_needed = model.states + model.own > 0 or model.indicators > 0
         self._linear_solver = "gmres"
         self._solver: Any = None
         self._size = 0.0
@@ -63,7 +63,7 @@ class Integrator:
         """The next step begins anew, from `states` where they are given: an input, a state or a parameter jumped."""
         self._is_fresh = True
         if states is not None:
-            self.states[: self._model.states] = states
+            self.states[: len(states)] = states
 
     def forget(self) -> None:
         """The next step begins with a new solver: nominal values have changed, or it must be the same when repeated.
@@ -76,7 +76,7 @@ class Integrator:
     def _build(self, size: float) -> None:
         model = self._model
         nominals = np.ones(self._count)
-        nominals[: model.states] = model.nominals()
+        nominals[: model.states + model.own] = model.nominals()
         options: dict[str, Any] = {
             "rtol": self._rtol,
             "atol": ABSOLUTE_SHARE * self._rtol * nominals,

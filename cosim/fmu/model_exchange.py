@@ -41,6 +41,15 @@ class ModelExchangeUnit(FmuUnit):
         super().__init__(name, archive, settings, "model_exchange")
         self._next_event: float | None = None
 
+    @property
+    def next_event(self) -> float | None:
+        """Time of the next time event [s]; None: there is none."""
+        return self._next_event
+
+    def continuous_states(self) -> Array:
+        """Continuous states, shape (states,), a copy."""
+        return self._model.get_states()[: self._model.states]
+
     def _begin(self, time: int) -> None:
         """From Initialization Mode through Event Mode to Continuous-Time Mode."""
         binding = self.binding
@@ -50,6 +59,7 @@ class ModelExchangeUnit(FmuUnit):
         self._integrator = Integrator(self._model, self.settings.tolerance or RELATIVE_TOLERANCE, reports)
         self._enter_continuous = binding.checked("EnterContinuousTimeMode")
         self._now = seconds(time)
+        self._is_own_started = False
         self._leave_event_mode()
 
     def _leave_event_mode(self) -> None:
@@ -60,6 +70,9 @@ class ModelExchangeUnit(FmuUnit):
         self._mode = Mode.RUNNING
         if settled.nominals_changed:
             self._integrator.forget()
+        if not self._is_own_started:
+            self._is_own_started = True
+            self.added.start_own(self._now, self._model.get_states()[: self._model.states])
         self._integrator.restart(self._model.get_states())
 
     def do_step(self, time: int, size: int) -> StepOutcome:
@@ -140,7 +153,8 @@ class ModelExchangeUnit(FmuUnit):
     def _take_extra(self, extra: tuple[float | None, float, Array], time: int) -> None:
         self._next_event, self._now, states = extra
         self._integrator.forget()
-        self._integrator.restart(states[: self._model.states])
+        self.added.take_own(states[self._model.states : self._model.states + self._model.own])
+        self._integrator.restart(states[: self._model.states + self._model.own])
 
     def checkpoint(self) -> dict[str, np.ndarray[Any, Any]]:
         """The FMU's serialised state in Continuous-Time Mode, the inputs and the next time event."""
@@ -149,9 +163,12 @@ class ModelExchangeUnit(FmuUnit):
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
         self._integrator.forget()
-        return {"next_event": np.array(math.inf if self._next_event is None else self._next_event)}
+        own = {"added_states": self.added.own_values} if self._model.own else {}
+        return {"next_event": np.array(math.inf if self._next_event is None else self._next_event), **own}
 
     def _resume_extra(self, extra: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
         event = float(extra["next_event"])
         self._next_event = event if math.isfinite(event) else None
+        if self._model.own:
+            self.added.take_own(extra["added_states"])
         self._integrator.restart(self._model.get_states())

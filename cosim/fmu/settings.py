@@ -24,18 +24,35 @@ _ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
+class AddedState:
+    """A state of a term's own.
+
+    Args:
+        rate: Formula of its derivative.
+        start: Formula of its value at the start.
+        unit: Its unit.
+    """
+
+    rate: str
+    start: str
+    unit: str = "1"
+
+
+@dataclass(frozen=True)
 class AddedTerm:
     """A term that the master adds.
 
     Args:
         to: `der(state)`, or the name of an input or output.
-        formula: In the names of the FMU's variables, `time` and the parameters.
+        formula: In the names of the FMU's variables, `time`, the parameters and its own states.
         parameters: Numbers with units.
+        states: Its own states.
     """
 
     to: str
     formula: str
     parameters: Mapping[str, PhysicalValue] = field(default_factory=dict)
+    states: Mapping[str, AddedState] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

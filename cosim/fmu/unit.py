@@ -133,6 +133,19 @@ class FmuUnit(Unit):
             initial = self.initial_feedthrough.get(name, frozenset()) | inputs
             self.initial_feedthrough = {**self.initial_feedthrough, name: initial}
 
+    def begin_again(self) -> None:
+        """Back to before the initialisation, with the parameters and start values that were given.
+
+        Raises:
+            UnitError: The FMU refuses to be reset.
+        """
+        self.binding.call(self.binding.fmu.reset)
+        self.binding.messages.clear()
+        self._mode, self._is_stale = Mode.INSTANTIATED, False
+        self.table.configure(self.binding)
+        for access in self.binding.given.values():
+            access()
+
     def set_parameters(self, parameters: Mapping[str, Any]) -> None:
         """Set parameters before initialisation; a scalar fills an array.
 

@@ -14,6 +14,9 @@ from diagnosis.recording.series import sample
 
 #: Probability that a recording that fits its scenario raises one false serious doubt.
 LEVEL = 1e-3
+#: Share of what is left as it is that another explanation leaves at most. Of many readings a likelihood prefers one
+#: that leaves hardly less; but a law that is missing, or a resonance that is off, is followed in part by any of them.
+MOST_LEFT = 0.5
 
 
 @dataclass(frozen=True)
@@ -186,3 +189,16 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
     times = beside.times[chosen]
     instants = times if at is None else at[chosen]
     return fit(beside.measured[chosen], design(course, instants), beside.tolerance)
+
+
+def explains(own: float, other: float) -> bool:
+    """Whether another explanation takes away at least half of what the recording's own conditions leave.
+
+    Args:
+        own: Share of the variance that these explain.
+        other: Share that it explains.
+
+    >>> explains(0.97, 0.999), explains(0.38, 0.51)
+    (True, False)
+    """
+    return 1.0 - other <= MOST_LEFT * (1.0 - own)

@@ -10,7 +10,7 @@ from cosim.errors import InputError
 from cosim.quantity import conversion
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import LEVEL, Basis, Fit, basis, gain
+from diagnosis.check.explain import LEVEL, Basis, Fit, basis, explains, gain
 from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
@@ -168,7 +168,7 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
         0.0 if len(compared.switches()) else 2.0 * np.log(len(PACES))
     )
     found = gain(same, other)
-    if found <= limit:
+    if found <= limit or not explains(same.share, other.share):
         return []
     text = (
         f"the readings fall where the simulation rises: turned over it explains {100 * other.share:.2g} % of them, "

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.components import nanoseconds
 from cosim.unit import Array
 from diagnosis.check.beside import Beside, Compared, direct
-from diagnosis.check.explain import LEVEL, Fit, design, explained, fit, gain
+from diagnosis.check.explain import LEVEL, Fit, design, explained, explains, fit, gain
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
@@ -85,7 +85,7 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
         return []
     own = [_own(compared, b) for b in leads]
     rivals = [*_other_runs(compared, others, leads), *_shifts(compared, leads, own), *_factors(compared, leads, own)]
-    rivals = [r for r in rivals if r.gain > critical(4.0)]
+    rivals = [r for r in rivals if r.gain > critical(4.0) and explains(r.own, r.other)]
     return [_doubt(compared, max(rivals, key=lambda r: r.gain))] if rivals else []
 
 
@@ -98,7 +98,7 @@ def switch_doubts(compared: Compared) -> list[Doubt]:
     if not leads or not len(compared.switches()):
         return []
     found = _switches(compared, leads, [_own(compared, b) for b in leads])
-    return [_doubt(compared, r) for r in found if r.gain > critical(4.0)]
+    return [_doubt(compared, r) for r in found if r.gain > critical(4.0) and explains(r.own, r.other)]
 
 
 def _doubt(compared: Compared, best: Rival) -> Doubt:

@@ -19,7 +19,7 @@ import cosim
 import diagnosis.recording
 import mechanics
 from cosim.assemble import assemble
-from cosim.components import FmuComponent, ProgrammeOutput
+from cosim.components import AddedTermEntry, FmuComponent, ProgrammeOutput
 from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
 from cosim.quantity import PhysicalValue
@@ -43,12 +43,14 @@ class Changes:
         shifts: Programme to its outputs that are moved as a whole, and by how much, in the unit of the output.
         lists: Component to its parameters that are lists, each whole.
         gains: Programme to its outputs that were another within an interval: gain, begin [s], end [s].
+        added: FMU to terms that are added to those that it has.
     """
 
     parameters: Mapping[str, Mapping[str, PhysicalValue]] = field(default_factory=dict)
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     lists: Mapping[str, Mapping[str, Sequence[PhysicalValue]]] = field(default_factory=dict)
     gains: Mapping[str, Mapping[str, tuple[float, float, float]]] = field(default_factory=dict)
+    added: Mapping[str, Sequence[AddedTermEntry]] = field(default_factory=dict)
 
     def text(self) -> str:
         """Every number to its last bit, in an order that does not depend on how it was put together."""
@@ -59,7 +61,8 @@ class Changes:
             for c, own in self.lists.items()
         }
         gains = {c: {o: [v.hex() for v in g] for o, g in own.items()} for c, own in self.gains.items()}
-        more = [lists, gains] if gains else [lists] if lists else []
+        added = {c: [t.model_dump(mode="json") for t in terms] for c, terms in self.added.items()}
+        more = [lists, gains, added] if added else [lists, gains] if gains else [lists] if lists else []
         return json.dumps([parameters, shifts, *more], sort_keys=True)
 
 
@@ -167,6 +170,9 @@ def changed(scenario: Scenario, changes: Changes) -> Scenario:
         own = components[name]
         outputs = {o: with_gain(g, intervals[o], scenario) if o in intervals else g for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
+    for name, terms in changes.added.items():
+        own = components[name]
+        components[name] = own.model_copy(update={"added_terms": [*own.added_terms, *terms]})
     return scenario.model_copy(update={"components": components})
 
 

@@ -9,16 +9,20 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
+from diagnosis.bank.compiler import CompilerError
 from diagnosis.compute.batch import Batches
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
-from diagnosis.search.cosim_model import CosimModel, free_parameters
+from diagnosis.search.cosim_model import ComponentTerm, CosimModel, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
 from diagnosis.simulator.pendulum_model import TORQUE, PendulumModel, is_single_pendulum, without_scale
 from diagnosis.simulator.runs import deviation
 from diagnosis.simulator.unit_laws import laws_of
+from diagnosis.systems.fmu_layout import NotFast
+from diagnosis.systems.model import SystemModel, is_system, laws_at
+from diagnosis.systems.places import Fit
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,7 @@ class ClosedLoopModel:
         recordings: Recordings of it.
         without: Laws that it must not know.
         batches: Makes the runs; None: one after the other in this process.
+        like: Model of other recordings of the same scenario, whose laws and bounds it has too.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
@@ -59,10 +64,16 @@ class ClosedLoopModel:
 
     def __init__(
         self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str] = (),
-        batches: Batches | None = None,
+        batches: Batches | None = None, like: ClosedLoopModel | None = None,
     ) -> None:  # fmt: skip
         recordings = [_with_rounding(r) for r in recordings]
         laws, kind = laws_of(scenario), CosimModel
+        #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
+        self.slow = ""
+        #: Laws at their places and laws of sensors, of a system of FMUs.
+        self.system_laws: tuple[list[Fit], list[UnitLaw]] | None = None
+        if is_system(scenario) and self._take_system(scenario, recordings, without, batches, like):
+            return
         if is_single_pendulum(scenario, recordings):
             (component,) = scenario.components
             channels = dict.fromkeys(name for r in recordings for name in r.channels)
@@ -72,7 +83,29 @@ class ClosedLoopModel:
         free, self._torque_scale = free_parameters(scenario, recordings), 0.0
         if kind is PendulumModel:
             free, self._torque_scale = without_scale(scenario_of(scenario, recordings[0]), free)
-        self.model = kind(scenario, recordings, free, [law.place for law in self._laws.values()], batches)
+        self._begin(kind(scenario, recordings, free, [law.place for law in self._laws.values()], batches), recordings)
+
+    def _take_system(
+        self, scenario: Scenario, recordings: Sequence[Recording], without: Sequence[str], batches: Batches | None,
+        like: ClosedLoopModel | None,
+    ) -> bool:  # fmt: skip
+        """Whether compiled code simulates the system of FMUs; if not, `slow` says why."""
+        try:
+            known = None if like is None else like.system_laws
+            found, sensors = known or laws_at(scenario, recordings, without)
+            model = SystemModel(scenario, recordings, free_parameters(scenario, recordings), found, batches)
+        except (NotFast, CompilerError) as reason:
+            self.slow = str(reason)
+            return False
+        self._torque_scale = 0.0
+        self.system_laws = found, sensors
+        self._laws = {fit.term: _unit_law(fit) for fit in found}
+        self._laws |= {law.place.term: law for law in sensors if law.place.term.identifier not in without}
+        self._begin(model, recordings)
+        return True
+
+    def _begin(self, model: CosimModel, recordings: Sequence[Recording]) -> None:
+        self.model = model
         self.runs = [_compared(r) for r in recordings]
         self.parameters: Sequence[Parameter] = self.model.parameters
         self.layout: Layout = self.model.layout
@@ -126,6 +159,12 @@ class ClosedLoopModel:
         if found is None:
             return [np.full(len(s.samples), np.inf) for s in self.runs[run].series]
         return list(found)
+
+
+def _unit_law(fit: Fit) -> UnitLaw:
+    """What a law at a place says about itself."""
+    place = ComponentTerm(fit.term, fit.term.place, ())
+    return UnitLaw(place, fit.law.name, fit.law.source, fit.law.confused_with)
 
 
 def _compared(recording: Recording) -> ComparedRun:

@@ -132,6 +132,7 @@ class DiagnosisModel(Protocol):
 def model_of(
     scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], threads: int = 2,
     without: Sequence[str] = (), batches: Batches | None = None, timeline: Timeline | None = None,
+    like: DiagnosisModel | None = None,
 ) -> DiagnosisModel:  # fmt: skip
     """The fastest model that simulates a scenario.
 
@@ -143,6 +144,7 @@ def model_of(
         without: Laws of units that the model must not know.
         batches: Makes the runs of the co-simulation, where there are any.
         timeline: Recordings that were fitted, where these are held out; see `timeline_of`.
+        like: Their model.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
@@ -153,7 +155,11 @@ def model_of(
     try:
         return BankModel(scenario, recordings, catalogue, threads, timeline)
     except NoBank:  # also by what one of the recordings overrides
-        return ClosedLoopModel(scenario, recordings, without, batches)
+        return ClosedLoopModel(scenario, recordings, without, batches, _closed_loop(like))
+
+
+def _closed_loop(model: DiagnosisModel | None) -> ClosedLoopModel | None:
+    return model if isinstance(model, ClosedLoopModel) else None
 
 
 def models_of(
@@ -181,15 +187,15 @@ def models_of(
     model = model_of(scenario, training, catalogue, threads, without, batches)
     if not held_out:
         return model, None
-    judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model))
+    judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model), model)
     if isinstance(judge, FabricModel):
         _without_beginning(held_out)
     if isinstance(model, BankModel) and isinstance(judge, BankModel):
         check_rig(judge.coils, model.coils, held_out[0])
     if type(judge) is type(model):
         return model, judge
-    both = (ClosedLoopModel(scenario, fitting(scenario, r), without, batches) for r in (training, held_out))
-    return next(both), next(both)
+    first = ClosedLoopModel(scenario, fitting(scenario, training), without, batches)
+    return first, ClosedLoopModel(scenario, fitting(scenario, held_out), without, batches, first)
 
 
 def _without_beginning(recordings: Sequence[Recording]) -> None:

@@ -16,12 +16,13 @@ from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.recording.recording import Recording
-from diagnosis.recording.series import Series, sample
+from diagnosis.recording.series import Series
 from diagnosis.search.cosim_model import STEP, CosimModel, Free
 from diagnosis.search.cosim_run import Changes
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
 from diagnosis.search.problem import Point, Term
 from diagnosis.simulator.pendulum_batch import LAWS, arm, is_available, swings
+from diagnosis.simulator.sensor_chain import read
 from mechanics.pendulum_design import PendulumDesign, behind_play
 
 #: Numbers of a design that a scenario need not give.
@@ -189,20 +190,9 @@ class PendulumModel(CosimModel):
         """What the sensors read of a course."""
         found, grid = [], self._grids[number]
         for channel in self.recordings[number].channels.values():
-            times, values = grid.times, course[channel.target.quantity]
-            late, gain = 0.0, 0.0
-            for term, (amount, *_) in point.terms.items():
-                if term.place != channel.name:
-                    continue
-                if term.identifier == "sensor_clock_offset":
-                    late += amount
-                elif term.identifier == "sensor_gain":
-                    gain += amount
-                elif term.identifier == "sensor_lag":
-                    values = lagging(values, amount, grid.macro)
-            series = Series(times[:: grid.every], values[:: grid.every], False, channel.unit)
-            middle = math.pi if channel.unit == "rad" else 0.0
-            found.append(middle + (1.0 + gain) * (sample(series, channel.times - late) - middle))
+            values = course[channel.target.quantity]
+            series = Series(grid.times, values, False, channel.unit)
+            found.append(read(channel, point.terms, series, grid.macro, grid.every))
         return found
 
     @cached_property
@@ -245,24 +235,4 @@ def encoded(angle: Array, play: float) -> Array:
     for i, now in enumerate(angle.tolist()):
         stands = behind_play(stands, now, play)
         found[i] = stands
-    return found
-
-
-def lagging(values: Array, lag: float, step: float) -> Array:
-    """What a sensor of first order reads of values at even times [s], from rest at the first, shape as given.
-
-    Between two of them the input is a straight line, for which the response is exact (`sensor_lag` in the catalogue).
-    """
-    if lag <= 0.0:
-        return values
-    ratio = step / lag
-    kept = math.exp(-ratio)
-    mean = (1.0 - kept) / ratio  # share of the last step's rise that has not come through
-    found, reads = np.empty_like(values), float(values[0])
-    before = reads
-    for i, now in enumerate(values.tolist()):
-        if i:
-            reads = kept * reads + (1.0 - kept) * before + (1.0 - mean) * (now - before)
-            before = now
-        found[i] = reads
     return found

@@ -25,7 +25,8 @@ from diagnosis.search.problem import Parameter, Point
 from diagnosis.search.search import Settings, search
 from diagnosis.simulator.closed_loop import ClosedLoopModel
 from diagnosis.simulator.pendulum_batch import arm, longest_step, swings
-from diagnosis.simulator.pendulum_model import PendulumModel, lagging, without_scale
+from diagnosis.simulator.pendulum_model import PendulumModel, without_scale
+from diagnosis.simulator.sensor_chain import lagging
 from mechanics.bullet_pendulum import PendulumWorld
 from mechanics.pendulum import PendulumDesign
 

@@ -1,0 +1,1 @@
+"""Laws of circuits: what acts on a current or a voltage."""

@@ -1,0 +1,16 @@
+"""Voltage that a contact takes whatever its current."""
+
+from diagnosis.laws.law import Law, Number, Role
+
+LAW = Law(
+    identifier="contact_drop",
+    name="voltage that a contact takes whatever its current",
+    role=Role.CURRENT,
+    formula="-drop * tanh(i / rounding)",
+    numbers=(Number("drop", "rate", "rate of fall", (0.05, 0.3)),),
+    source="brushes of machines: Fitzgerald, Electric Machinery, McGraw-Hill 2003, section 7.2",
+    constants={"rounding": ("i", 0.01)},
+    confused_with={
+        "series_resistance": "currents of different size decide",
+    },
+)

@@ -1,0 +1,1 @@
+"""Laws of flow: what acts on a level, a volume or a pressure."""

@@ -1,0 +1,1 @@
+"""Laws without a name, by the form of their formula."""

@@ -1,0 +1,1 @@
+"""Laws of heat: what acts on a temperature."""

@@ -1,0 +1,104 @@
+"""What a law says about itself: on which quantity it acts, its formula, its numbers, where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+
+class Role(Enum):
+    """Quantity that a law is added to, with the symbols that its formula may use.
+
+    `rate` stands for the unit and the size of what the law is added to.
+    """
+
+    #: Derivative of a velocity v that is the derivative of a position x.
+    VELOCITY = "rate of a velocity"
+    #: Derivative of a temperature T in surroundings of T_a.
+    TEMPERATURE = "rate of a temperature"
+    #: Derivative of a level, a volume or a pressure h.
+    LEVEL = "rate of a level"
+    #: Derivative of a current i.
+    CURRENT = "rate of a current"
+    #: Derivative of a voltage q.
+    VOLTAGE = "rate of a voltage"
+    #: Derivative of any state s but a position.
+    STATE = "rate of a state"
+    #: Derivative of any state s but a position, over another state or input o.
+    PAIR = "rate of a state over another quantity"
+    #: An input u.
+    INPUT = "input"
+    #: An input u of an FMU that hides its states, over an output o.
+    PORT = "input over an output"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a law.
+
+    Args:
+        name: Symbol in the formula.
+        of: Product of powers of symbols, from which follow its unit and its characteristic size: `rate/v`.
+        meaning: What it is, in words.
+        starts: Values that a search begins from, in characteristic sizes.
+        most: Largest value, in characteristic sizes.
+        least: Smallest value, in characteristic sizes; None: as large as `most`, with the other sign.
+        origin: Symbol from whose middle value it is counted (a position), or empty.
+        is_switch: A share that is fitted, of which 1 is the whole.
+    """
+
+    name: str
+    of: str
+    meaning: str
+    starts: tuple[float, ...]
+    most: float = 1e3
+    least: float | None = 0.0
+    origin: str = ""
+
+
+@dataclass(frozen=True)
+class OwnState:
+    """A state that a law adds.
+
+    Args:
+        name: Symbol in the formulas.
+        rate: Its derivative.
+        start: Its value at the start.
+        of: See `Number`.
+    """
+
+    name: str
+    rate: str
+    start: str
+    of: str
+
+
+@dataclass(frozen=True)
+class Law:
+    """One effect; the first number is its strength, at 0 it is absent.
+
+    Args:
+        identifier: Name in the catalogue.
+        name: In plain words.
+        role: What it is added to.
+        formula: What is added, in the symbols of the role, its numbers, constants and states.
+        numbers: Free numbers, bounded below by 0 where the law takes energy.
+        source: Where the law comes from.
+        constants: Name to (product of symbols, value in characteristic sizes): what is not fitted, such as the width
+            over which a sign is rounded.
+        states: States of its own.
+        is_named: Whether it is an effect with a name.
+        confused_with: Identifiers that data often cannot tell from it, with what decides.
+    """
+
+    identifier: str
+    name: str
+    role: Role
+    formula: str
+    numbers: tuple[Number, ...]
+    source: str
+    constants: Mapping[str, tuple[str, float]] = field(default_factory=dict)
+    states: tuple[OwnState, ...] = ()
+    is_named: bool = True
+    confused_with: Mapping[str, str] = field(default_factory=dict)

@@ -1,0 +1,1 @@
+"""Laws of translation and rotation: what acts on a velocity."""

@@ -1,0 +1,17 @@
+"""Dry friction (Coulomb)."""
+
+from diagnosis.laws.law import Law, Number, Role
+
+LAW = Law(
+    identifier="dry_friction",
+    name="dry friction (Coulomb)",
+    role=Role.VELOCITY,
+    formula="-friction * tanh(v / rounding)",
+    numbers=(Number("friction", "rate", "deceleration by friction", (0.05, 0.3)),),
+    source="Coulomb; Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083",
+    constants={"rounding": ("v", 0.01)},
+    confused_with={
+        "viscous_damping": "motions of different sizes decide: how the loss depends on the speed",
+        "stribeck_friction": "slow motion decides: there stiction adds to it",
+    },
+)

@@ -1,0 +1,1 @@
+"""Laws of inputs: what an actuator makes of what it is told."""

@@ -1,0 +1,210 @@
+"""A system of FMUs with its recordings: simulated in compiled code, with laws wherever their quantities fit."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.components import AddedTermEntry, FmuComponent, ProgrammeComponent, nanoseconds
+from cosim.quantity import PhysicalValue, conversion
+from cosim.run import RunStopped, run
+from cosim.scenario import Scenario
+from cosim.unit import Array
+from diagnosis.compute.batch import Batches
+from diagnosis.laws.library import library
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Recording
+from diagnosis.recording.series import Series, place_of
+from diagnosis.search.cosim_model import CosimModel, Free
+from diagnosis.search.cosim_run import Changes
+from diagnosis.search.problem import Point, Term
+from diagnosis.search.unit_law import UnitLaw
+from diagnosis.simulator.sensor_chain import read
+from diagnosis.systems.fast import FastSystem
+from diagnosis.systems.fmu_layout import NotFast
+from diagnosis.systems.places import Fit, fits, places_of
+from diagnosis.systems.sensors import sensor_laws_of
+
+#: Residuals that are kept: a fit asks again for those where it stands.
+KEPT = 64
+#: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
+EXACT, MOST_SUBSTEPS = 0.02, 64
+#: Macro-steps of the run that tells what the variables of the results are called.
+FIRST_STEPS = 3
+
+
+def is_system(scenario: Scenario) -> bool:
+    """Whether a scenario is FMUs and programmes alone."""
+    kinds = [type(c) for c in scenario.components.values()]
+    return FmuComponent in kinds and all(k in (FmuComponent, ProgrammeComponent) for k in kinds)
+
+
+class SystemModel(CosimModel):
+    """See `CosimModel`; residuals and predictions come from `FastSystem`.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        free: Numbers that may be off.
+        found: Laws at their places.
+        batches: Makes runs of the co-simulation, where they are asked for.
+
+    Raises:
+        NotFast: Only the co-simulation can simulate it.
+        CompilerError: There is no C compiler.
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+
+    def __init__(
+        self, scenario: Scenario, recordings: Sequence[Recording], free: Sequence[Free], found: Sequence[Fit],
+        batches: Batches | None = None,
+    ) -> None:  # fmt: skip
+        super().__init__(scenario, recordings, free, (), batches)
+        self._found = {fit.term: (number, fit) for number, fit in enumerate(found)}
+        placed = [fit.placed for fit in found]
+        self._fast = [FastSystem(s, placed) for s in self.scenarios]
+        self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
+        self._known: dict[tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int], Array] = {}
+        self._set_steps()
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing."""
+        return list(self._found)
+
+    def changes_at(self, point: Point, number: int | None) -> Changes:
+        """See `CosimModel`; laws are added to their FMUs."""
+        plain = Point(point.base, {t: v for t, v in point.terms.items() if t.recording is not None})
+        found = super().changes_at(plain, number)
+        added: dict[str, list[AddedTermEntry]] = {}
+        for term, values in point.terms.items():
+            if term in self._found:
+                placed = self._found[term][1].placed
+                added.setdefault(placed.component, []).append(placed.entry(values))
+        return replace(found, added={name: tuple(entries) for name, entries in added.items()})
+
+    def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+        """Values of every channel at its samples, SI; None where the simulation stopped."""
+        self.runs += len(wanted)
+        return [self._prediction(point, number) for point, number in wanted]
+
+    def free_runs(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+        """The same by the co-simulation itself, without what sensors add."""
+        return super().predictions(wanted)
+
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        known, found = self._known, []
+        for point, number in wanted:
+            key = point.base.tobytes(), tuple(point.terms.items()), number
+            if key not in known:
+                self.runs += 1
+                known[key] = self._residual(number, self._prediction(point, number))
+            found.append(known[key])
+        for key in list(known)[:-KEPT]:
+            del known[key]
+        return found
+
+    def _prediction(self, point: Point, number: int) -> list[Array] | None:
+        plain = Point(point.base, {t: v for t, v in point.terms.items() if t.recording is not None})
+        changes = super().changes_at(plain, number)
+        laws = {self._found[t][0]: v for t, v in point.terms.items() if t in self._found}
+        fast = self._fast[number]
+        rows = fast.simulate(changes, laws)
+        if rows is None:
+            return None
+        step = fast.per_output * fast.size / 1e9
+        found = []
+        for channel, (column, factor, offset, is_flow, unit) in zip(
+            self.recordings[number].channels.values(), self._places[number]
+        ):
+            values = factor * rows.values[:, column] + offset
+            found.append(read(channel, point.terms, Series(rows.times, values, is_flow, unit), step))
+        return found
+
+    def _set_steps(self) -> None:
+        """As few steps of the integration as the noise allows, for all recordings the same."""
+        zero = Point(np.zeros(len(self.free)))
+        numbers = range(len(self.recordings))
+        count = 1
+        before = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+        while count < MOST_SUBSTEPS:
+            for fast in self._fast:
+                fast.set_substeps(2 * count)
+            now = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+            with np.errstate(invalid="ignore"):
+                moved = [float(np.max(np.abs(a - b), initial=0.0)) for a, b in zip(before, now)]
+            count, before = 2 * count, now
+            if all(m < EXACT for m in moved):
+                break
+        self._known.clear()
+
+
+#: Column of the rows, factor and offset to SI, whether it is a flow, SI unit.
+_Place = tuple[int, float, float, bool, str]
+
+
+def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) -> list[_Place]:
+    """Where each channel's quantity stands in the rows of the fast simulation.
+
+    Raises:
+        InputError: The scenario has no such quantity.
+        NotFast: It is none that the fast simulation records.
+    """
+    time = scenario.time
+    steps = min(FIRST_STEPS * fast.per_output, fast.steps // fast.per_output * fast.per_output)
+    stop = (nanoseconds(time.start) + steps * fast.size) / 1e9
+    end = PhysicalValue(float(f"{stop:.12g}"), "s")
+    short = scenario.model_copy(update={"time": time.model_copy(update={"stop": end})})
+    try:
+        results = run(short)
+    except RunStopped as stopped:
+        raise NotFast(f"the co-simulation stops at its start: {stopped.reason}") from stopped
+    found: list[_Place] = []
+    source = recording.path / "recording.yaml"
+    for channel in recording.channels.values():
+        variable, index = place_of(results, channel.target, source)
+        component, _, name = str(variable.name).partition(".")
+        key = component, name
+        if key not in fast.recorded:
+            raise NotFast(f"{component}.{name} is not recorded")
+        own = str(variable.attrs.get("units", "1"))
+        unit = own if channel.target.si_unit == "1" else channel.target.si_unit
+        factor, offset = conversion(own, unit)
+        is_flow = channel.target.quantity in ("current", "voltage", "power")
+        found.append((fast.recorded[key].start + index, factor, offset, is_flow, unit))
+    return found
+
+
+def laws_at(
+    scenario: Scenario, recordings: Sequence[Recording], without: Collection[str] = ()
+) -> tuple[list[Fit], list[UnitLaw]]:  # fmt: skip
+    """Laws of the library at every place of a system, and those of its sensors.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        without: Laws that are hidden.
+
+    Raises:
+        NotFast: Only the co-simulation can simulate it.
+        CompilerError: There is no C compiler.
+        InputError: A scenario is wrong.
+    """
+    systems = [FastSystem(scenario_of(scenario, r)) for r in recordings]
+    try:
+        places = places_of(systems)
+    finally:
+        for system in systems:
+            system.close()
+    laws = [law for law in library() if law.identifier not in without]
+    found = list(fits(places, laws, sample_step(recordings)))
+    channels = dict.fromkeys(name for r in recordings for name in r.channels)
+    return found, sensor_laws_of(channels, sample_step(recordings))
+
+
+def sample_step(recordings: Sequence[Recording]) -> float:
+    """Typical time between two readings [s]."""
+    steps = [np.median(np.diff(c.times)) for r in recordings for c in r.channels.values() if len(c.times) > 1]
+    return float(np.median(steps)) if steps else 1.0

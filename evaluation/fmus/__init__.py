@@ -1,0 +1,1 @@
+"""Systems of FMUs: small models of rigs, written and compiled here."""

@@ -1,0 +1,1 @@
+"""Public recordings of systems that a user would describe by an FMU."""
