@@ -28,6 +28,7 @@ from diagnosis.simulator.bank_model import BankModel
 from diagnosis.simulator.closed_loop import ClosedLoopModel
 from diagnosis.simulator.models import DiagnosisModel
 from diagnosis.simulator.wrapped import WrappedModel
+from diagnosis.systems.model import SystemModel
 
 BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 
@@ -67,7 +68,10 @@ def _judged(
     inner, fitted = unwrapped(training, points[0])
     if isinstance(inner, ClosedLoopModel):
         path = amend_closed_loop(scenario, inner, fitted["after"], folder)
-        return replace(diagnosis, amended_model=str(path), held_out_by=BY_FREE_RUNS if judge is not None else "")
+        by = BY_FREE_RUNS if judge is not None else ""
+        if judge is not None and isinstance(inner.model, SystemModel):
+            by = _by_compiled_code(judge, points[1])
+        return replace(diagnosis, amended_model=str(path), held_out_by=by)
     if isinstance(inner, FabricModel):
         by = BY_BULLET if judge is not None else ""
         try:
@@ -98,6 +102,19 @@ def _judged(
         diagnosis, fit=tuple(fits), spread=spread_over_recordings(fits), held_out_by=BY_FREE_RUNS,
         differences=differences(judge, held_out, fast, free),
     )  # fmt: skip
+
+
+def _by_compiled_code(judge: DiagnosisModel, points: Mapping[str, Point]) -> str:
+    """Who simulated held-out recordings of a system of FMUs, and how far the co-simulation is from that."""
+    model, own = unwrapped(judge, points)
+    assert isinstance(model, ClosedLoopModel)
+    assert isinstance(model.model, SystemModel)
+    by = "compiled code that steps the same FMUs"
+    found = model.model.apart(own["after"], 0)
+    if found is None:
+        return f"{by}; `cosim run` of the amended scenario stops"
+    worst, end = found
+    return f"{by}; `cosim run` of the amended scenario differs by {worst:.2g} of the noise at most until {end:.4g} s"
 
 
 def unwrapped(model: DiagnosisModel, points: Mapping[str, Point]) -> tuple[DiagnosisModel, dict[str, Point]]:

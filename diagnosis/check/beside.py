@@ -13,12 +13,13 @@ from scipy.linalg.blas import dtbsv
 
 from cosim.components import FabricComponent, ProgrammeComponent, nanoseconds
 from cosim.errors import InputError
-from cosim.run import RunStopped, run
+from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit import Array
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
+from diagnosis.systems.run import run_quickly
 
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
 MOST_STEPS = 400_000
@@ -191,7 +192,7 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
         note = _hindrance(own)
         if not note:
             try:
-                results = run(own)
+                results = run_quickly(own)
             except RunStopped as stopped:
                 note = f"the simulation stopped: {stopped.reason}"
     courses = tuple(_courses(own, recording))

@@ -53,9 +53,17 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
     if not any(by_domain[name] for name in by_domain if name not in MEASURED):
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
+    untried += _untried(model)
     if not any(not is_own(p.name) for p in model.parameters):
         untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
     return Searched(domains, tuple(untried))
+
+
+def _untried(model: object) -> tuple[str, ...]:
+    """What the model that simulates says of places without a law."""
+    while hasattr(model, "inner"):
+        model = model.inner
+    return tuple(getattr(model, "untried", ()))
 
 
 def _with_faults(model: object) -> FaultyModel | None:

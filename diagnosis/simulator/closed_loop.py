@@ -21,8 +21,9 @@ from diagnosis.simulator.pendulum_model import TORQUE, PendulumModel, is_single_
 from diagnosis.simulator.runs import deviation
 from diagnosis.simulator.unit_laws import laws_of
 from diagnosis.systems.fmu_layout import NotFast
-from diagnosis.systems.model import SystemModel, is_system, laws_at
+from diagnosis.systems.model import SystemLaws, SystemModel, laws_at
 from diagnosis.systems.places import Fit
+from diagnosis.systems.run import is_system
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,8 @@ class ClosedLoopModel:
         laws, kind = laws_of(scenario), CosimModel
         #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
         self.slow = ""
-        #: Laws at their places and laws of sensors, of a system of FMUs.
-        self.system_laws: tuple[list[Fit], list[UnitLaw]] | None = None
+        #: What may be missing in a system of FMUs.
+        self.system_laws: SystemLaws | None = None
         if is_system(scenario) and self._take_system(scenario, recordings, without, batches, like):
             return
         if is_single_pendulum(scenario, recordings):
@@ -91,16 +92,16 @@ class ClosedLoopModel:
     ) -> bool:  # fmt: skip
         """Whether compiled code simulates the system of FMUs; if not, `slow` says why."""
         try:
+            free = free_parameters(scenario, recordings)
             known = None if like is None else like.system_laws
-            found, sensors = known or laws_at(scenario, recordings, without)
-            model = SystemModel(scenario, recordings, free_parameters(scenario, recordings), found, batches)
+            laws = known or laws_at(scenario, recordings, free, without)
+            model = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
         except (NotFast, CompilerError) as reason:
             self.slow = str(reason)
             return False
-        self._torque_scale = 0.0
-        self.system_laws = found, sensors
-        self._laws = {fit.term: _unit_law(fit) for fit in found}
-        self._laws |= {law.place.term: law for law in sensors if law.place.term.identifier not in without}
+        self._torque_scale, self.system_laws = 0.0, laws
+        self._laws = {fit.term: _unit_law(fit) for fit in laws.found}
+        self._laws |= {law.place.term: law for law in laws.sensors}
         self._begin(model, recordings)
         return True
 
@@ -109,6 +110,13 @@ class ClosedLoopModel:
         self.runs = [_compared(r) for r in recordings]
         self.parameters: Sequence[Parameter] = self.model.parameters
         self.layout: Layout = self.model.layout
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """Where no law can be tried, and why."""
+        if self.slow:
+            return (f"laws of FMUs need compiled code, which does not simulate this system: {self.slow}",)
+        return () if self.system_laws is None else self.system_laws.untried
 
     @property
     def has_valleys(self) -> bool:

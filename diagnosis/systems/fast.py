@@ -305,11 +305,11 @@ class FastSystem:
             own: dict[str, Any] = {**changes.parameters.get(name, {}), **changes.lists.get(name, {})}
             before = getattr(fmu, "moved", {})
             fmu.moved = own  # type: ignore[attr-defined]
-            back = {n: self._parameter(name, n) for n in before if n not in own}
+            back = {n: self.parameter(name, n) for n in before if n not in own}
             fmu.unit.set_parameters({**back, **own})
         system.initialise(self.start, self.assembly.start)
 
-    def _parameter(self, component: str, name: str) -> Any:
+    def parameter(self, component: str, name: str) -> Any:
         """What the scenario, its parameter set or the FMU says of a parameter."""
         resolved = self.assembly.parameters[component].values
         if name in resolved:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.components import AddedTermEntry, FmuComponent, ProgrammeComponent, nanoseconds
+from cosim.components import AddedTermEntry, nanoseconds
 from cosim.quantity import PhysicalValue, conversion
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario
@@ -18,12 +18,13 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, place_of
 from diagnosis.search.cosim_model import CosimModel, Free
-from diagnosis.search.cosim_run import Changes
+from diagnosis.search.cosim_run import Changes, predicted
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.unit_law import UnitLaw
 from diagnosis.simulator.sensor_chain import read
 from diagnosis.systems.fast import FastSystem
 from diagnosis.systems.fmu_layout import NotFast
+from diagnosis.systems.numbers import usual_numbers
 from diagnosis.systems.places import Fit, fits, places_of
 from diagnosis.systems.sensors import sensor_laws_of
 
@@ -31,14 +32,10 @@ from diagnosis.systems.sensors import sensor_laws_of
 KEPT = 64
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
 EXACT, MOST_SUBSTEPS = 0.02, 64
+#: Macro-steps over which a run of the co-simulation is compared.
+COMPARED = 2000
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
-
-
-def is_system(scenario: Scenario) -> bool:
-    """Whether a scenario is FMUs and programmes alone."""
-    kinds = [type(c) for c in scenario.components.values()]
-    return FmuComponent in kinds and all(k in (FmuComponent, ProgrammeComponent) for k in kinds)
 
 
 class SystemModel(CosimModel):
@@ -89,9 +86,37 @@ class SystemModel(CosimModel):
         self.runs += len(wanted)
         return [self._prediction(point, number) for point, number in wanted]
 
-    def free_runs(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
-        """The same by the co-simulation itself, without what sensors add."""
-        return super().predictions(wanted)
+    def apart(self, point: Point, number: int, steps: int = COMPARED) -> tuple[float, float] | None:
+        """How far a run of the co-simulation is from what was simulated, over the first macro-steps of a recording.
+
+        Args:
+            point: Values, terms of sensors are left out.
+            number: Of the recording.
+            steps: Macro-steps at most.
+
+        Returns:
+            Largest difference in deviations of the noise, and the time until which both were compared [s]; None where
+            the co-simulation stops.
+        """
+        plain = Point(point.base, {t: v for t, v in point.terms.items() if t in self._found})
+        scenario, fast = self.scenario_at(plain, number), self._fast[number]
+        outputs = max(min(steps, fast.steps) // fast.per_output, 1)
+        end = (fast.start + outputs * fast.per_output * fast.size) / 1e9
+        stop = PhysicalValue(float(f"{end:.12g}"), "s")
+        try:
+            results = run(scenario.model_copy(update={"time": scenario.time.model_copy(update={"stop": stop})}))
+        except RunStopped:
+            return None
+        mine = self._prediction(plain, number)
+        source, worst = self.recordings[number].path / "recording.yaml", 0.0
+        for i, channel in enumerate(self.recordings[number].channels.values()):
+            # The last outputs of a shorter run are drawn with other neighbours.
+            inside = channel.times <= end - 3.0 * fast.per_output * fast.size / 1e9
+            if mine is None or not inside.any():
+                continue
+            there = predicted(results, channel.target, channel.times[inside], source)
+            worst = max(worst, float(np.max(np.abs(mine[i][inside] - there)) / channel.deviation))
+        return worst, end
 
     def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
         """Residuals of single recordings."""
@@ -177,14 +202,32 @@ def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) 
     return found
 
 
+@dataclass(frozen=True)
+class SystemLaws:
+    """What may be missing or off in a system.
+
+    Args:
+        found: Laws at their places.
+        sensors: Laws of its sensors.
+        usual: Numbers that may be off though nobody says so.
+        untried: Where no law can be tried, and why.
+    """
+
+    found: tuple[Fit, ...]
+    sensors: tuple[UnitLaw, ...]
+    usual: tuple[Free, ...]
+    untried: tuple[str, ...]
+
+
 def laws_at(
-    scenario: Scenario, recordings: Sequence[Recording], without: Collection[str] = ()
-) -> tuple[list[Fit], list[UnitLaw]]:  # fmt: skip
-    """Laws of the library at every place of a system, and those of its sensors.
+    scenario: Scenario, recordings: Sequence[Recording], free: Sequence[Free], without: Collection[str] = ()
+) -> SystemLaws:
+    """Laws of the library at every place of a system, those of its sensors, and numbers that may be off unstated.
 
     Args:
         scenario: What the recordings are compared with.
         recordings: Recordings of it.
+        free: Numbers that are stated to be off.
         without: Laws that are hidden.
 
     Raises:
@@ -195,13 +238,16 @@ def laws_at(
     systems = [FastSystem(scenario_of(scenario, r)) for r in recordings]
     try:
         places = places_of(systems)
+        usual = usual_numbers(systems[0], free)
     finally:
         for system in systems:
             system.close()
     laws = [law for law in library() if law.identifier not in without]
-    found = list(fits(places, laws, sample_step(recordings)))
+    step = sample_step(recordings)
     channels = dict.fromkeys(name for r in recordings for name in r.channels)
-    return found, sensor_laws_of(channels, sample_step(recordings))
+    sensors = [law for law in sensor_laws_of(channels, step) if law.place.term.identifier not in without]
+    untried = tuple(text for own in places for text in own.untried)
+    return SystemLaws(tuple(fits(places, laws, step)), tuple(sensors), tuple(usual), untried)
 
 
 def sample_step(recordings: Sequence[Recording]) -> float:

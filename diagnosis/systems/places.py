@@ -70,6 +70,7 @@ class Places:
         inputs: Inputs that are connected.
         outputs: Outputs of a Co-Simulation FMU.
         velocity_of: Position to its velocity.
+        untried: Where no law can be tried, and why.
     """
 
     component: str
@@ -77,6 +78,7 @@ class Places:
     inputs: dict[str, Quantity] = field(default_factory=dict)
     outputs: dict[str, Quantity] = field(default_factory=dict)
     velocity_of: dict[str, str] = field(default_factory=dict)
+    untried: list[str] = field(default_factory=list)
 
 
 def places_of(systems: Sequence[FastSystem]) -> list[Places]:
@@ -102,8 +104,20 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
             outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
         own.velocity_of = _velocities(systems[0], fmu, own)
+        own.untried = _untried(fmu, own)
         found.append(own)
     return found
+
+
+def _untried(fmu: FastFmu, own: Places) -> list[str]:
+    """What offers no place, in words."""
+    if not fmu.is_model_exchange:
+        what = "laws were tried at its inputs alone" if own.inputs else "it offers no place for a law"
+        return [f"`{own.component}` is used by Co-Simulation, which hides its states: {what}"]
+    if fmu.state_count and not fmu.states:
+        return [f"`{own.component}` does not say which variables its states are: no law was tried at their derivatives"]
+    lost = [n for n in fmu.states if n not in own.states]
+    return [f"`{own.component}.{n}` has a unit or a name that no formula can use: no law was tried there" for n in lost]
 
 
 def _quantities(
@@ -277,7 +291,7 @@ def _fit(
         _check(own, placed, to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
-    domain = domain_of(target.unit) if to.startswith("der(") else "input"
+    domain = domain_of(target.unit)
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)

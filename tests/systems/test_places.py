@@ -1,0 +1,113 @@
+"""Where laws fit: asserted by what a person knows of each rig."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cosim.scenario import parse_scenario
+from diagnosis.laws.law import Role
+from diagnosis.laws.library import library
+from diagnosis.systems.fast import FastSystem
+from diagnosis.systems.places import Fit, fits, places_of
+from tests.systems.rigs import LUMP, OSCILLATOR, OSCILLATOR_SCENARIO, TANK
+
+_TANK = """
+title: A tank
+time: {stop: 60 s, macro_step: 1 s, output_step: 1 s}
+components:
+  pump: {kind: programme, outputs: {flow: {unit: m^3/s, points: [[0 s, 0.01 m^3/s], [20 s, 0 m^3/s]]}}}
+  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
+connections: [pump.flow -> tank.inflow]
+"""
+_LUMP = """
+title: A lump
+time: {stop: 600 s, macro_step: 2 s, output_step: 2 s}
+components:
+  drive: {kind: programme, outputs: {power: {unit: W, points: [[0 s, 20 W], [300 s, 0 W]]}}}
+  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
+  lump: {kind: fmu, fmu: lump.fmu, integrator: cvode}
+connections: [drive.power -> lump.power, room.temperature -> lump.room]
+"""
+
+
+def _fits(text: str, folder: Path) -> dict[tuple[str, str], Fit]:
+    system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
+    try:
+        return {(f.term.identifier, f.placed.to): f for f in fits(places_of([system]), library(), 1.0)}
+    finally:
+        system.close()
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """FMUs of the rigs."""
+    found = tmp_path_factory.mktemp("rigs")
+    for model in (OSCILLATOR, TANK, LUMP):
+        model.build(found)
+    return found
+
+
+def test_a_position_takes_no_law_and_its_velocity_takes_those_of_motion(folder: Path) -> None:
+    found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
+    assert {"dry_friction", "cubic_spring", "upper_stop"} <= {name for name, to in found if to == "der(v)"}
+    assert not [name for name, to in found if to == "der(x)"]  # the derivative of a position is its velocity
+    assert not {"radiation", "free_outflow", "leak"} & {name for name, _ in found}
+    assert {"input_saturation", "input_dead_zone", "input_lag"} <= {name for name, to in found if to == "u"}
+
+
+def test_the_units_of_strengths_are_those_that_a_person_writes(folder: Path) -> None:
+    found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
+    assert found["cubic_spring", "der(v)"].term.parameters[0].unit == "1/m^2/s^2"
+    assert found["viscous_damping", "der(v)"].term.parameters[0].unit == "1/s"
+    assert found["dry_friction", "der(v)"].term.parameters[0].unit == "m/s^2"
+    assert found["maxwell_element", "der(v)"].term.parameters[1].unit == "s"
+
+
+def test_a_loss_takes_energy_and_a_spring_may_push_or_pull(folder: Path) -> None:
+    found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
+    assert found["dry_friction", "der(v)"].term.parameters[0].lower == 0.0
+    assert found["cubic_spring", "der(v)"].term.parameters[0].lower < 0.0
+
+
+def test_a_level_has_an_outflow_and_no_friction(folder: Path) -> None:
+    found = _fits(_TANK, folder)
+    assert ("free_outflow", "der(h)") in found
+    assert found["free_outflow", "der(h)"].term.unit == "mechanical"  # a level is a length
+    assert not {"dry_friction", "stiffness"} & {name for name, _ in found}
+
+
+def test_a_temperature_radiates_against_the_room_in_kelvin(folder: Path) -> None:
+    found = _fits(_LUMP, folder)
+    law = found["radiation", "der(T)"]
+    assert law.placed.formula == "-emission * (T ** 4 - room ** 4)"
+    assert law.term.parameters[0].unit == "1/K^3/s"
+    assert law.term.unit == "thermal"
+    assert ("second_mass", "der(T)") in found
+
+
+def test_an_fmu_that_hides_its_states_has_laws_at_its_inputs_alone(folder: Path) -> None:
+    text = OSCILLATOR_SCENARIO.replace("INTEGRATOR", "internal")
+    found = _fits(text, folder)
+    assert {to for _, to in found} == {"u"}
+    assert {"port_linear_of_speed", "port_of_sign_of_speed", "input_saturation"} <= {name for name, _ in found}
+    system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
+    assert "hides its states" in places_of([system])[0].untried[0]
+    system.close()
+
+
+def test_laws_of_the_same_form_are_one(folder: Path) -> None:
+    """A law without a name is not tried where one with a name says the same."""
+    found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
+    assert ("stiffness", "der(v)") in found
+    assert ("coupling_linear_of_x", "der(v)") not in found
+
+
+def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
+    assert len({law.identifier for law in library()}) == len(library())
+    for law in library():
+        first = law.numbers[0]
+        assert law.source
+        assert first.least is None or first.least == 0.0, law.identifier  # 0 is within the bounds
+    assert {law.role for law in library()} == set(Role)
