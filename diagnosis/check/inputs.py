@@ -172,7 +172,8 @@ def set_beside(
         elif np.mean(np.abs(own[plain]) <= tolerance) > 1.0 - LEFT and share <= 0.5:
             kind = "off"
         else:
-            kind = "part" if share <= MEANT else "other"
+            # one level that stays is what a scenario says that leaves the course to the recordings
+            kind = "part" if share <= MEANT and np.ptp(other) > tolerance else "other"
     return InputComparison(
         recording, name, unit, kind, used, is_programme_stated, _runs(grid, plain), share, factor, offset, shift,
         (_switches(grid, own, tolerance), _switches(grid, other, tolerance)),

@@ -312,9 +312,21 @@ def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, 
         settings: Of the search.
         margin: Gain by which two must exceed the best of one.
     """
-    top = list(ranked[:PAIRED])
+    lasting = [s for s in ranked if s.term.recording is None]
+    chosen: dict[frozenset[Term], Point] = {}
+    # Two laws that hold in all recordings are asked for beside faults of single ones, which take up a bit of anything.
+    for some in (lasting, ranked):
+        chosen |= _pairs_among(model, base, list(some[:PAIRED]), margin)
+    return [
+        Explanation(fit(model, _best_instants(model, base, point), STEPS, base))
+        for point in counted(list(chosen.values()), "pairs of laws fitted")
+    ]
+
+
+def _pairs_among(model: Model, base: Fit, top: Sequence[Score], margin: float) -> dict[frozenset[Term], Point]:
+    """Pairs that promise more than the best of these alone, with the points from which to fit them."""
     if len(top) < 2:
-        return []
+        return {}
     tasks = [(s.term, (SHARE * max(abs(v) for v in s.term.parameters[0].starts), *s.values[1:])) for s in top]
     slopes = strength_slopes(model, base.point, base.residuals, tasks)
     gram, along = Projection(base).gram(np.where(np.isfinite(slopes), slopes, 0.0))
@@ -328,12 +340,12 @@ def pairs(model: Model, base: Fit, ranked: Sequence[Score], settings: Settings, 
         if all(p.lower <= a <= p.upper for p, a in zip(limits, amounts)):
             found.append((float(amounts @ own @ amounts), i, j, np.asarray(amounts, dtype=np.float64)))
     found.sort(key=lambda pair: -pair[0])
-    fits = []
-    for gain, i, j, amounts in counted(found[:PAIRS], "pairs of laws fitted"):
+    chosen = {}
+    for gain, i, j, amounts in found[:PAIRS]:
         if gain < top[0].gain + HOPEFUL * margin:
             break
         point = base.point
         for n, amount in zip((i, j), amounts):
             point = point.plus(top[n].term, (float(amount), *top[n].values[1:]))
-        fits.append(Explanation(fit(model, _best_instants(model, base, point), STEPS, base)))
-    return fits
+        chosen[frozenset((top[i].term, top[j].term))] = point
+    return chosen
