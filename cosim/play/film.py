@@ -120,20 +120,47 @@ class Fabric:
 
 
 @dataclass(frozen=True)
+class Track:
+    """One recorded coordinate over time.
+
+    Args:
+        times: [s], rising, shape (samples,).
+        values: [m], shape (samples,).
+    """
+
+    times: Array
+    values: Array
+
+    @property
+    def gap(self) -> float:
+        """Samples farther apart than this have a gap between them [s]: three times their usual distance."""
+        return 3.0 * float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
+
+    def at(self, time: float) -> float | None:
+        """Reading at a time, linear between two samples; None in a gap, and outside the recording."""
+        times = self.times
+        if not times[0] <= time <= times[-1]:
+            return None
+        after = int(np.searchsorted(times, time, side="left"))
+        before = after if times[after] == time else after - 1
+        if times[after] - times[before] > self.gap:
+            return None
+        return float(np.interp(time, times, self.values))
+
+
+@dataclass(frozen=True)
 class Point:
     """A recorded point: a marker, or the middle of a link.
 
     Args:
         kind: `marker` or `link`.
         number: Which one, from 1.
-        times: [s], rising, shape (samples,).
-        position: [m], shape (samples, 3); not a number where a coordinate was not measured: it is taken from the run.
+        axes: Its x, y and z; None where a coordinate was not measured: it is taken from the run.
     """
 
     kind: str
     number: int
-    times: Array
-    position: Array
+    axes: tuple[Track | None, Track | None, Track | None]
 
 
 @dataclass(frozen=True)

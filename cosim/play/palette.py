@@ -1,0 +1,18 @@
+"""The colours of the links: dark blue for the lowest value, over green and yellow, to red for the highest."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+#: Evenly spaced colours, chosen so that lightness tells values apart too, for those who do not see red and green.
+_ANCHORS = np.array([
+    [38, 52, 120], [43, 98, 165], [62, 147, 178], [131, 190, 160], [222, 218, 130], [246, 176, 70], [228, 104, 48],
+    [176, 28, 44],
+])  # fmt: skip
+
+
+def palette() -> npt.NDArray[np.uint8]:
+    """256 colours, shape (256, 3)."""
+    at, steps = np.linspace(0, len(_ANCHORS) - 1, 256), np.arange(len(_ANCHORS))
+    return np.rint(np.stack([np.interp(at, steps, column) for column in _ANCHORS.T], axis=1)).astype(np.uint8)
