@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.play.camera import reach_of
 from cosim.play.codec import Block, encode, quantised
 from cosim.play.film import Curve, Fabric, Film, Marks, Shape
 from cosim.play.palette import palette
@@ -99,8 +100,8 @@ def _series(values: Array) -> Array:
 
 
 def _content(film: Film, blocks: _Blocks) -> dict[str, Any]:
-    ranges = _ranges(film.fabrics)
-    low, high = bounds(film)
+    ranges = ranges_of(film.fabrics)
+    reach = reach_of(film)
     return {
         "fabrics": [_fabric(fabric, ranges, blocks) for fabric in film.fabrics],
         "marks": [_marks(marks, blocks) for marks in film.marks],
@@ -111,18 +112,11 @@ def _content(film: Film, blocks: _Blocks) -> dict[str, Any]:
         ],
         "ranges": {name: {"low": a, "high": b, "unit": unit} for name, (a, b, unit) in ranges.items()},
         "palette": palette().ravel().tolist(),
-        "low": low.tolist(), "high": high.tolist(), "notes": film.all_notes(),
+        "corners": reach.corners.round(5).tolist(), "margin": reach.margin, "notes": film.all_notes(),
     }  # fmt: skip
 
 
-def bounds(film: Film) -> tuple[Array, Array]:
-    """Lowest and highest corner [m] of a box that holds all links of all frames, shape (3,) each."""
-    reach = [f.position.reshape(-1, 3) for f in film.fabrics]
-    margin = max(float(f.bar_distance.max() + f.shape.bar_diameter) / 2 for f in film.fabrics)
-    return np.min([p.min(axis=0) for p in reach], axis=0) - margin, np.max([p.max(axis=0) for p in reach], 0) + margin
-
-
-def _ranges(fabrics: Iterable[Fabric]) -> dict[str, tuple[float, float, str]]:
+def ranges_of(fabrics: Iterable[Fabric]) -> dict[str, tuple[float, float, str]]:
     """Quantity to its lowest and highest value in all fabrics, and its unit."""
     found: dict[str, tuple[float, float, str]] = {}
     for quantity in (q for fabric in fabrics for q in fabric.fields):

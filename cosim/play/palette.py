@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 #: Evenly spaced colours, chosen so that lightness tells values apart too, for those who do not see red and green.
 _ANCHORS = np.array([
-    [38, 52, 120], [43, 98, 165], [62, 147, 178], [131, 190, 160], [222, 218, 130], [246, 176, 70], [228, 104, 48],
+    [46, 70, 160], [52, 110, 185], [70, 155, 190], [135, 195, 165], [222, 218, 130], [246, 176, 70], [228, 104, 48],
     [176, 28, 44],
 ])  # fmt: skip
 

@@ -21,7 +21,7 @@ class Player {
     this.row = this.place = 0;
     this.quantity = this.fabrics[0].fields[0].name;
     this.speed = SPEEDS.find((s) => (this.span[1] - this.span[0]) / s <= 20) ?? 100;
-    this.camera = new Camera(film.low, film.high);
+    this.camera = new Camera(film.corners, film.margin);
     this.frames = 0;
     this.isConcernShown = true;
     this.addPlots(blocks);

@@ -27,7 +27,7 @@ uniform vec3 light; uniform vec4 plain;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(facing);
-  float lit = 0.52 + 0.40 * max(dot(n, light), 0.0) + 0.13 * n.z;
+  float lit = 0.60 + 0.38 * max(dot(n, light), 0.0) + 0.12 * n.z;
   pixel = vec4(colour * lit, plain.a > 0.0 ? plain.a : 1.0);
 }`],
   point: [`#version 300 es
@@ -45,6 +45,7 @@ void main() {
 /** Corners of a link's mesh: shape (3), normal (3), end, kind; `sides` of its bars. */
 function linkMesh({ diameter, width }, sides) {
   const corners = [], radius = diameter / 2, arm = (width - diameter) / 2;
+  const half = 0.5005 * width; // a bar ends flush with an arm: 0.1 % more decides which of the two is seen
   const triangle = (normal, end, kind, ...points) => {
     points.forEach((p, k) => corners.push(...p, ...(Array.isArray(normal[0]) ? normal[k] : normal), end[k] ?? end[0], kind));
   };
@@ -53,9 +54,9 @@ function linkMesh({ diameter, width }, sides) {
       const [a, b] = [k, k + 1].map((i) => 2 * Math.PI * i / sides);
       const [na, nb] = [a, b].map((t) => [0, Math.cos(t), Math.sin(t)]);
       const at = (x, n) => [x, radius * n[1], radius * n[2]];
-      triangle([na, nb, nb], [end], 2, at(-width / 2, na), at(-width / 2, nb), at(width / 2, nb));
-      triangle([na, nb, na], [end], 2, at(-width / 2, na), at(width / 2, nb), at(width / 2, na));
-      for (const x of [-1, 1]) triangle([x, 0, 0], [end], 2, [x * width / 2, 0, 0], at(x * width / 2, na), at(x * width / 2, nb));
+      triangle([na, nb, nb], [end], 2, at(-half, na), at(-half, nb), at(half, nb));
+      triangle([na, nb, na], [end], 2, at(-half, na), at(half, nb), at(half, na));
+      for (const x of [-1, 1]) triangle([x, 0, 0], [end], 2, [x * half, 0, 0], at(x * half, na), at(x * half, nb));
     }
   }
   for (const [kind, x] of [[0, -arm], [1, arm]]) { // from bar axis to bar axis; the ends lie inside the bars
@@ -69,18 +70,24 @@ function linkMesh({ diameter, width }, sides) {
 }
 
 class Camera {
-  constructor(low, high) {
-    this.home = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
-    this.radius = Math.hypot(...[0, 1, 2].map((a) => high[a] - low[a])) / 2;
-    this.angle = 0.6;
+  /** @param corners outermost middles of links @param margin how far a link reaches from its middle */
+  constructor(corners, margin) {
+    this.corners = corners;
+    this.margin = margin;
+    this.angle = 0.5;
     this.view("oblique");
   }
 
+  /** Looks from a named side, so that everything just fits into the picture (cosim/play/camera.py). */
   view(name) {
     const angles = { oblique: [-0.55, 0.42], side: [0, 0], top: [0, Math.PI / 2 - 1e-3], front: [-Math.PI / 2, 0.0] };
     [this.azimuth, this.elevation] = angles[name];
-    this.target = [...this.home];
     this.zoom = 1;
+    const { right, up, back } = this.axes(), axes = [right, up, back];
+    this.seen = this.corners.map((p) => axes.map((d) => d[0] * p[0] + d[1] * p[1] + d[2] * p[2]));
+    this.middle = axes.map((_, k) => (Math.min(...this.seen.map((s) => s[k])) + Math.max(...this.seen.map((s) => s[k]))) / 2);
+    this.target = [0, 1, 2].map((a) => axes.reduce((sum, d, k) => sum + d[a] * this.middle[k], 0));
+    this.depth = Math.max(...this.seen.map((s) => Math.abs(s[2] - this.middle[2]))) + this.margin;
   }
 
   /** Directions of the picture: right, up, towards the viewer. Seen from +x at azimuth 0: y to the right, z up. */
@@ -90,7 +97,9 @@ class Camera {
   }
 
   distance(aspect) {
-    return this.radius / Math.sin(this.angle / 2) / Math.min(1, aspect) / this.zoom;
+    const tangent = Math.tan(this.angle / 2), [x, y, z] = this.middle;
+    const needed = this.seen.map((s) => Math.max((Math.abs(s[0] - x) + this.margin) / aspect, Math.abs(s[1] - y) + this.margin) / tangent + s[2] - z);
+    return (Math.max(...needed) + this.margin) / this.zoom;
   }
 
   orbit(dx, dy) {
@@ -108,7 +117,7 @@ class Camera {
     const { right, up, back } = this.axes(), distance = this.distance(aspect);
     const eye = this.target.map((v, a) => v + distance * back[a]);
     const dot = (v) => v[0] * eye[0] + v[1] * eye[1] + v[2] * eye[2];
-    const f = 1 / Math.tan(this.angle / 2), near = distance / 50, far = distance + 20 * this.radius;
+    const f = 1 / Math.tan(this.angle / 2), near = distance / 50, far = distance + 20 * this.depth;
     const c = (far + near) / (near - far), d = 2 * far * near / (near - far);
     const m = [];
     for (let a = 0; a < 3; a++) m.push(f / aspect * right[a], f * up[a], c * back[a], -back[a]);
@@ -120,7 +129,7 @@ class Camera {
 class Scene {
   /** Throws an Error where there is no WebGL 2. */
   constructor(canvas, palette) {
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: true });
+    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
     if (!gl) throw new Error("this browser has no WebGL 2");
     this.canvas = canvas;
     this.gl = gl;
@@ -133,8 +142,6 @@ class Scene {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.enable(gl.DEPTH_TEST);
-    gl.enable(gl.CULL_FACE);
-    gl.disable(gl.CULL_FACE);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
