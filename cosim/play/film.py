@@ -224,6 +224,6 @@ class Film:
 
     def all_notes(self) -> list[str]:
         """Every note, with the title of its part where there are several."""
-        parts = [*self.fabrics, *self.marks]
+        parts: list[Fabric | Marks] = [*self.fabrics, *self.marks]
         told = [f"{p.title}: {n}" if len(parts) > 1 else n for p in parts for n in p.notes]
         return [*told, *self.notes]

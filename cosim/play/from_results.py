@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+import numpy.typing as npt
 import xarray as xr
 
 from cosim.errors import InputError
 from cosim.play.film import Curve, Fabric, Field, Shape
 from cosim.unit import Array
 
+Integers = npt.NDArray[np.int64]
 #: Frames of a film, if not said otherwise.
 FRAMES = 1000
 #: Zero of the Celsius scale [K].
@@ -76,7 +78,7 @@ def _fabrics(results: xr.Dataset) -> list[str]:
     return [n for n in named if "time" in results.dims and all(f"{n}.{part}" in results for part in _POSE)]
 
 
-def _kept(count: int, frames: int) -> Array:
+def _kept(count: int, frames: int) -> Integers:
     """Numbers of the outputs that become frames: every n-th, as uneven steps would shake, and the last."""
     kept = np.arange(0, count, math.ceil(count / frames))
     return kept if kept[-1] == count - 1 else np.append(kept, count - 1)
@@ -90,14 +92,14 @@ def _check_finite(source: object, name: str, values: Array, times: Array) -> Non
                          "the run diverged: run it with a smaller solver.micro_step")  # fmt: skip
 
 
-def _coordinate(results: xr.Dataset, name: str, label: str) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+def _coordinate(results: xr.Dataset, name: str, label: str) -> Integers:
     """A coordinate of links; that of a second fabric has the dimension's name before its own."""
     links = results[f"{name}.link_length"].dims[1]
     found = [c for c in results.coords if str(c).endswith(label) and results[c].dims == (links,)]
     return np.asarray(results[found[0]].values, dtype=np.int64)
 
 
-def _shape(pose: dict[str, Array], row: Array, place: Array, source: object) -> Shape:
+def _shape(pose: dict[str, Array], row: Integers, place: Integers, source: object) -> Shape:
     """Size of a link, from what the results hold.
 
     The markers sit on the two bars of the last link of a row, at its outer side: their distance is L, and their middle
@@ -172,7 +174,7 @@ def _driven(shown: xr.Dataset) -> str | None:
     return None
 
 
-def _notes(results: xr.Dataset, names: list[str], kept: Array) -> Iterator[str]:
+def _notes(results: xr.Dataset, names: list[str], kept: Integers) -> Iterator[str]:
     status = str(results.attrs.get("status", "complete"))
     if status != "complete":
         yield f"the run did not reach its end: {status}"

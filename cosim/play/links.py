@@ -49,7 +49,7 @@ def pose_at(fabric: Fabric, time: float) -> Pose | None:
 
 
 def markers(fabric: Fabric, pose: Pose) -> Array:
-    """Both bars of the last link of every row, at its outer side [m], shape (markers, 3); as `mechanics.unit` has them."""
+    """Both bars of the last link of every row, at its outer side, as `mechanics.unit` has them [m], (markers, 3)."""
     last = np.flatnonzero(fabric.place == fabric.place.max())
     axes = _rotations(pose.orientation[last])
     side = fabric.shape.outer_width / 2 * axes[:, :, 0]

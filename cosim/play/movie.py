@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from cosim.errors import InputError
 from cosim.play.camera import VIEWS, reach_of
 from cosim.play.film import Film
 from cosim.play.page import ranges_of
+from cosim.play.palette import palette
 from cosim.play.picture import Painter, Style, fields_of
 from cosim.run_folder import replacing, writing
 
@@ -22,6 +23,8 @@ GIF_RATE, MP4_RATE = 12.5, 25.0
 #: Wall time that a film lasts where no speed is given [s]: at most.
 _LASTS = 12.0
 _SPEEDS = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+#: More pictures are not made.
+_MOST = 5000
 #: Height for each width.
 _ASPECT = 0.62
 #: Colours of a GIF.
@@ -55,13 +58,14 @@ def write_gif(film: Film, path: Path, style: MovieStyle, on_progress: Progress |
     Raises:
         InputError: A choice does not exist, or the file cannot be written.
     """
-    pictures = list(_pictures(film, style, GIF_RATE, on_progress))
-    common = _common_palette(pictures)
-    frames = [p.quantize(palette=common, dither=Image.Dither.NONE) for p in pictures]
+    painter, times = _painter(film, style), moments(film, style.speed, GIF_RATE)
+    common = _common_palette([painter.at(t) for t in times[:: max(1, len(times) // 8)]])
+    pictures = _pictures(painter, times, on_progress)
+    first, *others = (p.quantize(palette=common, dither=Image.Dither.NONE) for p in pictures)
     with writing(path), replacing(path) as partial:
-        frames[0].save(partial, format="GIF", save_all=True, append_images=frames[1:], loop=0, optimize=False,
-                       duration=round(1000 / GIF_RATE))  # fmt: skip
-    return len(frames)
+        first.save(partial, format="GIF", save_all=True, append_images=others, loop=0, optimize=False,
+                   duration=round(1000 / GIF_RATE))  # fmt: skip
+    return len(times)
 
 
 def write_mp4(film: Film, path: Path, style: MovieStyle, on_progress: Progress | None = None) -> int:
@@ -75,22 +79,19 @@ def write_mp4(film: Film, path: Path, style: MovieStyle, on_progress: Progress |
     except ImportError as error:
         raise InputError("--mp4", "", "MP4 needs the package imageio-ffmpeg, which is not installed",
                          "pip install 'active-chainmail[video]', or give --gif") from error  # fmt: skip
-    count = 0
+    painter, times = _painter(film, style), moments(film, style.speed, MP4_RATE)
     with writing(path), replacing(path) as partial:
-        pictures = _pictures(film, style, MP4_RATE, on_progress)
-        first = next(pictures)
         writer = imageio_ffmpeg.write_frames(
-            str(partial), first.size, fps=MP4_RATE, codec="libx264", pix_fmt_out="yuv420p", macro_block_size=2,
+            str(partial), painter.style.size, fps=MP4_RATE, codec="libx264", pix_fmt_out="yuv420p", macro_block_size=2,
             output_params=["-crf", "20", "-f", "mp4", "-movflags", "+faststart"], ffmpeg_log_level="error",
         )  # fmt: skip
         writer.send(None)
         try:
-            for picture in (first, *pictures):
+            for picture in _pictures(painter, times, on_progress):
                 writer.send(np.ascontiguousarray(picture))
-                count += 1
         finally:
             writer.close()
-    return count
+    return len(times)
 
 
 def moments(film: Film, speed: float | None, rate: float) -> list[float]:
@@ -100,17 +101,21 @@ def moments(film: Film, speed: float | None, rate: float) -> list[float]:
         film: What.
         speed: Simulated seconds a second; None: the slowest usual one at which the film lasts 12 s at most.
         rate: Pictures a second.
+
+    Raises:
+        InputError: There are too many.
     """
     begin = min(float(f.times[0]) for f in film.fabrics)
     end = max(float(f.times[-1]) for f in film.fabrics)
     usual = next((s for s in _SPEEDS if (end - begin) / s <= _LASTS), (end - begin) / _LASTS)
     step = (usual if speed is None else speed) / rate
+    if (end - begin) / step > _MOST:
+        raise InputError("--speed", "", f"{speed:g} makes {(end - begin) / step:.0f} pictures, more than {_MOST}",
+                         "give a larger speed")  # fmt: skip
     return [*(begin + k * step for k in range(math.ceil((end - begin) / step - 1e-9))), end]
 
 
-def _pictures(film: Film, style: MovieStyle, rate: float, on_progress: Progress | None) -> Iterator[Image.Image]:
-    painter = _painter(film, style)
-    times = moments(film, style.speed, rate)
+def _pictures(painter: Painter, times: Sequence[float], on_progress: Progress | None) -> Iterator[Image.Image]:
     for number, time in enumerate(times):
         yield painter.at(time)
         if on_progress is not None:
@@ -131,11 +136,14 @@ def _painter(film: Film, style: MovieStyle) -> Painter:
     return Painter(film, reach_of(film), ranges_of(film.fabrics), shown)
 
 
-def _common_palette(pictures: list[Image.Image]) -> Image.Image:
-    """One palette for all pictures, from some of them: what stands still then stays equal from picture to picture."""
-    chosen = pictures[:: max(1, len(pictures) // 8)]
-    width, height = chosen[0].size
-    sheet = Image.new("RGB", (width, height * len(chosen)))
-    for number, picture in enumerate(chosen):
+def _common_palette(pictures: Sequence[Image.Image]) -> Image.Image:
+    """One palette for all pictures, from some of them: what stands still then stays equal from picture to picture.
+
+    The colours of the bar lie beside them, so that they are kept although few pixels have them.
+    """
+    width, height = pictures[0].size
+    sheet = Image.new("RGB", (width, height * (len(pictures) + 1)))
+    for number, picture in enumerate(pictures):
         sheet.paste(picture, (0, number * height))
+    sheet.paste(Image.fromarray(palette()[None].copy()).resize((width, height)), (0, len(pictures) * height))
     return sheet.quantize(_COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)

@@ -15,7 +15,7 @@ import numpy as np
 from cosim.play.camera import reach_of
 from cosim.play.codec import Block, encode, quantised
 from cosim.play.film import Curve, Fabric, Film, Marks, Shape
-from cosim.play.palette import palette
+from cosim.play.palette import GHOSTS, palette
 from cosim.unit import Array
 
 #: Largest error of any point of a link on the page [m].
@@ -41,7 +41,9 @@ def page(film: Film) -> str:
     content = _content(film, blocks)
     data, table = encode(blocks.blocks)
     text = json.dumps({**content, "blocks": table}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    scripts = "\n".join((_WEB / name).read_text(encoding="utf-8") for name in _SCRIPTS).replace("</script", "<\\/script")
+    scripts = "\n".join((_WEB / name).read_text(encoding="utf-8") for name in _SCRIPTS).replace(
+        "</script", "<\\/script"
+    )
     title = html.escape(" and ".join(dict.fromkeys(f.title for f in film.fabrics)))
     return (
         '<!doctype html>\n<html lang="en">\n<head><meta charset="utf-8">'
@@ -57,8 +59,8 @@ def page(film: Film) -> str:
 def orientation_step(shape: Shape, bar_distance: float) -> float:
     """Step of the parts of a quaternion for which no point of a link is off by more than `LARGEST_ERROR`.
 
-    A middle rounded to steps s is off by at most sqrt(3) s / 2, and a bar, by its distance, by s / 4. Four parts rounded
-    to steps q change the quaternion by at most q, and thus, normalised, turn the link by at most 2 q.
+    A middle rounded to steps s is off by at most sqrt(3) s / 2, and a bar, by its distance, by s / 4. Four parts
+    rounded to steps q change the quaternion by at most q, and thus, normalised, turn the link by at most 2 q.
 
     Args:
         shape: Of a link.
@@ -111,6 +113,7 @@ def _content(film: Film, blocks: _Blocks) -> dict[str, Any]:
             for f in film.findings
         ],
         "ranges": {name: {"low": a, "high": b, "unit": unit} for name, (a, b, unit) in ranges.items()},
+        "ghosts": GHOSTS.tolist(),
         "palette": palette().ravel().tolist(),
         "corners": reach.corners.round(5).tolist(), "margin": reach.margin, "notes": film.all_notes(),
     }  # fmt: skip

@@ -11,8 +11,12 @@ _ANCHORS = np.array([
     [176, 28, 44],
 ])  # fmt: skip
 
+#: Colours of ghosts and recordings, 0 to 1; none of them stands for a value.
+GHOSTS = np.array([[0.48, 0.2, 0.85], [0.05, 0.4, 0.38], [0.5, 0.3, 0.12], [0.3, 0.32, 0.38]])
+
 
 def palette() -> npt.NDArray[np.uint8]:
     """256 colours, shape (256, 3)."""
     at, steps = np.linspace(0, len(_ANCHORS) - 1, 256), np.arange(len(_ANCHORS))
-    return np.rint(np.stack([np.interp(at, steps, column) for column in _ANCHORS.T], axis=1)).astype(np.uint8)
+    mixed = np.stack([np.interp(at, steps, column) for column in _ANCHORS.T], axis=1)
+    return np.asarray(np.rint(mixed), dtype=np.uint8)

@@ -11,12 +11,10 @@ from PIL import Image, ImageDraw, ImageFont
 from cosim.play.camera import Camera, Reach, camera
 from cosim.play.film import Curve, Fabric, Field, Film, Marks
 from cosim.play.links import bodies, ghost, markers, pose_at
-from cosim.play.palette import palette
+from cosim.play.palette import GHOSTS, palette
 from cosim.play.raster import Layer, draw, empty
 from cosim.unit import Array
 
-#: Colours of ghosts and recordings, as on the page (`web/controls.js`).
-GHOSTS = np.array([[0.9, 0.47, 0.0], [0.45, 0.22, 0.85], [0.05, 0.45, 0.42], [0.7, 0.1, 0.1]])
 _BACKGROUND = np.array([0.965, 0.972, 0.98])
 _INK, _GRID, _LINE, _CURSOR = (26, 32, 44), (203, 213, 224), (31, 79, 216), (214, 39, 40)
 #: Share of the ghost's colour where it covers something.
@@ -111,7 +109,9 @@ class Painter:
         clock = f"t = {time:.2f} s"
         pen.text((self.style.size[0] - m - pen.textlength(clock, self.font), 0.8 * m), clock, _INK, self.font)
 
-    def _curves(self, pen: ImageDraw.ImageDraw, curves: Sequence[tuple[Curve, Array | None]], top: int, time: float) -> None:
+    def _curves(
+        self, pen: ImageDraw.ImageDraw, curves: Sequence[tuple[Curve, Array | None]], top: int, time: float
+    ) -> None:
         m, width = self.letters, self.style.size[0]
         left, right, upper, lower = m, width - m, top + 1.5 * m, top + (_STRIP - 0.4) * m
         begin = min(float(f.times[0]) for f in self.film.fabrics)

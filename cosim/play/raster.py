@@ -97,7 +97,7 @@ def _box(start: Array, rays: Array, half: Array) -> Hit:
 
 
 def _cylinder(start: Array, rays: Array, half: Array) -> Hit:
-    """Entry into a finite cylinder along x: that into the round slab y^2 + z^2 <= r^2 or that into -h <= x <= h, the later."""
+    """Entry into a finite cylinder along x: into y^2 + z^2 <= r^2 or into -h <= x <= h, whichever is later."""
     radius = half[1]
     a = rays[..., 1] ** 2 + rays[..., 2] ** 2
     b = rays[..., 1] * start[1] + rays[..., 2] * start[2]

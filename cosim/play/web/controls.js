@@ -1,7 +1,6 @@
 "use strict";
 // Buttons, lists and the pointer: what a user does to a player.
 
-const GHOSTS = [[0.9, 0.47, 0.0], [0.45, 0.22, 0.85], [0.05, 0.45, 0.42], [0.7, 0.1, 0.1]];
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 10, 30, 100];
 const one = (id) => document.getElementById(id);
 const css = (rgb) => `rgb(${rgb.map((v) => Math.round(255 * v)).join(",")})`;
@@ -46,7 +45,7 @@ function addLegend(player) {
   };
   if (player.fabrics.length > 1) {
     player.fabrics.forEach((fabric, k) => {
-      const line = entry(k ? css(GHOSTS[(k - 1) % 4]) : "#1f4fd8", `${fabric.title} (${fabric.size})`);
+      const line = entry(k ? css(player.ghost(k)) : "#1f4fd8", `${fabric.title} (${fabric.size})`);
       const select = line.appendChild(document.createElement("select"));
       select.setAttribute("aria-label", `how ${fabric.title} is drawn`);
       select.append(...["colour", "ghost", "hidden"].map((look) => new Option(look, look, false, look === fabric.look)));

@@ -11,7 +11,7 @@ class Player {
     }));
     this.fabrics[0].look = "colour";
     this.marks = film.marks.map((m, k) => ({
-      ...m, colour: GHOSTS[(film.fabrics.length - 1 + k) % GHOSTS.length],
+      ...m, colour: this.ghost(film.fabrics.length + k),
       points: m.points.map((p) => ({ ...p, axes: p.axes.map((a) => a && { times: blocks[a.times].data, block: blocks[a.values], gap: a.gap }) })),
     }));
     const times = this.fabrics.map((f) => f.times);
@@ -34,6 +34,9 @@ class Player {
 
   get main() { return this.fabrics.find((f) => f.look === "colour") ?? this.fabrics[0]; }
 
+  /** Colour of a further run or of a recording; the first run has one too, for when it is a ghost. */
+  ghost(n) { return this.film.ghosts[(n + this.film.ghosts.length - 1) % this.film.ghosts.length]; }
+
   addScene() {
     try {
       const palette = new Uint8Array(this.film.palette);
@@ -48,7 +51,7 @@ class Player {
   addPlots(blocks) {
     const list = (name) => (name === null ? null : blocks[name].data);
     const intervals = this.film.findings.flatMap((f) => f.intervals);
-    const colourOf = ({ fabric, mark }) => (mark !== null ? css(this.marks[mark].colour) : fabric ? css(GHOSTS[(fabric - 1) % 4]) : "#1f4fd8");
+    const colourOf = ({ fabric, mark }) => (mark !== null ? css(this.marks[mark].colour) : fabric ? css(this.ghost(fabric)) : "#1f4fd8");
     this.plots = this.film.plots.map((p) => new Plot(one("plots"), {
       ...p, curves: p.curves.map((c) => ({
         label: c.label, isDots: c.mark !== null, colour: colourOf(c),
@@ -74,6 +77,8 @@ class Player {
   play(isPlaying) {
     if (isPlaying && this.time >= this.span[1]) this.time = this.span[0];
     this.isPlaying = isPlaying;
+    this.slow = 0;
+    if (this.scene && !isPlaying) this.scene.sharpness = 1;
     one("play").textContent = isPlaying ? "Pause" : "Play";
     this.last = null;
     this.changed();
@@ -96,13 +101,23 @@ class Player {
     requestAnimationFrame((now) => {
       this.isAsked = false;
       if (this.isPlaying) {
-        this.time += this.speed * (this.last === null ? 0 : (now - this.last) / 1000);
+        const passed = this.last === null ? 0 : now - this.last;
+        this.time += this.speed * passed / 1000;
         this.last = now;
+        this.soften(passed);
         if (this.time >= this.span[1]) { this.time = this.span[1]; this.play(false); }
       }
       this.draw();
       if (this.isPlaying) this.changed();
     });
+  }
+
+  /** Takes fewer pixels while it plays where the machine does not manage 30 pictures a second. */
+  soften(passed) {
+    this.slow = passed > 36 ? this.slow + 1 : Math.max(0, this.slow - 0.5);
+    if (this.slow < 6 || !this.scene) return;
+    this.scene.sharpness = Math.max(0.5, 0.8 * this.scene.sharpness);
+    this.slow = 0;
   }
 
   draw() {
@@ -128,7 +143,7 @@ class Player {
       if (!fabric.now || fabric.look === "hidden") continue;
       const count = this.instances(fabric);
       const isGhost = fabric.look === "ghost";
-      this.scene.links(fabric.drawn, count, isGhost ? [...GHOSTS[(Math.max(1, this.fabrics.indexOf(fabric)) - 1) % 4], 0.38] : null);
+      this.scene.links(fabric.drawn, count, isGhost ? [...this.ghost(this.fabrics.indexOf(fabric)), 0.38] : null);
       fabric.count = count;
     }
     if (this.row || this.place) return; // points of links that are cut away would float in the air

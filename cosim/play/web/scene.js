@@ -69,6 +69,14 @@ function linkMesh({ diameter, width }, sides) {
   return new Float32Array(corners);
 }
 
+/** Whether a processor draws instead of a graphics card: smoothed edges would halve its pictures a second. */
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2"), info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl ? gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 class Camera {
   /** @param corners outermost middles of links @param margin how far a link reaches from its middle */
   constructor(corners, margin) {
@@ -129,10 +137,11 @@ class Camera {
 class Scene {
   /** Throws an Error where there is no WebGL 2. */
   constructor(canvas, palette) {
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    const gl = canvas.getContext("webgl2", { antialias: !isSoftware(), alpha: false });
     if (!gl) throw new Error("this browser has no WebGL 2");
     this.canvas = canvas;
     this.gl = gl;
+    this.sharpness = 1; // share of the full resolution
     this.link = this.program(SHADERS.link, ["shape", "normal", "part", "middle", "turn", "state"]);
     this.point = this.program(SHADERS.point, ["here"]);
     this.points = { array: gl.createVertexArray(), buffer: gl.createBuffer() };
@@ -183,7 +192,7 @@ class Scene {
 
   /** Empties the picture and fits it to its place on the page. */
   begin(camera) {
-    const gl = this.gl, canvas = this.canvas, ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const gl = this.gl, canvas = this.canvas, ratio = this.sharpness * Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((v) => Math.max(1, Math.round(v * ratio)));
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     gl.viewport(0, 0, width, height);
