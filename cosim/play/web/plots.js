@@ -101,8 +101,9 @@ class Plot {
   }
 
   /** Moves the cursor and says the values there. */
-  at(t) {
+  at(t, isTold) {
     this.cursor.style.transform = `translateX(${this.x(t)}px)`;
+    if (!isTold) return;
     const now = this.curves.filter((c) => !c.isDots && t >= c.times[0] - 1e-9 && t <= c.times[c.times.length - 1] + 1e-9).slice(0, 3).map((c) => {
       const { i, j, share } = between(c.times, t), value = (list) => list[i] + share * (list[j] - list[i]);
       const label = c.label ? `${c.label} ` : "";
