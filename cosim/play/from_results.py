@@ -25,6 +25,8 @@ _FIELDS = {
     "tension": ("N", 1.0, 0.0),
     "extension": ("mm", 1e3, 0.0),
 }
+#: Links that are this evenly spaced are woven and have not moved yet [m].
+_EVEN = 1e-7
 #: Variables that make a fabric.
 _POSE = ("position", "orientation", "link_length", "marker_position")
 
@@ -111,10 +113,13 @@ def _shape(pose: dict[str, Array], row: Integers, place: Integers, source: objec
     distance = np.linalg.norm(marker[:, 1] - marker[:, 0], axis=1)
     offset = float(np.median(distance - pose["link_length"][0, last]))
     width = 2 * float(np.median(np.linalg.norm(marker.mean(axis=1) - position[last], axis=1)))
-    first = position[row == 1]
-    pitch = 2 * float(np.ptp(first[:, 0])) / (len(first) - 1)
+    is_first = row == 1
+    across, is_a = position[is_first, 0], place[is_first] % 2 == 1
+    pitch = float(across[is_a][-1] - across[is_a][0]) / (np.count_nonzero(is_a) - 1)
     diameter = (width - 3 * (pitch - width)) / 4
-    if not 0 < diameter <= width / 4 * (1 + 1e-6):
+    is_held = len(pose["position"]) > 1 and not np.ptp(pose["position"][:, is_first][:, is_a], axis=0).any()
+    is_even = np.ptp(np.diff(across)) < _EVEN
+    if not (is_held or is_even) or not 0 < diameter <= width / 4 * (1 + 1e-6):
         raise InputError(source, "", "its first frame is not a woven fabric, so that the thickness of its bars is "
                          "unknown", "give the whole results of a run, from its first output on")  # fmt: skip
     return Shape(diameter, width, offset)
