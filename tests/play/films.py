@@ -12,7 +12,7 @@ _PITCH = 23e-3
 
 
 def fabric(rows: int = 6, per_row: int = 3, frames: int = 50, duration: float = 5.0, seed: int = 0) -> Fabric:
-    """A fabric that sinks from flat into a drape, hangs there, and jitters by 2 um and 0.05 mrad from frame to frame."""
+    """A fabric that sinks from flat into a drape and jitters by 2 um and 0.05 mrad from frame to frame."""
     random = np.random.default_rng(seed)
     times = np.linspace(0.0, duration, frames)
     links = rows * per_row
@@ -48,7 +48,7 @@ def fabric(rows: int = 6, per_row: int = 3, frames: int = 50, duration: float = 
 
 
 def corners(fabric_shape: Shape, position: np.ndarray, orientation: np.ndarray, distance: np.ndarray) -> np.ndarray:
-    """Outermost corners of every link [m]: shape (..., 8, 3) from (..., 3), quaternions (..., 4) and distances (...)."""
+    """Outermost corners of every link [m], shape (..., 8, 3), from middles, quaternions and bar distances."""
     signs = np.array([[a, b, c] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)], dtype=float)
     half = np.stack([
         np.full(distance.shape, fabric_shape.outer_width / 2), (distance + fabric_shape.bar_diameter) / 2,
