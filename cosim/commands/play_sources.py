@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from cosim.errors import InputError
 from cosim.play.film import Curve, Fabric, Film, Finding, Marks, Point, Track
 from cosim.play.from_diagnosis import FILE, findings_of
@@ -23,6 +25,8 @@ _PLOTS = {
     ("fabric", "length"): ("Fabric length", "mm", 1e3, 0.0),
 }
 _AXES = ("x", "y", "z")
+#: No point of a fabric is farther away [m].
+_FARTHEST = 1000.0
 #: Most readings of a channel that are shown.
 _MOST = 2000
 
@@ -105,6 +109,7 @@ def _marks(recording: Recording, fabric: Fabric) -> Marks:
             if target.element[0] > count:
                 foreign.append(channel.name)
                 continue
+            _check_distance(recording, channel)
             own = tracks.setdefault((target.kind, target.element[0]), {})
             own[target.quantity] = Track(channel.times, channel.values)
         elif (target.kind, target.quantity) in _PLOTS:
@@ -119,6 +124,13 @@ def _marks(recording: Recording, fabric: Fabric) -> Marks:
         Point(kind, number, (own.get("x"), own.get("y"), own.get("z"))) for (kind, number), own in tracks.items()
     )
     return Marks(recording.title, points, tuple(curves), tuple(notes))
+
+
+def _check_distance(recording: Recording, channel: Channel) -> None:
+    farthest = float(np.abs(channel.values).max())
+    if farthest > _FARTHEST:
+        raise InputError(recording.path / "recording.yaml", f"channels.{channel.name}", f"it reads {farthest:.4g} m",
+                         "correct its `unit` and `factor`")  # fmt: skip
 
 
 def _flat(tracks: dict[tuple[str, int], dict[str, Track]]) -> list[str]:

@@ -25,6 +25,8 @@ _FIELDS = {
     "tension": ("N", 1.0, 0.0),
     "extension": ("mm", 1e3, 0.0),
 }
+#: Nothing of a fabric is farther away [m].
+_FARTHEST = 1000.0
 #: Links that are this evenly spaced are woven and have not moved yet [m].
 _EVEN = 1e-7
 #: Variables that make a fabric.
@@ -56,8 +58,12 @@ def fabric_of(results: xr.Dataset, source: object, frames: int = FRAMES) -> Fabr
     pose = {part: np.asarray(shown[f"{name}.{part}"].values, dtype=np.float64) for part in _POSE}
     for part, values in pose.items():
         _check_finite(source, f"{name}.{part}", values, shown["time"].values)
+        if np.abs(values).max(initial=0.0) > _FARTHEST:
+            raise InputError(source, f"{name}.{part}", f"it reaches {np.abs(values).max():.4g} m, far off any fabric",
+                             "the run diverged: run it with a smaller solver.micro_step")  # fmt: skip
     moved = np.ptp(pose["position"], axis=0).max(axis=1)
-    row, place = _coordinate(results, name, "link_row"), _coordinate(results, name, "link_place")
+    row, place = (_coordinate(results, name, label, source) for label in ("link_row", "link_place"))
+    fields, curves = list(_fields(shown, name, pose["link_length"])), list(_curves(shown, name))
     return Fabric(
         title=str(results.attrs.get("title", "")) or "run",
         name=name,
@@ -69,9 +75,9 @@ def fabric_of(results: xr.Dataset, source: object, frames: int = FRAMES) -> Fabr
         row=row,
         place=place,
         is_held=(moved == 0.0) & (count > 1),
-        fields=tuple(_fields(shown, name, pose["link_length"])),
-        curves=tuple(_curves(shown, name)),
-        notes=tuple(_notes(results, names, kept)),
+        fields=tuple(q for q in fields if np.isfinite(q.values).all()),
+        curves=tuple(c for c in curves if _is_finite(c)),
+        notes=(*_notes(results, names, kept), *_left_out(fields, curves)),
     )
 
 
@@ -94,10 +100,13 @@ def _check_finite(source: object, name: str, values: Array, times: Array) -> Non
                          "the run diverged: run it with a smaller solver.micro_step")  # fmt: skip
 
 
-def _coordinate(results: xr.Dataset, name: str, label: str) -> Integers:
+def _coordinate(results: xr.Dataset, name: str, label: str, source: object) -> Integers:
     """A coordinate of links; that of a second fabric has the dimension's name before its own."""
     links = results[f"{name}.link_length"].dims[1]
     found = [c for c in results.coords if str(c).endswith(label) and results[c].dims == (links,)]
+    if not found:
+        raise InputError(source, label, f"the links of `{name}` have no such coordinate",
+                         "give the results as `cosim.run.run` returns them")  # fmt: skip
     return np.asarray(results[found[0]].values, dtype=np.int64)
 
 
@@ -140,7 +149,7 @@ def _fields(shown: xr.Dataset, name: str, link_length: Array) -> Iterator[Field]
         others = [str(v) for v in shown.data_vars if str(v).endswith(f".{quantity}")]
         for variable in [*own, *others]:
             values = shown[variable]
-            if values.ndim == 2 and values.shape[1] == coils and np.isfinite(values.values).all():
+            if values.ndim == 2 and values.shape[1] == coils:
                 yield Field(quantity, unit, factor * values.values.astype(np.float64) + shift)
                 break
     yield Field("link length", "mm", 1e3 * np.repeat(link_length, 2, axis=1))
@@ -165,6 +174,17 @@ def _curves(shown: xr.Dataset, name: str) -> Iterator[Curve]:
     ):  # fmt: skip
         if f"{name}.{quantity}" in shown:
             yield Curve(plot, unit, "", times, factor * shown[f"{name}.{quantity}"].values)
+
+
+def _is_finite(curve: Curve) -> bool:
+    return all(np.isfinite(v).all() for v in (curve.values, curve.lower, curve.upper) if v is not None)
+
+
+def _left_out(fields: list[Field], curves: list[Curve]) -> Iterator[str]:
+    names = [q.name for q in fields if not np.isfinite(q.values).all()]
+    names += dict.fromkeys(c.plot for c in curves if not _is_finite(c))
+    if names:
+        yield f"not shown, as it is not finite at every time: {', '.join(names)}"
 
 
 def _driven(shown: xr.Dataset) -> str | None:

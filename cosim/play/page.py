@@ -24,8 +24,8 @@ LARGEST_ERROR = 10e-6
 _STEP = 4e-6
 #: Steps of a recorded coordinate [m].
 _RECORDED_STEP = 2e-5
-#: Steps into which the range of a colour or of a curve is divided.
-_COLOUR_STEPS, _CURVE_STEPS = 1000, 4000
+#: Steps into which the range of a quantity is divided: as many as there are colours; and that of a curve.
+_COLOUR_STEPS, _CURVE_STEPS = 255, 4000
 _WEB = Path(__file__).parent / "web"
 _SCRIPTS = ("decode.js", "scene.js", "plots.js", "controls.js", "player.js")
 #: Forbids the page to load anything, whatever a title says.
@@ -109,8 +109,10 @@ def _content(film: Film, blocks: _Blocks) -> dict[str, Any]:
         "marks": [_marks(marks, blocks) for marks in film.marks],
         "plots": _plots(film, blocks),
         "findings": [
-            {"text": f.text, "place": f.place, "links": f.links, "intervals": f.intervals, "isAccepted": f.is_accepted}
-            for f in film.findings
+            {
+                "text": f.text, "place": f.place, "links": f.links, "coils": f.coils, "intervals": f.intervals,
+                "isAccepted": f.is_accepted,
+            } for f in film.findings
         ],
         "ranges": {name: {"low": a, "high": b, "unit": unit} for name, (a, b, unit) in ranges.items()},
         "ghosts": GHOSTS.tolist(),

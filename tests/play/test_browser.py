@@ -143,6 +143,39 @@ def test_a_finding_is_marked_and_can_be_gone_to(opened):
     assert "coil 21 is open" in opened.evaluate("document.getElementById('findings').textContent")
 
 
+def test_the_arm_of_a_coil_concerned_is_striped(opened):
+    opened.evaluate("player.fabrics[1].look = 'hidden'; player.row = 4; player.place = 2; player.camera.view('top')")
+    opened.evaluate("player.camera.zoom = 2")
+    striped = picture(opened)
+    opened.evaluate("player.film.findings[0].coils = []")
+    plain = picture(opened)
+    opened.evaluate("player.film.findings[0].coils = [20]")
+    changed = np.abs(striped - plain).max(axis=2) > 30
+    assert changed.sum() > 100
+    red, green, blue = striped[changed].T
+    assert ((red > green + 60) & (blue > green + 20)).all()
+
+
+def test_points_of_links_that_are_cut_away_are_not_drawn(opened):
+    def shown():
+        return opened.evaluate("player.pairs(player.marks[0]).filter((p) => player.isShown(p.row, p.place)).length")
+
+    opened.evaluate("(player.seek(3), player.draw())")
+    assert shown() == 1
+    assert opened.evaluate("player.pairs(player.marks[0]).map((p) => [p.row, p.place])") == [[3, 3]]
+    opened.evaluate("player.row = 2")
+    assert shown() == 0
+
+
+def test_a_picture_that_the_driver_lost_comes_back(opened):
+    whole = covered(opened)
+    opened.evaluate("window.lost = player.scene.gl.getExtension('WEBGL_lose_context'), lost.loseContext()")
+    opened.until("player.scene === null")
+    opened.evaluate("lost.restoreContext()")
+    opened.until("player.scene !== null")
+    assert covered(opened) == pytest.approx(whole, abs=1e-3)
+
+
 def test_colours_follow_the_chosen_quantity(opened):
     opened.evaluate("player.fabrics[1].look = 'hidden'; player.seek(2.5)")
     assert opened.evaluate("document.getElementById('high').textContent").endswith("degC")
@@ -231,6 +264,14 @@ def test_without_webgl_the_plots_are_shown_and_the_page_says_why(browser, film, 
     assert "this browser has no WebGL 2" in browser.evaluate("document.getElementById('failure').textContent")
     assert browser.evaluate("document.querySelectorAll('.plot').length") == 3
     assert browser.evaluate("(player.seek(1), player.draw(), document.getElementById('clock').textContent)") == "1.00 s"
+
+
+def test_one_frame_can_be_looked_at(browser, tmp_path):
+    path = tmp_path / "still.html"
+    path.write_text(page(Film((fabric(frames=1),))))
+    browser.open(path)
+    assert covered(browser) > 0.05
+    assert browser.evaluate("(player.play(true), player.seek(3), player.draw(), player.time)") == 0.0
 
 
 def test_damaged_data_are_told(browser, film, tmp_path):

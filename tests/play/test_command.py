@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 import xarray as xr
+import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
@@ -174,6 +175,16 @@ def test_a_diagnosis_that_is_none_is_refused(text, run_folder, diagnosis, play, 
     (diagnosis / "diagnosis.json").write_text(text)
     assert is_one_clear_error(play(run_folder, diagnosis, "--out", tmp_path / "a.html"))
     assert not (tmp_path / "a.html").exists()
+
+
+def test_a_recorded_point_far_away_is_a_wrong_unit(run_folder, recording, play, tmp_path):
+    file = recording / "recording.yaml"
+    content = yaml.safe_load(file.read_text())
+    content["channels"]["marker[2].z"]["unit"] = "km"
+    content["channels"]["marker[2].z"]["factor"] = 1e6
+    file.write_text(yaml.safe_dump(content))
+    assert is_one_clear_error(answer := play(run_folder, recording, "--out", tmp_path / "a.html"))
+    assert "channels.marker[2].z: it reads" in answer.err
 
 
 def test_a_gif_alone_writes_no_page(run_folder, play, tmp_path):

@@ -70,6 +70,36 @@ def test_a_pose_that_is_not_finite_is_named(results):
         fabric_of(broken, "run")
 
 
+def test_a_curve_that_is_not_finite_is_left_out_and_told(results):
+    broken = results.copy(deep=True)
+    broken["fabric.max_curvature"][3] = np.nan
+    broken["fabric.tension"][3, 1] = np.inf
+    found = fabric_of(broken, "run")
+    assert {c.plot for c in found.curves} == {"Fabric length"}
+    assert "not shown, as it is not finite at every time: tension, Maximum curvature" in found.notes
+
+
+def test_a_fabric_that_has_flown_off_is_refused(results):
+    broken = results.copy(deep=True)
+    broken["fabric.position"][4:] *= 1e6
+    with pytest.raises(InputError, match=r"fabric.position: it reaches .* m, far off any fabric"):
+        fabric_of(broken, "run")
+
+
+def test_results_without_their_coordinates_are_refused(results):
+    with pytest.raises(InputError, match="link_row: the links of `fabric` have no such coordinate"):
+        fabric_of(results.drop_vars(["link_row"]), "run")
+
+
+def test_results_that_are_not_woven_any_more_are_refused_where_nothing_is_held(results):
+    # all rows moved: as if nothing were tethered
+    sway = 1e-3 * np.sin(np.arange(21))[:, None] * np.arange(9)
+    moving = results.copy(deep=True)
+    moving["fabric.position"][:, :, 0] += sway
+    with pytest.raises(InputError, match="its first frame is not a woven fabric"):
+        fabric_of(moving.isel(time=slice(5, None)), "run")
+
+
 def test_results_that_begin_in_the_middle_are_shown_where_a_row_is_held(results):
     whole, cut = fabric_of(results, "run"), fabric_of(results.isel(time=slice(9, None)), "run")
     assert cut.shape.bar_diameter == pytest.approx(whole.shape.bar_diameter, rel=1e-6)

@@ -81,7 +81,7 @@ function addFindings(player) {
   box.type = "checkbox";
   box.checked = true;
   box.onchange = () => { player.isConcernShown = box.checked; player.changed(); };
-  label.append(" bars of links concerned in magenta");
+  label.append(" bars of links concerned in magenta, arms of coils concerned striped");
 }
 
 function addPointer(player) {

@@ -27,6 +27,8 @@ class Player {
     this.addPlots(blocks);
     addControls(this);
     this.addScene();
+    one("picture").addEventListener("webglcontextlost", (e) => { e.preventDefault(); this.scene = null; });
+    one("picture").addEventListener("webglcontextrestored", () => { this.addScene(); this.changed(); });
     new ResizeObserver(() => this.fit()).observe(one("stage"));
     new ResizeObserver(() => this.fit()).observe(one("side"));
     this.fit();
@@ -39,6 +41,7 @@ class Player {
 
   addScene() {
     try {
+      one("failure").hidden = true;
       const palette = new Uint8Array(this.film.palette);
       this.scene = new Scene(one("picture"), palette);
       this.fabrics.forEach((f) => { f.drawn = this.scene.fabric(f, f.links); });
@@ -101,7 +104,7 @@ class Player {
     requestAnimationFrame((now) => {
       this.isAsked = false;
       if (this.isPlaying) {
-        const passed = this.last === null ? 0 : now - this.last;
+        const passed = this.last === null ? 0 : Math.min(now - this.last, 250); // a hidden page stands still
         this.time += this.speed * passed / 1000;
         this.last = now;
         this.soften(passed);
@@ -150,9 +153,8 @@ class Player {
       this.scene.links(fabric.drawn, count, isGhost ? [...this.ghost(this.fabrics.indexOf(fabric)), 0.38] : null);
       fabric.count = count;
     }
-    if (this.row || this.place) return; // points of links that are cut away would float in the air
     for (const mark of this.marks) {
-      const pairs = this.pairs(mark);
+      const pairs = this.pairs(mark).filter((p) => this.isShown(p.row, p.place)); // others would float in the air
       this.scene.dots(pairs.map((p) => p.simulated), [0.1, 0.12, 0.16], 13, 0.62);
       this.scene.dots(pairs.map((p) => p.recorded), mark.colour, 9, 0);
     }
@@ -162,21 +164,25 @@ class Player {
   instances(fabric) {
     const field = fabric.fields.find((f) => f.name === this.quantity) ?? fabric.fields[fabric.fields.length - 1];
     const { low, high } = this.film.ranges[field.name], scale = 1 / ((high - low) || 1);
-    const concerned = this.isConcernShown && fabric === this.main ? this.concerned() : new Set();
+    const concerned = this.isConcernShown && fabric === this.main ? this.concerned() : { links: new Set(), coils: new Set() };
     const out = fabric.drawn.instances;
     let count = 0;
     for (let n = 0; n < fabric.links; n++) {
-      if ((this.row && fabric.row[n] !== this.row) || (this.place && fabric.place[n] !== this.place)) continue;
+      if (!this.isShown(fabric.row[n], fabric.place[n])) continue;
       const to = 11 * count++;
       for (let k = 0; k < 8; k++) out[to + k] = fabric.poses[8 * n + k];
       for (let arm = 0; arm < 2; arm++) out[to + 8 + arm] = (valueAt(field.block, 2 * n + arm, fabric.now) - low) * scale;
-      out[to + 10] = (fabric.held[n] ? 1 : 0) + (concerned.has(n) ? 2 : 0);
+      out[to + 10] = (fabric.held[n] ? 1 : 0) + (concerned.links.has(n) ? 2 : 0)
+        + (concerned.coils.has(2 * n) ? 4 : 0) + (concerned.coils.has(2 * n + 1) ? 8 : 0);
     }
     return count;
   }
 
+  isShown(row, place) { return (!this.row || row === this.row) && (!this.place || place === this.place); }
+
   concerned() {
-    return new Set(this.film.findings.flatMap((f) => f.links));
+    const all = (key) => new Set(this.film.findings.flatMap((f) => f[key]));
+    return { links: all("links"), coils: all("coils") };
   }
 
   /** Recorded points at this time, each with the simulated one; a coordinate that was not recorded is the simulated one. */
@@ -190,7 +196,8 @@ class Player {
       const read = axes.map((axis) => (axis ? this.reading(axis) : null));
       if (axes.some((axis, a) => axis && read[a] === null)) continue; // a gap of the recording
       const square = read.reduce((sum, v, a) => sum + (v === null ? 0 : (v - simulated[a]) ** 2), 0);
-      pairs.push({ simulated, recorded: read.map((v, a) => v ?? simulated[a]), apart: Math.sqrt(square) });
+      const link = kind === "marker" ? Math.ceil(number / 2) * Math.max(...fabric.place) - 1 : number - 1;
+      pairs.push({ row: fabric.row[link], place: fabric.place[link], simulated, recorded: read.map((v, a) => v ?? simulated[a]), apart: Math.sqrt(square) });
     }
     return pairs;
   }

@@ -6,7 +6,7 @@ const SHADERS = {
 in vec3 shape; in vec3 normal; in vec2 part;
 in vec3 middle; in vec4 turn; in vec4 state;
 uniform mat4 camera; uniform sampler2D palette; uniform vec4 plain;
-out vec3 facing; out vec3 colour;
+out vec3 facing; out vec3 colour; out float along; flat out float isStriped;
 vec3 rotated(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }
 void main() {
   // part.x: which end of the link (-1, 1), which the distance of the bars moves; part.y: arm 0, arm 1, or bar 2
@@ -15,20 +15,22 @@ void main() {
   facing = rotated(normal);
   float value = part.y < 0.5 ? state.y : part.y < 1.5 ? state.z : 0.5 * (state.y + state.z);
   colour = texture(palette, vec2((255.0 * clamp(value, 0.0, 1.0) + 0.5) / 256.0, 0.5)).rgb;
-  bool isConcerned = state.w > 1.5;
-  bool isHeld = mod(state.w, 2.0) > 0.5;
-  if (part.y > 1.5 && isConcerned) colour = vec3(0.85, 0.0, 0.48);
-  else if (part.y > 1.5 && isHeld) colour = vec3(0.36);
+  int flags = int(state.w + 0.5); // 1: held, 2: a finding is about it, 4 and 8: about the coil of its first, second arm
+  if (part.y > 1.5 && (flags & 2) > 0) colour = vec3(0.85, 0.0, 0.48);
+  else if (part.y > 1.5 && (flags & 1) > 0) colour = vec3(0.36);
+  isStriped = part.y < 1.5 && (flags & (part.y < 0.5 ? 4 : 8)) > 0 ? 1.0 : 0.0;
+  along = 0.5 * part.x * state.x; // from the middle [m]
   if (plain.a > 0.0) colour = plain.rgb;
 }`, `#version 300 es
 precision highp float;
-in vec3 facing; in vec3 colour;
+in vec3 facing; in vec3 colour; in float along; flat in float isStriped;
 uniform vec3 light; uniform vec4 plain;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(facing);
   float lit = 0.60 + 0.38 * max(dot(n, light), 0.0) + 0.12 * n.z;
-  pixel = vec4(colour * lit, plain.a > 0.0 ? plain.a : 1.0);
+  vec3 own = isStriped > 0.5 && fract(along / 0.006) < 0.4 ? vec3(0.85, 0.0, 0.48) : colour;
+  pixel = vec4((plain.a > 0.0 ? plain.rgb : own) * lit, plain.a > 0.0 ? plain.a : 1.0);
 }`],
   point: [`#version 300 es
 in vec3 here; uniform mat4 camera; uniform float size;
