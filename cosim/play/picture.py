@@ -19,6 +19,8 @@ _BACKGROUND = np.array([0.965, 0.972, 0.98])
 _INK, _GRID, _LINE, _CURSOR = (26, 32, 44), (203, 213, 224), (31, 79, 216), (214, 39, 40)
 #: Share of the ghost's colour where it covers something.
 _OPACITY = 0.38
+#: A ghost no nearer than this does not tint what lies in the same place [m].
+_BEHIND = 3e-4
 #: Rays per pixel along each side.
 _FINE = 2
 #: Height of the strip of one curve, in heights of the letters.
@@ -166,7 +168,7 @@ def _cover(layer: Layer, seen: Camera, fabric: Fabric, time: float, colour: Arra
     own = empty(seen.size, _BACKGROUND)
     for body in ghost(fabric, pose, colour):
         draw(own, seen, body)
-    is_before = own.depth < layer.depth
+    is_before = own.depth < layer.depth - _BEHIND
     layer.colour[is_before] += _OPACITY * (own.colour[is_before] - layer.colour[is_before])
 
 

@@ -128,6 +128,13 @@ def test_a_ghost_is_there_only_while_it_has_a_time(opened):
     assert later == covered(opened)
 
 
+def test_a_ghost_in_the_same_place_does_not_tint(opened):
+    opened.evaluate("player.seek(0); player.camera.view('side'); player.row = 1")  # held: both are there for all times
+    together = picture(opened)
+    opened.evaluate("player.fabrics[1].look = 'hidden'")
+    assert (np.abs(picture(opened) - together).max(axis=2) > 20).mean() < 1e-3
+
+
 def test_a_finding_is_marked_and_can_be_gone_to(opened):
     def magenta():
         red, green, blue = picture(opened).transpose(2, 0, 1)

@@ -13,7 +13,8 @@ from cosim.play.camera import VIEWS, Camera, camera, reach_of
 from cosim.play.film import Film, Marks, Point, Track
 from cosim.play.links import bodies, markers, pose_at
 from cosim.play.movie import MovieStyle, moments, write_gif, write_mp4
-from cosim.play.picture import pairs
+from cosim.play.page import ranges_of
+from cosim.play.picture import Painter, Style, pairs
 from cosim.play.raster import Body, draw, empty
 
 from .films import fabric
@@ -115,6 +116,18 @@ def test_a_gap_of_a_recording_shows_nothing():
     assert track.at(3.5) is None
     assert track.at(0.45) == pytest.approx(0.45)
     assert track.at(2.0) == pytest.approx(2.0)
+
+
+def test_a_ghost_is_seen_where_it_is_apart_and_not_where_it_coincides():
+    given = replace(fabric(frames=2), is_held=np.zeros(18, dtype=bool))
+    style = Style((200, 160), "side", "temperature", ())
+    film = Film((given,))
+    alone = np.asarray(Painter(film, reach_of(film), ranges_of(film.fabrics), style).at(0.0)).astype(int)
+    for shift, least, most in ((0.0, 0, 0), (0.03, 0.02, 1)):
+        moved = replace(given, position=given.position - [0.0, 0.0, shift])
+        both = Film((given, moved))
+        drawn = np.asarray(Painter(both, reach_of(film), ranges_of(film.fabrics), style).at(0.0)).astype(int)
+        assert least <= (np.abs(drawn - alone).max(axis=2) > 20).mean() <= most
 
 
 def test_a_gif_has_a_picture_for_every_moment(tmp_path):

@@ -223,7 +223,10 @@ class Scene {
     gl.bindBuffer(gl.ARRAY_BUFFER, fabric.buffer);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, fabric.instances, 0, 11 * count);
     if (!plain) return gl.drawElementsInstanced(gl.TRIANGLES, fabric.corners, gl.UNSIGNED_SHORT, 0, count);
-    // Depth first, so that a ghost does not show its own inside.
+    // Depth first, so that a ghost does not show its own inside; a little farther away, so that it does not tint
+    // what lies in the same place.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 200);
     gl.colorMask(false, false, false, false);
     gl.drawElementsInstanced(gl.TRIANGLES, fabric.corners, gl.UNSIGNED_SHORT, 0, count);
     gl.colorMask(true, true, true, true);
@@ -231,6 +234,7 @@ class Scene {
     gl.enable(gl.BLEND);
     gl.drawElementsInstanced(gl.TRIANGLES, fabric.corners, gl.UNSIGNED_SHORT, 0, count);
     gl.disable(gl.BLEND);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.depthFunc(gl.LESS);
   }
 
