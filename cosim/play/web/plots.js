@@ -65,7 +65,10 @@ class Plot {
     pen.fillStyle = "#4a5568";
     pen.textBaseline = "middle";
     pen.textAlign = "right";
-    levels.values.forEach((v, k) => { this.line([[this.edge, this.y(v)], [this.width - 4, this.y(v)]]); pen.fillText(labels[k], this.edge - 4, this.y(v)); });
+    levels.values.forEach((v, k) => {
+      this.line([[this.edge, this.y(v)], [this.width - 4, this.y(v)]]);
+      if (this.y(v) < this.height - 18) pen.fillText(labels[k], this.edge - 4, this.y(v)); // lower ones meet the times
+    });
     const moments = ticks(this.span[0], this.span[1], 5);
     pen.textAlign = "center";
     moments.values.forEach((t) => pen.fillText(`${t.toFixed(moments.digits)}`, Math.min(this.width - 12, this.x(t)), this.height - 7));
