@@ -55,7 +55,6 @@ def play(
         style = movie.MovieStyle(colour, view, speed, width)
         for path, write in ((gif, movie.write_gif), (mp4, movie.write_mp4)):
             if path is not None:
-                path.parent.mkdir(parents=True, exist_ok=True)
                 with _progress(path.name) as on_progress:
                     count = write(film, path, style, on_progress)
                 print(f"{path}: {count} pictures, {_size(path)}")
@@ -64,11 +63,10 @@ def play(
 
 
 def _write_page(path: Path, text: str) -> None:
-    from cosim.run_folder import write_atomically, writing
+    from cosim.play.output import output
 
-    with writing(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, text.encode())
+    with output(path) as partial:
+        partial.write_text(text, encoding="utf-8")
     print(f"{path}: {_size(path)}")
 
 

@@ -13,10 +13,10 @@ from PIL import Image
 from cosim.errors import InputError
 from cosim.play.camera import VIEWS, reach_of
 from cosim.play.film import Film
+from cosim.play.output import output
 from cosim.play.page import ranges_of
 from cosim.play.palette import palette
 from cosim.play.picture import Painter, Style, fields_of
-from cosim.run_folder import replacing, writing
 
 #: Pictures a second. GIF counts hundredths of a second.
 GIF_RATE, MP4_RATE = 12.5, 25.0
@@ -62,7 +62,7 @@ def write_gif(film: Film, path: Path, style: MovieStyle, on_progress: Progress |
     common = _common_palette([painter.at(t) for t in times[:: max(1, len(times) // 8)]])
     pictures = _pictures(painter, times, on_progress)
     first, *others = (p.quantize(palette=common, dither=Image.Dither.NONE) for p in pictures)
-    with writing(path), replacing(path) as partial:
+    with output(path) as partial:
         first.save(partial, format="GIF", save_all=True, append_images=others, loop=0, optimize=False,
                    duration=round(1000 / GIF_RATE))  # fmt: skip
     return len(times)
@@ -80,7 +80,7 @@ def write_mp4(film: Film, path: Path, style: MovieStyle, on_progress: Progress |
         raise InputError("--mp4", "", "MP4 needs the package imageio-ffmpeg, which is not installed",
                          "pip install 'active-chainmail[video]', or give --gif") from error  # fmt: skip
     painter, times = _painter(film, style), moments(film, style.speed, MP4_RATE)
-    with writing(path), replacing(path) as partial:
+    with output(path) as partial:
         writer = imageio_ffmpeg.write_frames(
             str(partial), painter.style.size, fps=MP4_RATE, codec="libx264", pix_fmt_out="yuv420p", macro_block_size=2,
             output_params=["-crf", "20", "-f", "mp4", "-movflags", "+faststart"], ffmpeg_log_level="error",

@@ -10,6 +10,7 @@ import xarray as xr
 
 from cosim.play.film import Film
 from cosim.play.from_results import FRAMES, fabric_of
+from cosim.play.output import output
 from cosim.play.page import page
 from cosim.play.run_results import run_results
 
@@ -35,7 +36,8 @@ class Player:
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the page as a file; returns its path."""
         target = Path(path)
-        target.write_text(self.text, encoding="utf-8")
+        with output(target) as partial:
+            partial.write_text(self.text, encoding="utf-8")
         return target
 
 

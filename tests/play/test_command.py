@@ -165,6 +165,18 @@ def test_what_cannot_be_shown_is_one_clear_error(arguments, told, run_folder, pl
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("option", ["--out", "--gif", "--mp4"])
+def test_a_place_that_cannot_be_written_is_named(option, run_folder, play, tmp_path):
+    if option == "--mp4":
+        pytest.importorskip("imageio_ffmpeg")
+    (tmp_path / "file").write_text("mine")
+    ending = {"--out": "html"}.get(option, option[2:])
+    answer = play(run_folder, option, tmp_path / "file" / f"page.{ending}", "--width", "200", "--speed", "1")
+    assert is_one_clear_error(answer)
+    assert f"page.{ending}: it cannot be written" in answer.err
+    assert (tmp_path / "file").read_text() == "mine"
+
+
 def test_recordings_and_diagnoses_need_a_run(diagnosis, play):
     assert is_one_clear_error(answer := play(diagnosis))
     assert "there is no run among what was given" in answer.err
