@@ -37,6 +37,12 @@ from diagnosis.report.user_units import Units
 STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
 #: Windows in which something is left that are shown at the top.
 _LEFT = 3
+#: Channels that only a fabric has, and where to see a finding on it (docs/play.md).
+_OF_A_FABRIC = ("marker[", "link[", "fabric.")
+_ON_THE_FABRIC = (
+    "To see these places on the moving fabric: `cosim play RUN FOLDER`, with the folder of a run of the scenario and "
+    "that of this report."
+)
 #: Forbids the page to load anything, whatever a recording's title says.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
@@ -170,6 +176,8 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         about = f"intervals in which each finding shows, {Units(diagnosis.units).span(begin, end)}"
         note = "Bars: where an effect is at least a tenth of its largest, in the recording that shows it most."
         parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
+    if any(fit.channel.startswith(_OF_A_FABRIC) for fit in diagnosis.fit):
+        parts.append(element("p", coded(_ON_THE_FABRIC), class_="note"))
     return _section("Where and when" if diagnosis.accepted else "Where and when it would act", *parts)
 
 
