@@ -314,5 +314,6 @@ def si_unit(unit: str) -> str:
             base.to(candidate)
         except ValueError:
             continue
-        return candidate
+        # 1/s is no rad/s, though they are of one size
+        return unit if unit and conversion(unit, candidate) == (1.0, 0.0) else candidate
     return unit

@@ -63,8 +63,8 @@ def held(rate: Callable[[Array, float], Array], start: Array, inputs: Array, ste
 
 
 def write_recording(
-    folder: Path, columns: dict[str, Array], inputs: dict[str, tuple[str, str]], channels: dict[str, tuple[str, str, str]],
-    extra: str = "",
+    folder: Path, columns: dict[str, Array], inputs: dict[str, tuple[str, str]],
+    channels: dict[str, tuple[str, str, str]], extra: str = "",
 ) -> Path:  # fmt: skip
     """A recording folder; inputs and channels are column and unit, channels with their noise too."""
     folder.mkdir(parents=True, exist_ok=True)

@@ -20,7 +20,7 @@ def _diagnosis(scenario: Path, recordings: list[Path], out: Path, monkeypatch: p
     given = [str(scenario)]
     for folder in recordings[:-1]:
         given += ["--recording", str(folder)]
-    monkeypatch.setattr("sys.argv", ["cosim", "diagnose", *given, "--held-out", str(recordings[-1]), "--out", str(out), "--brief"])
+    monkeypatch.setattr("sys.argv", ["cosim", "diagnose", *given, "--held-out", str(recordings[-1]), "--out", str(out)])
     with pytest.raises(SystemExit) as ended:
         main()
     assert not ended.value.code

@@ -43,12 +43,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return found
 
 
-def _scenario(folder: Path, integrator: str = "cvode", kind: str = "gauss_seidel", terms: str = "start: {}") -> Scenario:
+def _scenario(
+    folder: Path, integrator: str = "cvode", kind: str = "gauss_seidel", terms: str = "start: {}"
+) -> Scenario:
     text = _OSCILLATOR.replace("INTEGRATOR", integrator).replace("KIND", kind).replace("TERMS", terms)
     return parse_scenario(text, folder / "scenario.yaml")
 
 
-def _course(system: FastSystem, name: tuple[str, str], **changes: object) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _course(
+    system: FastSystem, name: tuple[str, str], **changes: object
+) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     rows = system.simulate(**changes)  # type: ignore[arg-type]
     assert rows is not None
     return rows.values[:, system.recorded[name]].ravel().copy()
@@ -67,7 +71,9 @@ def test_one_fmu_is_simulated_as_the_co_simulation_does(folder: Path, integrator
 
 
 def test_it_agrees_with_the_closed_form_of_a_damped_oscillator(folder: Path) -> None:
-    text = _OSCILLATOR.replace("INTEGRATOR", "cvode").replace("KIND", "jacobi").replace("TERMS", "parameters: {x_0: 1 m}")
+    text = (
+        _OSCILLATOR.replace("INTEGRATOR", "cvode").replace("KIND", "jacobi").replace("TERMS", "parameters: {x_0: 1 m}")
+    )
     text = text.replace("[0 s, 1 V], [0.5 s, -0.5 V]", "[0 s, 0 V]")
     system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
     system.set_substeps(4)
