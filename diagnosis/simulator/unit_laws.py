@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from cosim.scenario import Scenario
 from diagnosis.fabric.laws import fabric_laws
+from diagnosis.laws.library import library
 from diagnosis.search.pendulum_terms import pendulum_laws
 from diagnosis.search.unit_law import UnitLaw
 
@@ -21,5 +22,6 @@ def laws_of(scenario: Scenario) -> list[UnitLaw]:
 
 
 def identifiers() -> set[str]:
-    """Of all laws of all kinds of component."""
-    return {law.place.term.identifier for own in LAWS.values() for law in own("")}
+    """Of all laws of all kinds of component, and of the library for systems of FMUs."""
+    own = {law.place.term.identifier for laws in LAWS.values() for law in laws("")}
+    return own | {law.identifier for law in library()}

@@ -85,6 +85,8 @@ class FastSystem:
         self.fmus: dict[str, FastFmu] = {}
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):
+                if unit.binding.capabilities.canBeInstantiatedOnlyOncePerProcess:
+                    raise NotFast(f"the FMU of {name} can be instantiated only once")
                 self.fmus[name] = FastFmu(unit)
             elif not isinstance(unit, ProgrammeUnit):
                 raise NotFast(f"{name} is no FMU")

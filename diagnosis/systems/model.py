@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import xarray as xr
 
 from cosim.components import AddedTermEntry, nanoseconds
 from cosim.quantity import PhysicalValue, conversion
@@ -32,6 +33,9 @@ from diagnosis.systems.sensors import sensor_laws_of
 KEPT = 64
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
 EXACT, MOST_SUBSTEPS = 0.02, 64
+#: Steps of the integration in a macro-step, and largest difference from the co-simulation in the size of a quantity,
+#: where the first outputs are compared.
+CHECKED, AGREED = 8, 1e-3
 #: Macro-steps over which a run of the co-simulation is compared.
 COMPARED = 2000
 #: Macro-steps of the run that tells what the variables of the results are called.
@@ -186,6 +190,7 @@ def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) 
         results = run(short)
     except RunStopped as stopped:
         raise NotFast(f"the co-simulation stops at its start: {stopped.reason}") from stopped
+    _check_agreement(results, fast)
     found: list[_Place] = []
     source = recording.path / "recording.yaml"
     for channel in recording.channels.values():
@@ -200,6 +205,27 @@ def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) 
         is_flow = channel.target.quantity in ("current", "voltage", "power")
         found.append((fast.recorded[key].start + index, factor, offset, is_flow, unit))
     return found
+
+
+def _check_agreement(results: xr.Dataset, fast: FastSystem) -> None:
+    """Compare the first outputs of the co-simulation with those of compiled code.
+
+    Raises:
+        NotFast: They are not the same.
+    """
+    fast.set_substeps(CHECKED)
+    rows = fast.simulate()
+    fast.set_substeps(1)
+    if rows is None:
+        raise NotFast("a simulation stops; `cosim run` tells why")
+    count = len(results["time"])
+    for (component, name), columns in fast.recorded.items():
+        variable = f"{component}.{name}"
+        if variable in results and results[variable].dtype == np.float64:
+            there = results[variable].values.reshape(count, -1)
+            mine, size = rows.values[:, columns], float(np.std(rows.values[:, columns])) or 1.0
+            if np.max(np.abs(mine[:count] - there), initial=0.0) > AGREED * size:
+                raise NotFast(f"{variable} is not what `cosim run` gives")
 
 
 @dataclass(frozen=True)

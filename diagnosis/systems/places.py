@@ -15,8 +15,8 @@ from cosim.unit import Array
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.systems.expression import names_in, renamed
-from diagnosis.systems.fast import FastSystem
-from diagnosis.systems.fmu_layout import FastFmu
+from diagnosis.systems.fast import FastSystem, Rows
+from diagnosis.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.systems.placed import Placed, PlacedState
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -86,12 +86,19 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
 
     Args:
         systems: One for each recording, without laws.
+
+    Raises:
+        NotFast: A simulation stops, or gives something else the second time.
     """
     courses: list[dict[tuple[str, str], Array]] = []
     for system in systems:
-        rows = system.simulate()
-        if rows is not None:
-            courses.append({key: rows.values[:, s].copy() for key, s in system.recorded.items()})
+        first = _copy(system.simulate())
+        again = _copy(system.simulate())
+        if first is None or again is None:
+            raise NotFast("a simulation stops, or an FMU cannot be reset; `cosim run` tells which")
+        if not np.allclose(first, again, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(first), initial=1.0))):
+            raise NotFast("an FMU that was reset is not as a new one")
+        courses.append({key: first[:, s] for key, s in system.recorded.items()})
     step = systems[0].times[1] - systems[0].times[0] if len(systems[0].times) > 1 else 1.0
     found = []
     for name, fmu in systems[0].fmus.items():
@@ -107,6 +114,10 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
+
+
+def _copy(rows: Rows | None) -> Array | None:
+    return None if rows is None else rows.values.copy()
 
 
 def _untried(fmu: FastFmu, own: Places) -> list[str]:

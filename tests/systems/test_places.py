@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from cosim.scenario import parse_scenario
+from diagnosis.laws.document import lines
 from diagnosis.laws.law import Role
 from diagnosis.laws.library import library
 from diagnosis.systems.fast import FastSystem
@@ -111,3 +112,9 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
         assert law.source
         assert first.least is None or first.least == 0.0, law.identifier  # 0 is within the bounds
     assert {law.role for law in library()} == set(Role)
+
+
+def test_the_page_of_the_library_is_that_of_the_files() -> None:
+    page = Path(__file__).parents[2] / "docs" / "law-library.md"
+    assert page.read_text(encoding="utf-8").rstrip() == "\n".join(lines()).rstrip()
+    assert "`-stiffness_3 * x ** 3`" in page.read_text(encoding="utf-8")
