@@ -20,6 +20,8 @@ CLEAR = 6.0
 #: Most cost of a marker that is not where it is expected: more than that of being hidden.
 _MOST_OFF = 30.0
 _NEVER = np.inf
+#: A step between links seen in half leads at most so far away from the fabric's direction at its tether [rad].
+_BACK = np.radians(110.0)
 
 
 @dataclass(frozen=True)
@@ -130,14 +132,37 @@ class _States:
         loose = np.where(self.is_pair[:, None] & self.is_pair[None, :], 0.0, 0.15)
         reach = (skipped * least * (0.7 if skipped > 1 else 1.0) * (1.0 - loose), skipped * most * (1.0 + loose))
         fits = apart & (distance >= reach[0]) & (distance <= reach[1])
+        crossed = self._crossed(skipped)
         middle, half = skipped * (least + most) / 2.0, skipped * (most - least) / 2.0
         cost = 0.5 * ((distance - middle) / half) ** 2 + 2.0 * HIDDEN * (skipped - 1)
         direction = np.arctan2(step[..., 1], step[..., 0])
+        fits &= self._goes_on(direction)
         for angle in (self.angle[:, None], self.angle[None, :]):
             within, off = self._lean(angle - direction, loose)
             fits &= within
             cost = cost + off
-        return np.where(fits, cost, _NEVER)
+        return np.where(fits, cost, np.where(crossed, 1.0 + 2.0 * HIDDEN * (skipped - 1), _NEVER))
+
+    def _crossed(self, skipped: int) -> AnyArray:
+        """Whether a back marker alone and a front marker alone, or the reverse, can be ends of neighbouring links.
+
+        Their distance is that of a row pitch and a link at the angle of its lean: the law of cosines, at its bounds.
+        """
+        found = np.zeros((len(self.back), len(self.back)), dtype=bool)
+        if skipped > 1:
+            return found
+        (p0, p1), (l0, l1), (a0, a1) = self.weave.pitch, self.weave.length, self.weave.lean
+        squares = [
+            [p * p + k * k + sign * 2.0 * p * k * np.cos(a) for p in (p0, p1) for k in (l0, l1) for a in (a0, a1)]
+            for sign in (1.0, -1.0)
+        ]
+        for ends, (first, second) in zip(squares, ((self.back, self.front), (self.front, self.back))):
+            one = (first >= 0) & ~self.is_pair
+            other = (second >= 0) & ~self.is_pair
+            apart = np.linalg.norm(self.places[second][None, :] - self.places[first][:, None], axis=2)
+            near = (apart >= 0.7 * np.sqrt(min(ends))) & (apart <= np.sqrt(max(ends)))
+            found |= one[:, None] & other[None, :] & near
+        return found
 
     def _lean(self, lean: Array, loose: Array) -> tuple[AnyArray, Array]:
         """Whether links lean as a weave does, and the cost; a link that is seen in half leans in any way."""
@@ -146,6 +171,11 @@ class _States:
         off = np.abs((lean - middle + np.pi) % (2.0 * np.pi) - np.pi)
         known = np.isfinite(off)
         return ~known | (off <= half * (1.0 + loose)), np.where(known, 0.5 * (off / half) ** 2, 0.0)
+
+    def _goes_on(self, direction: Array) -> AnyArray:
+        """Whether a step between two links that are both seen in half does not lead back towards the tether."""
+        off = np.abs((direction - self.weave.along + np.pi) % (2.0 * np.pi) - np.pi)
+        return self.is_pair[:, None] | self.is_pair[None, :] | (off <= _BACK)
 
     def _steps(self) -> tuple[Array, AnyArray]:
         """Vector from each state to each other, between centres or markers of one end; whether they share no spot."""

@@ -13,36 +13,43 @@ from cosim.unit import AnyArray, Array
 #: Weights of the third difference, which removes any course that is a parabola over four pictures.
 _THIRD = np.array([-1.0, 3.0, -3.0, 1.0])
 #: Bounds of the factor by which scatter over time corrects the deviations.
-_SMALLEST, _LARGEST = 0.5, 4.0
+_SMALLEST, _LARGEST, _ENOUGH = 0.5, 4.0, 20
 #: Deviation of the window over which a link's length is averaged [s], and most pictures in it.
 _WINDOW, _MOST = 0.1, 12.0
 #: A link's length cannot be trusted nearer than this [m]: it slides and rattles.
 _RATTLE = 4e-5
 #: A link whose length is off by so many deviations, and so much [m], has a wrong marker.
 _WRONG, _LEAST_WRONG = 6.0, 8e-4
-#: Most pictures in a row over which a hidden marker is rebuilt.
-_LONGEST = 12
+#: Longest time over which a hidden marker is rebuilt [s].
+_LONGEST = 0.4
 
 
-def scaled_by_scatter(tracks: Tracks) -> tuple[Tracks, float]:
-    """Deviations in accord with the scatter of the tracks over time, and the factor.
+def with_errors(tracks: Tracks, steady: float) -> tuple[Tracks, float]:
+    """Deviations in accord with the scatter of the tracks over time and with errors that stay, and the factor.
 
     Third differences of whole markers hold noise and little motion; their median over all markers and pictures, over
-    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small.
+    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small. Markers
+    that are seen in part have deviations of their own outline, and keep them.
+
+    Args:
+        tracks: As followed.
+        steady: Deviation of the error that does not change from picture to picture [m]; it holds some of the noise.
     """
-    places = np.where((tracks.state == SEEN)[..., None], tracks.places, np.nan)
-    if len(places) < 8:
-        return tracks, 1.0
-    difference = sum(w * places[k : len(places) - 3 + k] for k, w in enumerate(_THIRD))
-    variance = sum(
-        w * w * tracks.deviation[k : len(places) - 3 + k] ** 2 for k, w in enumerate(_THIRD)
-    )  # fmt: skip
-    scaled = np.abs(np.asarray(difference)) / np.sqrt(np.asarray(variance))
-    known = scaled[np.isfinite(scaled)]
-    if known.size < 20:
-        return tracks, 1.0
-    factor = float(np.clip(np.median(known) / 0.6745, _SMALLEST, _LARGEST))
-    return replace(tracks, covariance=tracks.covariance * factor**2), factor
+    is_whole = tracks.state == SEEN
+    places = np.where(is_whole[..., None], tracks.places, np.nan)
+    factor = 1.0
+    if len(places) >= 8:
+        difference = sum(w * places[k : len(places) - 3 + k] for k, w in enumerate(_THIRD))
+        deviation = tracks.deviation
+        variance = sum(w * w * deviation[k : len(places) - 3 + k] ** 2 for k, w in enumerate(_THIRD))
+        scaled = np.abs(np.asarray(difference)) / np.sqrt(np.asarray(variance))
+        known = scaled[np.isfinite(scaled)]
+        if known.size >= _ENOUGH:
+            factor = float(np.clip(np.median(known) / 0.6745, _SMALLEST, _LARGEST))
+    noise = factor**2 * np.where(is_whole, tracks.covariance[..., 0, 0], np.nan)
+    rest = max(steady**2 - float(np.nanmedian(noise)), (0.5 * steady) ** 2) if is_whole.any() else steady**2
+    whole = factor**2 * tracks.covariance + rest * np.eye(2)
+    return replace(tracks, covariance=np.where(is_whole[..., None, None], whole, tracks.covariance)), factor
 
 
 def lengths(tracks: Tracks) -> Array:
@@ -131,7 +138,7 @@ def _rebuilt(tracks: Tracks, length: Array) -> Tracks:
         has = np.flatnonzero(np.isfinite(own))
         for frame, hidden in _hidden(tracks.state[:, 2 * link : 2 * link + 2]):
             at = int(np.searchsorted(has, frame))
-            if at in (0, len(has)) or has[at] - has[at - 1] > _LONGEST:
+            if at in (0, len(has)) or tracks.times[has[at]] - tracks.times[has[at - 1]] > _LONGEST:
                 continue
             before, after = int(has[at - 1]), int(has[at])
             line, deviation = _angle_between(own, frame, before, after)

@@ -9,19 +9,21 @@ from pathlib import Path
 import numpy as np
 
 from cosim.camera.curvature import Curvature, largest_curvature
-from cosim.camera.detect import Detector, Spots
+from cosim.camera.detect import Detector, Spots, outline_error
 from cosim.camera.follow import doubt_parts, fabric_assigner, follow, point_assigner
 from cosim.camera.frames import Frames, frame_times
 from cosim.camera.identify import Weave
-from cosim.camera.links import Links, fit_links, scaled_by_scatter
+from cosim.camera.links import Links, fit_links, with_errors
 from cosim.camera.rig import FabricLayout, Rig
 from cosim.camera.sight import Sight, sight_of
-from cosim.camera.spots import places_of, radius_of
+from cosim.camera.spots import WHOLE, places_of, radius_of
 from cosim.camera.tracks import GAP, Tracks
 from cosim.errors import InputError
 
 #: A marker whose measured diameter is off by this factor is not what the rig describes.
 _OTHER_SIZE = 1.4
+#: Frames whose outlines are looked at.
+_SAMPLES = 60
 #: Fewest frames of a recording.
 FEWEST = 8
 
@@ -75,13 +77,15 @@ def measure(
     assign = fabric_assigner(_weave(layout)) if isinstance(layout, FabricLayout) else point_assigner(
         np.array([[c.to("m") for c in p] for p in layout.points]), layout.reach.to("m")
     )  # fmt: skip
-    tracks = doubt_parts(follow(times, places, count, assign), radius)
-    if not np.any(tracks.state != GAP):
+    followed = follow(times, places, count, assign)
+    if not np.any(followed.state != GAP):
         raise InputError(video, "", f"in none of its {len(pictures)} frames can the markers be told apart",
                          "look at markers.layout, plane and markers.colour of the rig file")  # fmt: skip
-    tracks, factor = scaled_by_scatter(tracks)
+    steady = _steady(pictures, sight, radius)
+    tracks, factor = with_errors(followed, steady)
+    tracks = doubt_parts(tracks, radius)
     notes = (*sight.notes, f"time: {said}", f"markers: {2e3 * radius:.2f} mm across",
-             f"noise: {factor:.2f} times what single pictures say")  # fmt: skip
+             f"noise: {factor:.2f} times what single pictures say; error that stays: {1e6 * steady:.0f} um")  # fmt: skip
     return _finished(tracks, rig, sight, notes, tuple(len(p) for p in places))
 
 
@@ -126,6 +130,18 @@ def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count
         raise InputError(rig_file, "markers.diameter", f"spots of this colour are {2e3 * radius:.3g} mm across, not "
                          f"{rig.markers.diameter}", "correct diameter, colour, or the scale of the plane")  # fmt: skip
     return radius
+
+
+def _steady(pictures: list[Spots], sight: Sight, radius: float) -> float:
+    """Error of whole markers that does not change from picture to picture [m]."""
+    edges, centres, pixels = [], [], []
+    for spots in pictures[:: max(1, len(pictures) // _SAMPLES)]:
+        pixel = sight.pixel_length(spots.pixels)
+        for number in np.flatnonzero(spots.area * pixel**2 > WHOLE * np.pi * radius**2):
+            edges.append(spots.edges[number])
+            centres.append(spots.pixels[number])
+            pixels.append(pixel[number])
+    return outline_error(edges, np.array(centres)) * float(np.median(pixels)) if edges else 0.0
 
 
 def _weave(layout: FabricLayout) -> Weave:

@@ -98,15 +98,31 @@ class Renderer:
             random = np.random.default_rng([self._seed, number])
             middles = (np.arange(_INSTANTS) + 0.5) / _INSTANTS
             instants = begin + exposure * (middles if exposure else middles[:1])
-            total = sum(self._instant(float(t)) for t in instants) / len(instants)
-            seen = 255.0 * np.clip(np.asarray(total) * self._light, 0.0, 1.5) ** (1.0 / _GAMMA)
+            seen = 255.0 * np.clip(self._exposed(instants) * self._light, 0.0, 1.5) ** np.float32(1.0 / _GAMMA)
             if self.file.noise:
                 seen += np.float32(self.file.noise) * random.standard_normal(seen.shape, dtype=np.float32)
             yield np.clip(np.round(seen), 0, 255).astype(np.uint8)
 
-    def _instant(self, time: float) -> Array:
-        """Light from every pixel at one instant, shape (height, width, 3), linear."""
-        picture = self._wall.copy()
+    def _exposed(self, instants: Array) -> Array:
+        """Mean light from every pixel over instants, shape (height, width, 3), linear."""
+        cut = self._moving(instants)
+        picture, total = self._wall.copy(), np.zeros_like(self._wall[cut])
+        for time in instants.tolist():
+            picture[cut] = self._wall[cut]
+            self._draw(picture, time)
+            total += picture[cut]
+        picture[cut] = total / len(instants)
+        return picture
+
+    def _moving(self, instants: Array) -> tuple[slice, slice]:
+        """The part of the picture in which something moves."""
+        if any(r.begin.to("s") <= t <= r.end.to("s") for r in self.file.rods for t in instants.tolist()):
+            return slice(0, self.file.height), slice(0, self.file.width)
+        cut = self._window(self._course(instants).reshape(-1, 2), max(_LINK_WIDTH, self.file.diameter.to("m")))
+        return (slice(0, 0), slice(0, 0)) if cut is None else cut
+
+    def _draw(self, picture: Array, time: float) -> None:
+        """Everything that moves, at one instant."""
         markers = self._course(time)
         for back, front in zip(markers[0::2], markers[1::2]):
             self._draw_bar(picture, back, front, _LINK_WIDTH / 2.0, _grey(_LINK))
@@ -114,7 +130,6 @@ class Renderer:
             self._draw_disc(picture, marker, self.file.diameter.to("m") / 2.0, _paint(self.file.colour))
         for rod in self.file.rods:
             self._draw_rod(picture, rod, time)
-        return picture
 
     def _still(self) -> Array:
         """What does not move: a wall with a faint texture, and fiducials."""

@@ -14,8 +14,8 @@ from cosim.unit import AnyArray, Array
 
 #: A spot with less than this share of a marker's area is fitted with a circle.
 WHOLE = 0.94
-#: Deviation of a spot whose circle is not known, in radii: good for telling who it is, no reading.
-_UNKNOWN = 0.5
+#: With less than this share seen, an outline may be that of another circle.
+_LEAST = 0.2
 
 
 @dataclass(frozen=True)
@@ -71,11 +71,9 @@ def places_of(spots: Spots, sight: Sight, radius: float) -> Places:
         edges = sight.places(np.concatenate([spots.edges[i] for i in group]))
         circle = fit_circle(edges[np.isfinite(edges).all(axis=1)], radius, float(pixel[group[0]]))
         total = float(share[group].sum())
-        if circle is not None:
+        # Of a sliver nobody can say where its centre is: it counts as hidden.
+        if circle is not None and total >= _LEAST:
             out.append((circle.centre, circle.covariance, total))
-        else:
-            largest = group[int(np.argmax(share[group]))]
-            out.append((places[largest], (_UNKNOWN * radius) ** 2 * np.eye(2), total))
     found = [np.array(part) for part in zip(*out)] if out else [np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0)]
     return Places(found[0], found[1], found[2])
 
