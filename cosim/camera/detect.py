@@ -195,7 +195,8 @@ def outline_error(edges: Sequence[Array], centres: Array) -> float:
         centres: Shape (outlines, 2) [px].
 
     Returns:
-        Root mean square of both coefficients of the third harmonic; 0 without outlines.
+        Root mean square of both coefficients of the third harmonic, without those beyond four deviations, which
+        something that cuts into an outline makes; 0 without outlines.
     """
     squares = []
     for edge, centre in zip(edges, centres):
@@ -206,4 +207,7 @@ def outline_error(edges: Sequence[Array], centres: Array) -> float:
         columns = [np.ones_like(angle)] + [f(k * angle) for k in (1, 2, 3) for f in (np.cos, np.sin)]
         found = np.linalg.lstsq(np.stack(columns, axis=1), np.hypot(away[:, 0], away[:, 1]), rcond=None)[0]
         squares += [found[5] ** 2, found[6] ** 2]
-    return float(np.sqrt(np.mean(squares))) if squares else 0.0
+    if not squares:
+        return 0.0
+    kept = [s for s in squares if s <= 16.0 * float(np.median(squares)) / 0.6745**2]
+    return float(np.sqrt(np.mean(kept)))

@@ -13,7 +13,7 @@ from cosim.camera.tracks import GAP, PART, SEEN, Tracks
 from cosim.unit import AnyArray, Array
 
 #: Deviation of an expected place [m], at once and by what it may move in a second [m/s].
-_AT_ONCE, _PER_SECOND = 1.5e-3, 0.15
+_AT_ONCE, _PER_SECOND = 2e-3, 0.04
 #: No place is expected over a longer time [s].
 _LONGEST = 0.5
 #: A place that is off the course through its neighbours by so many deviations, and so much [m], is no marker.

@@ -22,6 +22,8 @@ _MOST_OFF = 30.0
 _NEVER = np.inf
 #: A step between links seen in half leads at most so far away from the fabric's direction at its tether [rad].
 _BACK = np.radians(110.0)
+#: The first link's angle may differ so much from that of a flat weave [rad].
+_FIRST = np.radians(75.0)
 
 
 @dataclass(frozen=True)
@@ -227,11 +229,11 @@ def _shortest(states: _States, edges: list[Array], own: Array, rows: int) -> Cha
 
 
 def _start(states: _States) -> Array:
-    """A first link points where a fabric does at its tether, give or take a third of a turn; one in half anywhere."""
+    """A first link points as a fabric does at its tether, within `_FIRST`; one that is seen in half anywhere."""
     weave = states.weave
     off = states.angle - weave.along - sum(weave.lean) / 2.0
     off = np.abs((off + np.pi) % (2.0 * np.pi) - np.pi)
-    return np.where(np.isfinite(off) & (off > 2.0 * np.pi / 3.0), _NEVER, 0.0)
+    return np.where(np.isfinite(off) & (off > _FIRST), _NEVER, 0.0)
 
 
 def _read(states: _States, came: AnyArray, whole: Array, rows: int) -> Chain:
