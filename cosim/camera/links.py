@@ -171,15 +171,21 @@ def _angle_between(angle: Array, frame: int, before: int, after: int) -> tuple[f
     part = (frame - before) / (after - before)
     line = float((1.0 - part) * course[0] + part * course[1])
     width = after - before
-    near = np.unwrap(np.nan_to_num(angle[max(0, before - 5 * width) : after + 5 * width + 1], nan=np.nan))
+    near = angle[max(0, before - 5 * width) : after + 5 * width + 1]
     inner = frame - before
     count = len(near) - width
     if count < 1:
         return line, float("nan")
-    off = near[inner : inner + count] - (1.0 - part) * near[:count] - part * near[width:]
+    ahead, whole = near[inner : inner + count] - near[:count], near[width:] - near[:count]
+    off = _turned(ahead) - part * _turned(whole)
     known = off[np.isfinite(off)]
     # Without a single picture to compare with nothing is known of it.
     return line, float(np.sqrt(np.mean(known**2))) if known.size >= 3 else float("nan")
+
+
+def _turned(angle: Array) -> Array:
+    """The same angle between -pi and pi."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
 def _adjusted(tracks: Tracks, length: Array) -> Links:
