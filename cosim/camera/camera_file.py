@@ -57,7 +57,6 @@ class CameraFile(Strict):
     begin: Time | None = Field(default=None, description="Begin of the first exposure; default: that of the run.")
     end: Time | None = Field(default=None, description="No exposure ends later; default: the end of the run.")
     exposure: Annotated[PhysicalValue, In("s", minimum=0.0)] = Field(default=_value("4 ms"))
-    clock_offset: Time = Field(default=_value("0 s"), description="Time of the run at the camera's time 0.")
     scale: Length = Field(default=_value("0.25 mm"), description="Length of a pixel in the middle of the picture.")
     centre: tuple[Coordinate, Coordinate] = Field(
         default=(_value("72 mm"), _value("-10 mm")), description="y and z in the middle of the picture."

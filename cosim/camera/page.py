@@ -26,6 +26,7 @@ _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto; padding: 1rem;
   max-width: 62rem; }
 h1 { font-size: 1.35rem; } h2 { font-size: 1.1rem; margin-top: 2rem; }
+.chart { overflow-x: auto; } .chart svg { min-width: 34rem; }
 svg, img { max-width: 100%; height: auto; } figure { margin: 1rem 0; } figcaption { color: #444; font-size: .9rem; }
 .frames { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 26rem), 1fr)); gap: 1rem; }
 .frames figure { margin: 0; } .frame { position: relative; } .frame img, .frame svg { display: block; width: 100%; }
@@ -62,6 +63,7 @@ def write_page(file: Path, measured: Measured, rig: Rig, frames: Iterable[Frame]
               "<h2>How each reading came about</h2>", _key(), charts.quality_chart(measured),
               "<h2>Standard deviation of the places</h2>", charts.noise_chart(measured),
               "<p>Line: median over the markers; band: from the surest to the least sure one.</p>"]  # fmt: skip
+    parts = [f'<div class="chart">{p}</div>' if p.startswith("<svg") else p for p in parts]
     page = (
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
         f'content="width=device-width, initial-scale=1"><title>{html.escape(rig.title)}</title>'

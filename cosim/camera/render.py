@@ -81,6 +81,16 @@ class Renderer:
         """Places of the markers in the middle of every exposure, shape (frames, markers, 2) [m]."""
         return np.asarray(self._course(self.middles))
 
+    @property
+    def focal(self) -> float:
+        """Focal length [px]."""
+        return self._camera.focal
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Principal point (u, v) [px]."""
+        return self._camera.middle
+
     def fiducials(self) -> Array:
         """Places of the fiducials, shape (6, 2) [m], on whole millimetres."""
         high, wide = self.file.height - 1, self.file.width - 1
