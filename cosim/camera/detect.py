@@ -69,7 +69,7 @@ class Detector:
         #: Weights of blue, green, red: 0 for grey, 220 for the marker's own colour.
         self._weights = np.zeros(3) if colour in PLAIN else 220.0 * beyond / size
         reach = 2 * int(np.ceil(0.75 * diameter)) + 1
-        self._kernel = self._cv2.getStructuringElement(self._cv2.MORPH_ELLIPSE, (reach, reach))
+        self._kernel = self._cv2.getStructuringElement(self._cv2.MORPH_RECT, (reach, reach))
 
     def spots(self, picture: AnyArray) -> Spots:
         """Spots of a picture (height, width, 3) of bytes; the largest ones, at most three for each marker."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.camera.opencv import opencv
 from cosim.errors import InputError
-from cosim.unit import Array
+from cosim.unit import AnyArray, Array
 
 #: Steps of the fixed-point iteration that undoes a distortion; each gains about a digit with ordinary lenses.
 _STEPS = 30
@@ -17,6 +17,10 @@ _STEPS = 30
 _CLOSED = 1e-7
 #: Fewest pictures from which a lens is taken.
 FEWEST_BOARDS = 6
+#: A picture whose corners are off by so many times the median of all is blurred, or its board moved: it is left out.
+_BLURRED = 2.5
+#: Half of the window in which a corner is refined [px].
+_AROUND = 5
 ENDINGS = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff")
 
 
@@ -74,7 +78,7 @@ class Calibration:
     Args:
         lens: The lens.
         error: Root mean square distance of corners from where the lens puts them [px].
-        used: Number of pictures in which the whole board was found.
+        used: Number of pictures in which the whole board was found and is sharp.
         given: Number of pictures.
     """
 
@@ -111,29 +115,49 @@ def calibrate(files: list[Path], corners: tuple[int, int], key: str) -> Calibrat
 
     Source: Z. Zhang, IEEE Transactions on Pattern Analysis and Machine Intelligence 22 (2000) 1330-1334.
     """
+    boards, size = _boards(files, corners, key)
+    if len(boards) < FEWEST_BOARDS:
+        what = f"a board with {corners[0]} x {corners[1]} inner corners is found in {len(boards)} of {len(files)} pictures"
+        raise InputError(files[0].parent, key, f"{what}; at least {FEWEST_BOARDS} are needed",
+                         "correct `corners`, or take sharper pictures of the whole board")  # fmt: skip
+    lens, error, each = _fitted(boards, corners, size)
+    kept = [b for b, own in zip(boards, each) if own <= _BLURRED * float(np.median(each))]
+    if FEWEST_BOARDS <= len(kept) < len(boards):
+        lens, error, each = _fitted(kept, corners, size)
+        boards = kept
+    return Calibration(lens, error, len(boards), len(files))
+
+
+def _boards(files: list[Path], corners: tuple[int, int], key: str) -> tuple[list[AnyArray], tuple[int, int]]:
+    """Corners of the board in every picture that shows all of it, and width and height of the pictures."""
     cv2 = opencv()
     found, size = [], None
     for file in files:
         picture = cv2.imread(str(file), cv2.IMREAD_GRAYSCALE)
         if picture is None:
             raise InputError(file, key, "this picture cannot be read", "leave it out, or save it anew")
-        if size not in (None, picture.shape):
-            raise InputError(file, key, f"it has {picture.shape[1]} x {picture.shape[0]} pixels, others "
-                             f"{size[1]} x {size[0]}", "use pictures of one camera and setting")  # fmt: skip
-        size = picture.shape
-        is_there, places = cv2.findChessboardCornersSB(
-            picture, corners, flags=cv2.CALIB_CB_ACCURACY | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_NORMALIZE_IMAGE
+        own = (int(picture.shape[1]), int(picture.shape[0]))
+        if size not in (None, own):
+            raise InputError(file, key, f"it has {own[0]} x {own[1]} pixels, others have {size[0]} x {size[1]}",
+                             "use pictures of one camera and setting")  # fmt: skip
+        size = own
+        is_there, places = cv2.findChessboardCorners(
+            picture, corners, flags=cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE
         )
         if is_there:
+            stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 60, 1e-3)
+            places = cv2.cornerSubPix(picture, places, (_AROUND, _AROUND), (-1, -1), stop)
             found.append(np.asarray(places, dtype=np.float32).reshape(-1, 1, 2))
-    if len(found) < FEWEST_BOARDS or size is None:
-        what = f"a board with {corners[0]} x {corners[1]} inner corners is found in {len(found)} of {len(files)} pictures"
-        raise InputError(files[0].parent, key, f"{what}; at least {FEWEST_BOARDS} are needed",
-                         "correct `corners`, or take sharper pictures of the whole board")  # fmt: skip
+    return found, size or (0, 0)
+
+
+def _fitted(boards: list[AnyArray], corners: tuple[int, int], size: tuple[int, int]) -> tuple[Lens, float, Array]:
+    """Lens, root mean square error over all corners [px], and that of every picture."""
+    cv2 = opencv()
     board = np.zeros((corners[0] * corners[1], 3), dtype=np.float32)
     board[:, :2] = np.mgrid[0 : corners[0], 0 : corners[1]].T.reshape(-1, 2)
-    error, matrix, bent, _, _ = cv2.calibrateCamera([board] * len(found), found, (size[1], size[0]), None, None)
-    k = [float(v) for v in np.asarray(bent).ravel()[:5]]
+    fit = cv2.calibrateCameraExtended([board] * len(boards), boards, size, None, None)
+    matrix, k = fit[1], [float(v) for v in np.asarray(fit[2]).ravel()[:5]]
     lens = Lens((float(matrix[0, 0]), float(matrix[1, 1])), (float(matrix[0, 2]), float(matrix[1, 2])),
                 (k[0], k[1], k[2], k[3], k[4]))  # fmt: skip
-    return Calibration(lens, float(error), len(found), len(files))
+    return lens, float(fit[0]), np.asarray(fit[-1], dtype=np.float64).ravel()
