@@ -90,7 +90,7 @@ def ticks(low: float, high: float) -> list[float]:
     power = 10.0 ** math.floor(math.log10(raw))
     step = next(m for m in (1.0, 2.0, 5.0, 10.0) if m * power >= raw) * power
     first = math.ceil(low / step - 1e-9)
-    return [round((first + k) * step, 12) for k in range(int(math.floor(high / step + 1e-9)) - first + 1)]
+    return [round((first + k) * step, 12) for k in range(math.floor(high / step + 1e-9) - first + 1)]
 
 
 def curvature_chart(measured: Measured) -> str:

@@ -1,4 +1,4 @@
-"""From spots of all pictures to tracks: every picture by itself, then those that are not resolved with their neighbours."""
+"""From spots to tracks: every picture by itself, then those that are not resolved with their neighbours in time."""
 
 from __future__ import annotations
 

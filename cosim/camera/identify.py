@@ -1,7 +1,7 @@
 """Which spot is which marker of a fabric: the best chain of links over all rows of one picture.
 
-Every pair of spots whose distance a link can have is a candidate for every row, and so is a spot alone, whose partner is
-hidden. Neighbouring rows must be a row pitch apart and lean as a weave does. Dynamic programming finds the chain of
+Every pair of spots whose distance a link can have is a candidate for every row, and so is a spot alone, whose partner
+is hidden. Neighbouring rows must be a row pitch apart and lean as a weave does. Dynamic programming finds the chain of
 least cost, and the least cost of any other chain: where the two are close, the picture is not resolved.
 """
 

@@ -98,7 +98,9 @@ def pictures_in(folder: Path, key: str, pattern: str = "*") -> list[Path]:
         raise InputError(folder, key, "there is no such folder", "give a folder of pictures")
     found = sorted(p for p in folder.glob(pattern) if p.suffix.lower() in ENDINGS and p.is_file())
     if not found:
-        raise InputError(folder, key, f"it holds no picture `{pattern}`", f"give files that end in {', '.join(ENDINGS)}")
+        raise InputError(
+            folder, key, f"it holds no picture `{pattern}`", f"give files that end in {', '.join(ENDINGS)}"
+        )
     return found
 
 
@@ -117,7 +119,9 @@ def calibrate(files: list[Path], corners: tuple[int, int], key: str) -> Calibrat
     """
     boards, size = _boards(files, corners, key)
     if len(boards) < FEWEST_BOARDS:
-        what = f"a board with {corners[0]} x {corners[1]} inner corners is found in {len(boards)} of {len(files)} pictures"
+        what = (
+            f"a board with {corners[0]} x {corners[1]} inner corners is found in {len(boards)} of {len(files)} pictures"
+        )
         raise InputError(files[0].parent, key, f"{what}; at least {FEWEST_BOARDS} are needed",
                          "correct `corners`, or take sharper pictures of the whole board")  # fmt: skip
     lens, error, each = _fitted(boards, corners, size)

@@ -1,4 +1,4 @@
-"""Rigid links: noise from the tracks themselves, lengths over time, hidden markers rebuilt, covariances of what is left."""
+"""Rigid links: noise from the tracks themselves, lengths over time, hidden markers rebuilt."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def measure(
     tracks, factor = with_errors(followed, steady)
     tracks = doubt_parts(tracks, radius)
     notes = (*sight.notes, f"time: {said}", f"markers: {2e3 * radius:.2f} mm across",
-             f"noise: {factor:.2f} times what single pictures say; error that stays: {1e6 * steady:.0f} um")  # fmt: skip
+             f"noise: {factor:.2f} times that of single pictures; error that stays: {1e6 * steady:.0f} um")  # fmt: skip
     return _finished(tracks, rig, sight, notes, tuple(len(p) for p in places))
 
 
@@ -95,9 +95,7 @@ def _finished(tracks: Tracks, rig: Rig, sight: Sight, notes: tuple[str, ...], sp
         return Measured(tracks.without(_vague(tracks, largest)), None, None, sight, notes, spots)
     links = fit_links(tracks.without(_vague(tracks, largest)))
     links = replace(links, tracks=links.tracks.without(_vague(links.tracks, largest)))
-    return Measured(
-        links.tracks, links, largest_curvature(links.centres, links.centre_covariance), sight, notes, spots
-    )
+    return Measured(links.tracks, links, largest_curvature(links.centres, links.centre_covariance), sight, notes, spots)
 
 
 def _vague(tracks: Tracks, largest: float) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:

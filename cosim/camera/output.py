@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 import yaml
 
+from cosim.camera.import_file import ImportFile
 from cosim.camera.measure import Measured
 from cosim.camera.rig import Rig
 from cosim.camera.tracks import STATES
@@ -29,7 +30,7 @@ def refuse_recording(folder: Path) -> None:
             raise InputError(folder / name, "", "this file exists already", "give another folder with `--out`")
 
 
-def write_tracks(folder: Path, measured: Measured, rig: Rig, source: str) -> list[str]:
+def write_tracks(folder: Path, measured: Measured, rig: Rig | ImportFile, source: str) -> list[str]:
     """Write data.csv and recording.yaml.
 
     Channels are the places of the markers and, of a fabric, the largest curvature, each with a deviation for every
@@ -39,8 +40,8 @@ def write_tracks(folder: Path, measured: Measured, rig: Rig, source: str) -> lis
     Args:
         folder: New, or without a recording.
         measured: From a video.
-        rig: The rig.
-        source: Video, for the recording.
+        rig: The rig, or what an imported table is.
+        source: What was done, for the recording.
 
     Returns:
         Names of the channels.
@@ -65,8 +66,8 @@ def write_tracks(folder: Path, measured: Measured, rig: Rig, source: str) -> lis
     return list(channels)
 
 
-def _sidecar(rig: Rig, source: str, channels: dict[str, Any]) -> dict[str, Any]:
-    said = f"cosim track {source}" + (f"; {rig.source}" if rig.source else "")
+def _sidecar(rig: Rig | ImportFile, source: str, channels: dict[str, Any]) -> dict[str, Any]:
+    said = source + (f"; {rig.source}" if rig.source else "")
     time: dict[str, Any] = {"column": "time", "unit": "s", "zero": 0.0}
     if rig.clock.offset_bound.number:
         time["offset_bound"] = str(rig.clock.offset_bound)
@@ -117,4 +118,3 @@ def _of_fabric(measured: Measured) -> dict[str, Any]:
 
 def _mm(values: Array) -> Array:
     return np.round(1e3 * values, _DIGITS)
-

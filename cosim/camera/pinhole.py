@@ -74,8 +74,8 @@ class Pinhole:
             off = wanted - here
             if np.abs(off).max() < _CLOSED:
                 return found
-            by_y = (self.project(found + [step, 0.0]) - here) / step
-            by_z = (self.project(found + [0.0, step]) - here) / step
+            by_y = (self.project(found + np.array([step, 0.0])) - here) / step
+            by_z = (self.project(found + np.array([0.0, step])) - here) / step
             determinant = by_y[..., 0] * by_z[..., 1] - by_z[..., 0] * by_y[..., 1]
             found[..., 0] += (off[..., 0] * by_z[..., 1] - off[..., 1] * by_z[..., 0]) / determinant
             found[..., 1] += (off[..., 1] * by_y[..., 0] - off[..., 0] * by_y[..., 1]) / determinant

@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit import Array
 
-#: Smallest singular value of four or more points beyond their centre, relative to the largest: below it they are one line.
+#: Smaller singular value of points about their centre, relative to the larger one: below it they are on one line.
 _FLAT = 1e-3
 
 

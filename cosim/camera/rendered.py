@@ -45,7 +45,9 @@ def motion_of_table(file: Path) -> Motion:
     try:
         table = pd.read_csv(file)
     except (OSError, ValueError) as error:
-        raise InputError(file, "", f"it cannot be read as a CSV table: {error}", "give time and marker[n].y, .z") from error
+        raise InputError(
+            file, "", f"it cannot be read as a CSV table: {error}", "give time and marker[n].y, .z"
+        ) from error
     count = sum(str(name).startswith("marker[") and str(name).endswith("].y") for name in table.columns)
     wanted = ["time"] + [f"marker[{k + 1}].{axis}" for k in range(count) for axis in "yz"]
     missing = [name for name in wanted if name not in table.columns]
@@ -61,7 +63,7 @@ def motion_of_table(file: Path) -> Motion:
 
 def _checked(times: Array, places: Array, source: Path) -> Motion:
     if places.shape[1] % 2 or places.shape[1] < 6:
-        raise InputError(source, "", f"it has {places.shape[1]} markers; a fabric has two for each of three or more rows",
+        raise InputError(source, "", f"it has {places.shape[1]} markers; a fabric has two to a row, and three rows",
                          "give back and front marker of every row")  # fmt: skip
     if len(times) < 4 or np.any(np.diff(times) <= 0.0):
         raise InputError(source, "", "it needs four or more times that rise", "give a longer motion")

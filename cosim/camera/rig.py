@@ -212,4 +212,3 @@ def load_rig(path: Path) -> Rig:
         return Rig.model_validate(data)
     except pydantic.ValidationError as error:
         raise input_error(path, error, HERE) from error
-

@@ -52,8 +52,9 @@ class Sight:
         """Length [m] of a pixel at each pixel, shape (points,)."""
         if not len(pixels):
             return np.zeros(0)
-        right, down = self.places(pixels + [0.5, 0.0]), self.places(pixels + [0.0, 0.5])
-        left, up = self.places(pixels - [0.5, 0.0]), self.places(pixels - [0.0, 0.5])
+        half_u, half_v = np.array([0.5, 0.0]), np.array([0.0, 0.5])
+        right, down = self.places(pixels + half_u), self.places(pixels + half_v)
+        left, up = self.places(pixels - half_u), self.places(pixels - half_v)
         a, b = right - left, down - up
         return np.asarray(np.sqrt(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])))
 
@@ -72,6 +73,17 @@ def sight_of(rig: Rig, file: Path, frames: Iterable[Frame]) -> Sight:
     lens, notes = _lens(rig.lens, file)
     plane, more = _plane(rig.plane, lens, file, frames)
     return Sight(lens, plane, (*notes, *more))
+
+
+def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
+    """The camera of pixels that another tool found: no picture is at hand to refine anything.
+
+    Raises:
+        InputError: As for `sight_of`.
+    """
+    found, notes = _lens(lens, file)
+    own, more = _plane(plane, found, file, ())
+    return Sight(found, own, (*notes, *more))
 
 
 def _lens(entry: LensEntry | None, file: Path) -> tuple[Lens | None, tuple[str, ...]]:
@@ -129,6 +141,6 @@ def _refined(
                 found[number].append(spots[int(np.argmin(away))])
     for number, own in enumerate(found):
         if not own:
-            raise InputError(file, f"plane.fiducials.{number}", f"nothing {colour} is near pixel {tuple(pixels[number])}",
+            raise InputError(file, f"plane.fiducials.{number}", f"nothing {colour} is near its pixel",
                              "correct `pixel`, or `colour` and `diameter` of the fiducials")  # fmt: skip
     return np.array([np.median(own, axis=0) for own in found])

@@ -38,15 +38,15 @@ def track(
             found = measure(video, loaded, rig, lambda count: status.update(f"{count} frames read"))
     else:
         found = measure(video, loaded, rig)
-    channels = write_tracks(out, found, loaded, str(video))
+    channels = write_tracks(out, found, loaded, f"cosim track {video}")
     for sentence in summary(found):
         print(sentence)
     if page:
         try:
             write_page(out / "track.html", found, loaded, Frames(video))
         except OSError as error:
-            raise InputError(out / "track.html", "", f"the page cannot be written: {error.strerror or error}",
-                             "the recording itself is complete; make room and repeat in another folder") from error  # fmt: skip
+            what = f"the page cannot be written ({error.strerror or error}); the recording is complete"
+            raise InputError(out / "track.html", "", what, "make room and repeat in another folder") from error
         print(out / "track.html")
     print(f"{out}: {len(channels)} channels")
     if not any(c.startswith("fabric") for c in channels) and found.links is not None:

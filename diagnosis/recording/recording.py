@@ -53,8 +53,8 @@ class Channel:
         bias_bound: How far its zero may be off, SI.
         is_clipped: Which samples lie at a limit, shape (samples,).
         dropped: Why rows of its column are not among the samples (`empty`, `invalid`, `before begin`, `after end`,
-            `uncertain`, `thinned`; once it has been held against a scenario, `before start` and `after stop` of the simulated time),
-            with their number; `diagnosis.recording.usage` puts it into words.
+            `uncertain`, `thinned`; once it has been held against a scenario, `before start` and `after stop` of the
+            simulated time), with their number; `diagnosis.recording.usage` puts it into words.
     """
 
     name: str
