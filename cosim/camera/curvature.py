@@ -78,7 +78,7 @@ def largest_curvature(centres: Array, covariance: Array) -> Curvature:
         covariance: Shape (frames, rows, 2, 2) [m^2].
     """
     own, deviation = curvatures(centres), curvature_deviation(centres, covariance)
-    known = np.isfinite(own).all(axis=1) & np.isfinite(deviation).all(axis=1)
+    known = np.asarray(np.isfinite(own).all(axis=1) & np.isfinite(deviation).all(axis=1))
     weight = np.where(known[:, None], 1.0 / np.maximum(deviation, 1e-9) ** 2, 0.0)
     total = uniform_filter1d(weight, _WINDOW, axis=0, mode="nearest")
     mean = uniform_filter1d(np.where(known[:, None], own, 0.0) * weight, _WINDOW, axis=0, mode="nearest")

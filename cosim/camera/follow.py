@@ -68,7 +68,7 @@ def follow(times: Array, pictures: Sequence[Places], markers: int, assign: Assig
     good = np.array([c is not None and c.is_resolved for c in chains])
     for frame in np.flatnonzero(~good):
         expected = _expected(first, good, int(frame))
-        chains[frame] = None if expected is None else assign(pictures[frame], expected)
+        chains[frame] = None if expected is None else assign(pictures[int(frame)], expected)
     return _without_strays(_tracks(times, pictures, chains, markers))
 
 

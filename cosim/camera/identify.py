@@ -177,7 +177,7 @@ class _States:
     def _goes_on(self, direction: Array) -> AnyArray:
         """Whether a step between two links that are both seen in half does not lead back towards the tether."""
         off = np.abs((direction - self.weave.along + np.pi) % (2.0 * np.pi) - np.pi)
-        return self.is_pair[:, None] | self.is_pair[None, :] | (off <= _BACK)
+        return np.asarray(self.is_pair[:, None] | self.is_pair[None, :] | (off <= _BACK))
 
     def _steps(self) -> tuple[Array, AnyArray]:
         """Vector from each state to each other, between centres or markers of one end; whether they share no spot."""

@@ -42,13 +42,13 @@ def imported(table: Table, given: ImportFile, file: Path) -> Measured:
     for number, name in enumerate(given.markers):
         if name in table.likelihood:
             places[~(table.likelihood[name] >= given.least_likelihood), number] = np.nan
-    known = np.isfinite(places).all(axis=2)
+    known = np.asarray(np.isfinite(places).all(axis=2))
     places[~known] = np.nan
     covariance = np.full((*known.shape, 2, 2), np.nan)
     for number, name in enumerate(given.markers):
         noise = given.noise.to("m") if given.noise else _noise(places[:, number], name, file)
         covariance[known[:, number], number] = noise**2 * np.eye(2)
-    tracks = Tracks(times, places, covariance, known.astype(np.float64), np.where(known, SEEN, GAP),
+    tracks = Tracks(times, places, covariance, np.asarray(known, dtype=np.float64), np.where(known, SEEN, GAP),
                     np.full(len(times), np.nan))  # fmt: skip
     notes = (*table.notes, *sight.notes)
     spots = tuple(int(n) for n in known.sum(axis=1))

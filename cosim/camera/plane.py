@@ -10,6 +10,8 @@ from cosim.unit import Array
 
 #: Smaller singular value of points about their centre, relative to the larger one: below it they are on one line.
 _FLAT = 1e-3
+#: Condition of a homography between normalised points; of a plane that anybody can see it is below ten.
+_STEEP = 1e4
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Plane:
 
     def pixels(self, places: Array) -> Array:
         """Undistorted pixels of places (points, 2) [m]."""
-        return _mapped(np.linalg.inv(self.matrix), places)
+        return _mapped(np.asarray(np.linalg.inv(self.matrix)), places)
 
     def scale(self, pixels: Array) -> Array:
         """Length of a pixel [m] at each pixel, shape (points,): root of the area that one pixel covers."""
@@ -74,7 +76,10 @@ def plane_of_points(pixels: Array, places: Array) -> Plane:
     sizes, turned = np.linalg.svd(rows)[1:]
     if not sizes[7] > _FLAT * sizes[0] * 1e-2:
         raise ValueError("three of the points lie on one line, which leaves the plane open")
-    matrix = np.linalg.inv(b) @ turned[-1].reshape(3, 3) @ a
+    normal = turned[-1].reshape(3, 3)
+    if not np.linalg.cond(normal) < _STEEP:
+        raise ValueError("three of the points lie on one line, which leaves the plane open")
+    matrix = np.asarray(np.linalg.inv(b) @ normal @ a, dtype=np.float64)
     found = Plane(matrix / matrix[2, 2])
     # Eight numbers are fitted: the rest of the coordinates tells the error.
     freedom = 2 * len(pixels) - 8

@@ -68,7 +68,7 @@ class Renderer:
         self._places = self._camera.places()
         down, right = np.gradient(self._places, axis=(0, 1))
         area = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
-        self._pixel = np.sqrt(np.abs(area))
+        self._pixel = np.asarray(np.sqrt(np.abs(area)))
         self._wall = self._still()
         self._light = self._lighting()
 
@@ -113,7 +113,7 @@ class Renderer:
                 seen += np.float32(self.file.noise) * random.standard_normal(seen.shape, dtype=np.float32)
             yield np.clip(np.round(seen), 0, 255).astype(np.uint8)
 
-    def _exposed(self, instants: Array) -> Array:
+    def _exposed(self, instants: Array) -> AnyArray:
         """Mean light from every pixel over instants, shape (height, width, 3), linear."""
         cut = self._moving(instants)
         picture, total = self._wall.copy(), np.zeros_like(self._wall[cut])
@@ -131,7 +131,7 @@ class Renderer:
         cut = self._window(self._course(instants).reshape(-1, 2), max(_LINK_WIDTH, self.file.diameter.to("m")))
         return (slice(0, 0), slice(0, 0)) if cut is None else cut
 
-    def _draw(self, picture: Array, time: float) -> None:
+    def _draw(self, picture: AnyArray, time: float) -> None:
         """Everything that moves, at one instant."""
         markers = self._course(time)
         for back, front in zip(markers[0::2], markers[1::2]):
@@ -141,13 +141,13 @@ class Renderer:
         for rod in self.file.rods:
             self._draw_rod(picture, rod, time)
 
-    def _still(self) -> Array:
+    def _still(self) -> AnyArray:
         """What does not move: a wall with a faint texture, and fiducials."""
         random = np.random.default_rng([self._seed, 2**31])
         coarse = random.standard_normal((self.file.height // 24 + 2, self.file.width // 24 + 2))
         texture = np.kron(coarse, np.ones((24, 24)))[: self.file.height, : self.file.width]
         grey = _WALL + 0.015 * texture
-        picture = np.repeat((np.clip(grey, 0.0, 1.0) ** _GAMMA)[..., None], 3, axis=2).astype(np.float32)
+        picture: AnyArray = np.repeat((np.clip(grey, 0.0, 1.0) ** _GAMMA)[..., None], 3, axis=2).astype(np.float32)
         if self.file.fiducials:
             for place in self.fiducials():
                 self._draw_disc(picture, place, FIDUCIAL_DIAMETER / 2.0, _paint(FIDUCIAL_COLOUR))
@@ -157,13 +157,13 @@ class Renderer:
         across = np.linspace(-0.5, 0.5, self.file.width)[None, :, None]
         return np.asarray(self.file.light * (1.0 + self.file.gradient * across), dtype=np.float32)
 
-    def _draw_disc(self, picture: Array, centre: Array, radius: float, colour: Array) -> None:
+    def _draw_disc(self, picture: AnyArray, centre: Array, radius: float, colour: Array) -> None:
         cut = self._window(centre[None], radius)
         if cut is not None:
             away = np.hypot(*np.moveaxis(self._places[cut] - centre, -1, 0))
             _blend(picture, cut, np.clip(0.5 - (away - radius) / self._pixel[cut], 0.0, 1.0), colour)
 
-    def _draw_bar(self, picture: Array, first: Array, second: Array, half: float, colour: Array) -> None:
+    def _draw_bar(self, picture: AnyArray, first: Array, second: Array, half: float, colour: Array) -> None:
         cut = self._window(np.stack([first, second]), half)
         if cut is None:
             return
@@ -173,7 +173,7 @@ class Renderer:
         away = np.hypot(*np.moveaxis(apart - part[..., None] * along, -1, 0))
         _blend(picture, cut, np.clip(0.5 - (away - half) / self._pixel[cut], 0.0, 1.0), colour)
 
-    def _draw_rod(self, picture: Array, rod: Rod, time: float) -> None:
+    def _draw_rod(self, picture: AnyArray, rod: Rod, time: float) -> None:
         begin, end = rod.begin.to("s"), rod.end.to("s")
         if not begin <= time <= end:
             return
@@ -195,7 +195,7 @@ class Renderer:
         return slice(int(low[1]), int(high[1])), slice(int(low[0]), int(high[0]))
 
 
-def _blend(picture: Array, cut: tuple[slice, slice], cover: Array, colour: Array) -> None:
+def _blend(picture: AnyArray, cut: tuple[slice, slice], cover: AnyArray, colour: AnyArray) -> None:
     share = cover[..., None].astype(np.float32)
     picture[cut] += share * (colour - picture[cut])
 

@@ -36,7 +36,7 @@ class Tracks:
     @property
     def markers(self) -> int:
         """Number of markers."""
-        return self.places.shape[1]
+        return int(self.places.shape[1])
 
     @property
     def deviation(self) -> Array:
