@@ -187,26 +187,27 @@ def _outline(share: Array, left: int, top: int) -> Array:
 def outline_error(edges: Sequence[Array], centres: Array) -> float:
     """Error of a centre that does not average out over time [px]: of pixels, and of compression in blocks.
 
-    A shift of the centre is the first harmonic of an outline's distance from it, over the angle. The third harmonic,
-    which neither a shift nor a lean of the disc makes, has the same cause and nearly the same size.
+    A shift of the centre is the first harmonic of an outline's distance from it, over the angle. The third and fifth
+    have the same causes and nearly the same size, and neither a shift nor a lean of the disc (the second) nor the
+    square grid of pixels (the fourth) makes them.
 
     Args:
         edges: Outlines of whole markers, each of shape (points, 2) [px].
         centres: Shape (outlines, 2) [px].
 
     Returns:
-        Root mean square of both coefficients of the third harmonic, without those beyond four deviations, which
+        Root mean square of the coefficients of these harmonics, without those beyond four deviations, which
         something that cuts into an outline makes; 0 without outlines.
     """
     squares = []
     for edge, centre in zip(edges, centres):
-        if len(edge) < 12:
+        if len(edge) < 16:
             continue
         away = edge - centre
         angle = np.arctan2(away[:, 1], away[:, 0])
-        columns = [np.ones_like(angle)] + [f(k * angle) for k in (1, 2, 3) for f in (np.cos, np.sin)]
+        columns = [np.ones_like(angle)] + [f(k * angle) for k in (1, 2, 3, 4, 5) for f in (np.cos, np.sin)]
         found = np.linalg.lstsq(np.stack(columns, axis=1), np.hypot(away[:, 0], away[:, 1]), rcond=None)[0]
-        squares += [found[5] ** 2, found[6] ** 2]
+        squares += [float(found[k]) ** 2 for k in (5, 6, 9, 10)]
     if not squares:
         return 0.0
     kept = [s for s in squares if s <= 16.0 * float(np.median(squares)) / 0.6745**2]

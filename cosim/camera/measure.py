@@ -95,7 +95,11 @@ def _finished(tracks: Tracks, rig: Rig, sight: Sight, notes: tuple[str, ...], sp
         return Measured(tracks.without(_vague(tracks, largest)), None, None, sight, notes, spots)
     links = fit_links(tracks.without(_vague(tracks, largest)))
     links = replace(links, tracks=links.tracks.without(_vague(links.tracks, largest)))
-    return Measured(links.tracks, links, largest_curvature(links.centres, links.centre_covariance), sight, notes, spots)
+    curvature = largest_curvature(links.centres, links.centre_covariance)
+    # What the fiducials leave open moves all places alike: it is no noise of a curvature.
+    doubt = sight.plane.doubt**2 * np.eye(2)
+    tracks = replace(links.tracks, covariance=links.tracks.covariance + doubt)
+    return Measured(tracks, links, curvature, sight, notes, spots)
 
 
 def _vague(tracks: Tracks, largest: float) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:

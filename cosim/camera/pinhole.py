@@ -53,7 +53,7 @@ class Pinhole:
         bent_a = a * swell + 2.0 * k[2] * a * b + k[3] * (square + 2.0 * a**2)
         bent_b = b * swell + k[2] * (square + 2.0 * b**2) + 2.0 * k[3] * a * b
         u, v = self.middle
-        return np.stack([self.focal * bent_a + u, self.focal * bent_b + v], axis=-1)
+        return np.asarray(np.stack([self.focal * bent_a + u, self.focal * bent_b + v], axis=-1))
 
     def places(self) -> Array:
         """Place (y, z) behind the centre of every pixel, shape (height, width, 2) [m], by Newton's method.

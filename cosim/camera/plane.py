@@ -21,10 +21,12 @@ class Plane:
     Args:
         matrix: Shape (3, 3).
         error: Root mean square distance of fiducials from where they should be [m]; 0 where four fix it exactly.
+        doubt: Deviation of a coordinate that the fiducials leave to all places in common [m].
     """
 
     matrix: Array
     error: float = 0.0
+    doubt: float = 0.0
 
     def places(self, pixels: Array) -> Array:
         """(y, z) [m] of pixels (points, 2)."""
@@ -84,7 +86,9 @@ def plane_of_points(pixels: Array, places: Array) -> Plane:
     # Eight numbers are fitted: the rest of the coordinates tells the error.
     freedom = 2 * len(pixels) - 8
     apart = found.places(pixels) - places
-    return Plane(found.matrix, float(np.sqrt(2.0 * np.sum(apart**2) / freedom)) if freedom else 0.0)
+    one = float(np.sqrt(np.sum(apart**2) / freedom)) if freedom else 0.0
+    # Of a fit with eight numbers to 2 n coordinates the mean variance of a fitted coordinate is 8 / 2 n of one's own.
+    return Plane(found.matrix, np.sqrt(2.0) * one, one * float(np.sqrt(4.0 / len(pixels))))
 
 
 def _mapped(matrix: Array, points: Array) -> Array:

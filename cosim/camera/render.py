@@ -66,9 +66,10 @@ class Renderer:
         #: Begin of every exposure [s], shape (frames,).
         self.begins = begin + period * np.arange(count)
         self._places = self._camera.places()
-        down, right = np.gradient(self._places, axis=(0, 1))
+        down = np.asarray(np.gradient(self._places, axis=0))
+        right = np.asarray(np.gradient(self._places, axis=1))
         area = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
-        self._pixel = np.asarray(np.sqrt(np.abs(area)))
+        self._pixel: AnyArray = np.sqrt(np.abs(area))
         self._wall = self._still()
         self._light = self._lighting()
 

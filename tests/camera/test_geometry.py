@@ -77,7 +77,8 @@ def test_no_circle_through_a_sliver():
 def test_curvature_of_an_arc_is_exact_and_its_deviation_that_of_noise():
     places = markers(8.0)
     centres = (places[0::2] + places[1::2]) / 2.0
-    assert curvatures(centres) == pytest.approx(np.full(4, -8.0), rel=1e-3)
+    # Chords of 22.5 mm that turn by 8 * 22.5e-3 each: the circle through their ends.
+    assert curvatures(centres) == pytest.approx(np.full(4, -2.0 * np.sin(8.0 * 0.0225 / 2.0) / 0.0225), rel=1e-9)
     sigma = 3e-5
     covariance = np.broadcast_to(sigma**2 * np.eye(2), (1, 6, 2, 2))
     stated = curvature_deviation(centres[None], covariance)[0]

@@ -101,7 +101,9 @@ def test_chessboards_that_show_none_are_counted(tmp_path):
 @pytest.mark.parametrize(("stamp", "shift"), [("begin", 0.005), ("middle", 0.0), ("end", -0.005)])
 def test_time_stamps_mean_what_the_rig_says(tmp_path, stamp, shift):
     (tmp_path / "t.csv").write_text("time\n" + "\n".join(str(20 * k + k % 2) for k in range(5)))
-    clock = ClockEntry.model_validate({"stamps": "t.csv", "unit": "ms", "exposure": "10 ms", "stamp": stamp, "offset": "3 s"})
+    clock = ClockEntry.model_validate(
+        {"stamps": "t.csv", "unit": "ms", "exposure": "10 ms", "stamp": stamp, "offset": "3 s"}
+    )
     times, _ = frame_times(clock, np.full(5, np.nan), 0.0, tmp_path / "rig.yaml", tmp_path)
     assert times == pytest.approx(3.0 + shift + 1e-3 * np.array([0, 21, 40, 61, 80]))
     with pytest.raises(InputError, match="5 times for 6 frames"):
@@ -133,7 +135,9 @@ def test_deeplabcut(tmp_path):
 
 
 def test_optitrack(tmp_path):
-    rows = [f"{k},{0.01 * k:.2f},1,2,{k},4,,{k}" if k == 5 else f"{k},{0.01 * k:.2f},1,2,{k},4,5,{k}" for k in range(12)]
+    rows = [
+        f"{k},{0.01 * k:.2f},1,2,{k},4,,{k}" if k == 5 else f"{k},{0.01 * k:.2f},1,2,{k},4,5,{k}" for k in range(12)
+    ]
     (tmp_path / "o.csv").write_text(OPTITRACK + "\n".join(rows))
     given = ImportFile.model_validate(
         {"title": "t", "markers": ["a", "b"], "unit": "mm", "y": "-z", "z": "y", "noise": "0.1 mm"}

@@ -10,9 +10,9 @@ from diagnosis.recording.recording import load_recording
 from diagnosis.recording.usage import usage
 
 
-def recording(path, noise, **keys):
+def recording(path, deviations, **keys):
     times = np.arange(20.0)
-    table = {"time": times, "z": times, "s": noise}
+    table = {"time": times, "z": times, "s": deviations}
     pd.DataFrame(table).to_csv(path / "data.csv", index=False)
     channel = {"column": "z", "unit": "mm", "factor": 2.0, "noise_column": "s", **keys}
     content = {"title": "t", "table": "data.csv", "channels": {"marker[1].z": channel}}
