@@ -1,4 +1,4 @@
-"""Tracking on rendered videos with known truth: `python -m benchmarks.camera RUN --out FOLDER [--cases ideal,rod]`.
+"""Tracking on rendered videos with known truth: `python -m benchmarks.camera RUN --out FOLDER [--cases 1,5]`.
 
 RUN is the folder of a finished run of `prototype_cantilever`. Writes FOLDER/camera.md.
 """
