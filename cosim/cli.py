@@ -14,6 +14,7 @@ from rich.table import Table
 from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.commands.play import play
+from cosim.commands.track import track
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
@@ -40,6 +41,7 @@ app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(play)
 app.command()(record)
+app.command()(track)
 app.command()(diagnose)
 app.command()(prove)
 

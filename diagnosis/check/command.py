@@ -1,4 +1,4 @@
-"""`cosim recording new` and `cosim recording check`: arguments, what is printed, exit codes."""
+"""`cosim recording new`, `import` and `check`: arguments, what is printed, exit codes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from cosim.errors import InputError
 from cosim.run_folder import write_atomically, writing
 from cosim.scenario import load_scenario
 
-app = typer.Typer(no_args_is_help=True, help="Recordings: begin one from a table, and check it against a scenario.")
+app = typer.Typer(
+    no_args_is_help=True, help="Recordings: begin one from a table or from tracks, and check it against a scenario."
+)
 
 
 @app.command()
@@ -41,6 +43,30 @@ def new(
         print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
     else:
         print(f"read it, then: cosim recording check {out} --scenario {scenario}")
+
+
+@app.command("import")
+def import_tracks(
+    table: Annotated[Path, typer.Argument(help="CSV of DeepLabCut, OptiTrack (Motive), or a plain tracker.")],
+    given: Annotated[Path, typer.Option("--as", help="What its points are on the rig (docs/camera.md).")],
+    out: Annotated[Path, typer.Option(help="Folder for the recording; nothing in it is overwritten.")],
+) -> None:
+    """Make a recording of markers that another tool tracked."""
+    from cosim.camera.import_file import load_import
+    from cosim.camera.importing import imported
+    from cosim.camera.imports import read_tracks
+    from cosim.camera.output import refuse_recording, write_tracks
+
+    refuse_recording(out)
+    loaded = load_import(given)
+    found = imported(read_tracks(table), loaded, given)
+    channels = write_tracks(out, found, loaded, f"cosim recording import {table}")
+    for note in found.notes:
+        print(note)
+    tracks = found.tracks
+    gaps = float((tracks.share == 0.0).mean())
+    print(f"{out}: {len(channels)} channels, {len(tracks.times)} rows from {tracks.times[0]:.6g} s to "
+          f"{tracks.times[-1]:.6g} s, {100.0 * gaps:.1f} % gaps")  # fmt: skip
 
 
 @app.command()

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
 import typer
 import xarray as xr
+from rich.console import Console
 
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
@@ -25,12 +27,21 @@ def record(
     ] = "",
     sensor: Annotated[Path | None, typer.Option(help="Sensors; default: perfect ones, ten times a second.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of noise, jitter and losses.")] = 0,
+    video: Annotated[
+        Path | None, typer.Option(help="Camera file: render frames of the fabric's side instead (docs/camera.md).")
+    ] = None,
 ) -> None:
-    """Run a scenario, read it with sensors, and write a recording.
+    """Run a scenario, read it with sensors, and write a recording; or render it as a camera sees it.
 
     The recording says what was done (programmes, room, how it started) and what a laboratory would know of its sensors
     (noise, steps, limits, bounds). Lag, gain, bias, drift and the offset of a clock are in its readings alone.
+    With `--video` the folder gets frames, the rig file for `cosim track`, and the true places of the markers.
     """
+    if video is not None:
+        if channels or sensor is not None:
+            raise InputError("--video", "", "a camera has neither --channels nor --sensor", "leave them out")
+        _render(scenario, out, video, seed)
+        return
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
 
     if (out / "recording.yaml").exists():
@@ -43,6 +54,29 @@ def record(
     write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}, seed {seed}", done))
     readings = sum(len(r.reading.times) for r in read.values())
     print(f"{out}: {len(read)} channels, {readings} readings of `{loaded.title}`")
+
+
+def _render(scenario: str, out: Path, camera: Path, seed: int) -> None:
+    """Frames of a run, or of the markers of a CSV file."""
+    from cosim.camera.camera_file import load_camera  # late: OpenCV is an extra
+    from cosim.camera.opencv import opencv
+    from cosim.camera.rendered import motion_of_results, motion_of_table, write_video
+
+    opencv()
+    loaded_camera = load_camera(camera)
+    if Path(scenario).suffix.lower() == ".csv":
+        motion, title = motion_of_table(Path(scenario)), f"Markers of {Path(scenario).name}"
+    else:
+        loaded, results = _results(scenario)
+        motion, title = motion_of_results(results, Path(scenario)), loaded.title
+    console = Console(stderr=True)
+    with console.status("rendering") if console.is_terminal else nullcontext() as status:
+        count = write_video(
+            out, loaded_camera, camera, motion, seed, title,
+            lambda done, total: status.update(f"{done} of {total} frames") if status else None,
+        )  # fmt: skip
+    print(f"{out}: {count} frames, rig.yaml and truth.csv; go on with: "
+          f"cosim track {out / 'frames'} --rig {out / 'rig.yaml'} --out RECORDING")  # fmt: skip
 
 
 def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:

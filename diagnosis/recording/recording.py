@@ -28,6 +28,9 @@ MOST_VALUES = 20_000
 #: Most changes of a recorded input: each becomes a point of the programme in a text that is read several times.
 MOST_CHANGES = 20_000
 
+#: Readings whose own deviation is above so many times the median are left out: one number stands for the others.
+UNCERTAIN = 3.0
+
 #: An estimated noise is at least this share of the median over the channels of one quantity.
 LIKE = 0.7
 
@@ -50,8 +53,8 @@ class Channel:
         bias_bound: How far its zero may be off, SI.
         is_clipped: Which samples lie at a limit, shape (samples,).
         dropped: Why rows of its column are not among the samples (`empty`, `invalid`, `before begin`, `after end`,
-            `thinned`; once it has been held against a scenario, `before start` and `after stop` of the simulated time),
-            with their number; `diagnosis.recording.usage` puts it into words.
+            `uncertain`, `thinned`; once it has been held against a scenario, `before start` and `after stop` of the
+            simulated time), with their number; `diagnosis.recording.usage` puts it into words.
     """
 
     name: str
@@ -265,11 +268,14 @@ class _Reader:
         factor, offset = self._conversion(entry.unit, unit, f"{key}.unit")
         times, clock = self._times(entry.table, entry.time, key)
         raw = self._table(entry.table).column(entry.column, f"{key}.column")
-        rows, dropped = self._rows(times, raw, entry, key)
+        own = self._own_noise(entry, key)
+        rows, dropped = self._rows(times, raw, own, entry, key)
         times, values = times[rows], factor * (entry.factor * raw[rows]) + offset
         limits = self._limits(entry, unit, key)
         quantum = self._difference(entry.quantum, unit, f"{key}.quantum")
         given = self._difference(entry.noise, unit, f"{key}.noise")
+        if own is not None:
+            given = abs(factor * float(entry.factor)) * float(np.sqrt(np.mean(own[rows] ** 2)))
         if given and entry.quantum is None:  # a noise that is estimated holds the rounding already
             quantum = find_quantum(values)
         return Channel(
@@ -280,7 +286,22 @@ class _Reader:
             _at_limit(values, limits, quantum), dropped,
         )  # fmt: skip
 
-    def _rows(self, times: Array, raw: Array, entry: ChannelEntry, key: str) -> tuple[AnyArray, dict[str, int]]:
+    def _own_noise(self, entry: ChannelEntry, key: str) -> Array | None:
+        """Deviation of each reading as it stands in its column, shape (rows,)."""
+        if entry.noise_column is None:
+            return None
+        table = self._table(entry.table)
+        raw, own = table.column(entry.column, f"{key}.column"), table.column(entry.noise_column, f"{key}.noise_column")
+        wrong = np.flatnonzero(~np.isnan(raw) & ~np.isin(raw, entry.invalid) & ~((own > 0.0) & (own <= MOST)))
+        if wrong.size:
+            row = int(wrong[0])
+            what = f"the deviation in row {row + 1} of its column, {own[row]:g}, is no positive number"
+            raise InputError(self.file, f"{key}.noise_column", what, "give one for each reading")
+        return own
+
+    def _rows(
+        self, times: Array, raw: Array, own: Array | None, entry: ChannelEntry, key: str
+    ) -> tuple[AnyArray, dict[str, int]]:
         """Numbers of the rows of a column that are its samples, and why the others are none."""
         is_invalid = np.isin(raw, entry.invalid)
         filled = self._known(times, np.where(is_invalid, math.nan, raw), key)
@@ -288,6 +309,10 @@ class _Reader:
         end = math.inf if self.sidecar.end is None else self.sidecar.end.to("s")
         early, late = filled & (times < begin), filled & (times > end)
         rows = np.flatnonzero(filled & ~early & ~late)
+        vague = 0
+        if own is not None and rows.size:
+            sure = own[rows] <= UNCERTAIN * float(np.median(own[rows]))
+            rows, vague = rows[sure], int(np.count_nonzero(~sure))
         if len(rows) < FEWEST_VALUES:
             raise InputError(self.file, key, f"it has {len(rows)} values, fewer than {FEWEST_VALUES}",
                              "leave the channel out, or correct begin, end and invalid")  # fmt: skip
@@ -296,6 +321,7 @@ class _Reader:
         counts = {
             "empty": int(np.count_nonzero(~filled & ~is_invalid)), "invalid": int(np.count_nonzero(is_invalid)),
             "before begin": int(np.count_nonzero(early)), "after end": int(np.count_nonzero(late)),
+            "uncertain": vague,
             "thinned": len(rows) - len(kept),
         }  # fmt: skip
         return kept, {reason: count for reason, count in counts.items() if count}
@@ -349,6 +375,8 @@ def _columns(sidecar: Sidecar) -> dict[str, set[str]]:
     for entry in entries:
         own = found.setdefault(entry.table or sidecar.table, set())
         own |= {entry.column, (entry.time or sidecar.time).column}
+        if isinstance(entry, ChannelEntry) and entry.noise_column is not None:
+            own.add(entry.noise_column)
     return found
 
 

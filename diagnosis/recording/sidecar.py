@@ -49,6 +49,11 @@ class ChannelEntry(Strict):
     noise: AnyQuantity | None = Field(
         default=None, description="Standard deviation of the sensor; estimated where it is not given."
     )
+    noise_column: str | None = Field(
+        default=None,
+        description="Column with the standard deviation of each reading, in the unit and with the factor of the "
+        "column; readings that are far less certain than the others are left out.",
+    )
     quantum: AnyQuantity | None = Field(default=None, description="Step of a quantised reading.")
     minimum: AnyQuantity | None = Field(default=None, description="Reading at which the sensor clips at the bottom.")
     maximum: AnyQuantity | None = Field(default=None, description="Reading at which the sensor clips at the top.")
@@ -61,6 +66,12 @@ class ChannelEntry(Strict):
     invalid: list[Number] = Field(default=[], description="Readings that mean `no value`.")
     table: str | None = Field(default=None, description="Table of this channel; default: that of the recording.")
     time: Clock | None = Field(default=None, description="Clock of this channel; default: that of the recording.")
+
+    @model_validator(mode="after")
+    def _check(self) -> ChannelEntry:
+        if self.noise is not None and self.noise_column is not None:
+            raise ValueError("give `noise` or `noise_column`, not both")
+        return self
 
 
 class InputEntry(Strict):

@@ -64,6 +64,7 @@ def _usage(channel: Channel, margin: float, switches: Sequence[float], start: fl
         "after end": "after `end`",
         "before start": "before the simulated time",
         "after stop": "after the simulated time",
+        "uncertain": "far less certain than the others",
         "thinned": "left out of so many, at even distances",
     }
     found = {words[reason]: count for reason, count in channel.dropped.items()}
