@@ -11,7 +11,8 @@ _HEAD = """\
 # The library of laws for systems of FMUs
 
 Written by `python -m diagnosis.laws.document` from the files in `diagnosis/laws/`;
-[laws.md](laws.md) says where they are tried. `rate` is what the law is added to; bounds are multiples of the characteristic size of the product named.
+[laws.md](laws.md) says where they are tried. `rate` is what the law is added to; bounds are multiples of the
+characteristic size of the product named.
 """
 
 
