@@ -289,10 +289,17 @@ def versions() -> dict[str, str]:
             found[package] = importlib.metadata.version(package)
         except importlib.metadata.PackageNotFoundError:
             found[package] = "not installed"
+    found["commit"] = _commit()
+    return found
+
+
+def _commit() -> str:
+    """Commit of a clone; an installation may lie inside the repository of something else, so it has none."""
     root = Path(__file__).resolve().parent.parent
+    if not (root / ".git").exists():
+        return "unknown"
     command = ["git", "-C", str(root), "describe", "--always", "--dirty"]
     try:
-        found["commit"] = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
-        found["commit"] = "unknown"
-    return found
+        return "unknown"

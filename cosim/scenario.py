@@ -27,6 +27,7 @@ from cosim.components import (
 )
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
+from cosim.shipped import SCENARIOS
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
@@ -225,7 +226,7 @@ def load_scenario(path: str | Path) -> Scenario:
 
 def scenario_folder() -> Path:
     """Folder of the shipped scenarios."""
-    return Path(__file__).resolve().parent.parent / "scenarios"
+    return SCENARIOS
 
 
 def shipped_scenarios() -> dict[str, Path]:

@@ -20,11 +20,11 @@ from cosim.compare.table import Columns, as_csv, as_json, as_markdown, show
 from cosim.compare.variants import Variant, actuator_name, label_of, variant
 from cosim.errors import InputError
 from cosim.figures.draw import open_run
-from cosim.fmu_tools.sources import shipped_actuators
 from cosim.progress import progress_bar
 from cosim.run import RunStopped, run
 from cosim.run_folder import RunFolder, write_atomically, writing
 from cosim.scenario import Scenario, load_scenario
+from cosim.shipped import shipped_actuators
 
 INTERRUPTED = "interrupted; the same command goes on from here"
 

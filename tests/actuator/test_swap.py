@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from cosim.fmu_tools.sources import shipped_actuators
+from cosim.shipped import shipped_actuators
 from cosim.run import run
 from cosim.scenario import parse_scenario
 
