@@ -26,6 +26,7 @@ from cosim.components import (
     nanoseconds,
 )
 from cosim.errors import InputError
+from cosim.nearest import did_you_mean
 from cosim.quantity import In, PhysicalValue
 from cosim.shipped import SCENARIOS
 from cosim.yaml_file import input_error, parse_yaml, read_text
@@ -211,7 +212,7 @@ def scenario_of_data(data: object, source: Path) -> Scenario:
     try:
         return Scenario.model_validate({**data, "path": source})
     except pydantic.ValidationError as error:
-        raise input_error(source, error, _REMEDY) from error
+        raise input_error(source, error, _REMEDY, Scenario) from error
 
 
 def load_scenario(path: str | Path) -> Scenario:
@@ -242,7 +243,8 @@ def find_scenario(path: str | Path) -> Path:
     shipped = shipped_scenarios()
     if str(path) in shipped:
         return shipped[str(path)]
-    raise InputError(path, "", "there is no such scenario", f"give a file, or one of: {', '.join(shipped)}")
+    problem = f"there is no such scenario{did_you_mean(str(path), shipped)}"
+    raise InputError(path, "", problem, f"give a file, or one of: {', '.join(shipped)}")
 
 
 def json_schema() -> dict[str, Any]:
