@@ -13,6 +13,8 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.example import example
+from cosim.commands.options import Changes, ScenarioArgument, complete_scenario, show_version
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
@@ -27,7 +29,6 @@ FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 app = typer.Typer(
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     help="Co-simulation of active chainmail: ngspice, actuator FMUs and Bullet behind one algorithm.",
     epilog="Begin with `cosim list`, then `cosim run single_coil_heating`. See docs/ for the file formats.",
@@ -37,11 +38,19 @@ app.add_typer(fmu.app, name="fmu")
 app.add_typer(ssp.app, name="ssp")
 app.add_typer(recording.app, name="recording")
 app.command()(compare)
+app.command()(example)
 app.command()(record)
 app.command()(diagnose)
 app.command()(prove)
 
-ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
+
+@app.callback()
+def _common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version and end.")
+    ] = False,
+) -> None:
+    """Options that stand before every command."""
 
 
 @app.command("list")
@@ -54,11 +63,11 @@ def list_scenarios() -> None:
 
 
 @app.command()
-def validate(scenario: ScenarioArgument) -> None:
+def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
     """Check a scenario, its FMUs and its connections without running it."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
 
-    loaded = load_scenario(scenario)
+    loaded = load_scenario(scenario, changes or ())
     assembly = assemble(loaded)
     counts = {n: len(u.variables) for n, u in assembly.system.units.items()}
     loops = dict.fromkeys(str(loop) for loop in [*assembly.system.initial_loops, *assembly.system.loops])
@@ -78,39 +87,50 @@ def schema() -> None:
 @app.command()
 def run(
     scenario: Annotated[
-        str, typer.Argument(help="A scenario file or name, or an .ssp file; with --resume it may be a run folder.")
+        str,
+        typer.Argument(
+            help="A scenario file or name, or an .ssp file; with --resume it may be a run folder.",
+            autocompletion=complete_scenario,
+        ),
     ],
     out: Annotated[Path | None, typer.Option(help="Run folder; default runs/SCENARIO.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
     csv: Annotated[bool, typer.Option("--csv", help="Write all recorded values as results.csv too.")] = False,
+    changes: Changes = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace the run that the folder holds, once this one has begun.")
+    ] = False,
 ) -> None:
     """Run a scenario and write a run folder.
 
     Ctrl-C keeps what is computed; `--resume` goes on from there to the same result.
     """
-    folder = _folder(scenario, out, resume)
-    loaded = _loaded(scenario, folder, resume)
+    if resume and (changes or overwrite):
+        option = "--set" if changes else "--overwrite"
+        raise InputError(option, "", "a run that goes on stays as it is", f"leave out `{option}` or `--resume`")
+    folder = _folder(scenario, out, resume, overwrite)
+    loaded = _loaded(scenario, folder, resume, changes or [])
     run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder)
     print(f"{folder.path}: {loaded.title}")
 
 
-def _loaded(scenario: str, folder: RunFolder, resume: bool) -> Scenario:
+def _loaded(scenario: str, folder: RunFolder, resume: bool, changes: list[str]) -> Scenario:
     is_imported = ssp.is_ssp(scenario)
     if resume and (is_imported or Path(scenario).is_dir()):
         return load_scenario(folder.scenario)
     if is_imported:
         folder.refuse_existing()
-        return ssp.scenario_of(Path(scenario), folder.path / "imported")
-    return load_scenario(scenario)
+        return ssp.scenario_of(Path(scenario), folder.path / "imported", changes)
+    return load_scenario(scenario, changes)
 
 
-def _folder(scenario: str, out: Path | None, resume: bool) -> RunFolder:
+def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> RunFolder:
     if out is None and resume and Path(scenario).is_dir():
         out = Path(scenario)
-    folder = RunFolder(out or Path("runs") / Path(scenario).stem)
+    folder = RunFolder(out or Path("runs") / Path(scenario).stem, overwrites=overwrite)
     if resume and not folder.scenario.is_file():
         raise InputError(folder.path, "", "there is no run to resume here", "give its folder with `--out`")
     return folder
@@ -124,7 +144,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress, csv)
+            run_scenario(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():

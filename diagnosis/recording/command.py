@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 import xarray as xr
 
+from cosim.commands.options import Changes, complete_scenario
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, load_scenario
@@ -18,13 +19,17 @@ from diagnosis.recording.write import Notes, write_recording
 
 
 def record(
-    scenario: Annotated[str, typer.Argument(help="A scenario file or name, or the folder of a run.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(help="A scenario file or name, or the folder of a run.", autocompletion=complete_scenario),
+    ],
     out: Annotated[Path, typer.Option(help="Folder for the recording.")],
     channels: Annotated[
         str, typer.Option(help="Quantities, separated by spaces, for example `supply.current coil[*].temperature`.")
     ] = "",
     sensor: Annotated[Path | None, typer.Option(help="Sensors; default: perfect ones, ten times a second.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of noise, jitter and losses.")] = 0,
+    changes: Changes = None,
 ) -> None:
     """Run a scenario, read it with sensors, and write a recording.
 
@@ -36,19 +41,21 @@ def record(
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
     sensors = SensorFile() if sensor is None else load_sensors(sensor)
-    loaded, results = _results(scenario)
+    loaded, results = _results(scenario, changes or [])
     done = conditions(loaded)
     done["time"]["stop"] = f"{float(results['time'].values[-1]):.12g} s"
     read = read_results(results, channels.split(), sensors, seed, sensor or Path(scenario))
-    write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}, seed {seed}", done))
+    write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}{''.join(f' --set {c}' for c in changes or [])}, seed {seed}", done))
     readings = sum(len(r.reading.times) for r in read.values())
     print(f"{out}: {len(read)} channels, {readings} readings of `{loaded.title}`")
 
 
-def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
+def _results(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:
     """Scenario and results of a finished run, or of one made now."""
     if not Path(scenario).is_dir():
-        return _run(scenario)
+        return _run(scenario, changes)
+    if changes:
+        raise InputError("--set", "", f"{scenario} is a run that is made already", "give its scenario instead")
     folder = RunFolder(Path(scenario))
     if not folder.is_complete():
         raise InputError(folder.path, "", "this folder holds no complete run", "give a scenario, or finish the run")
@@ -56,11 +63,11 @@ def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
         return load_scenario(folder.scenario), stored.load()
 
 
-def _run(scenario: str) -> tuple[Scenario, xr.Dataset]:
+def _run(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:
     from cosim.progress import progress_bar  # late: `--help` must not load Bullet
     from cosim.run import RunStopped, run
 
-    loaded = load_scenario(scenario)
+    loaded = load_scenario(scenario, changes)
     try:
         with progress_bar(loaded.title) as on_progress:
             return loaded, run(loaded, on_progress=on_progress)
