@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
 from diagnosis.report.display import clean, number
@@ -28,7 +28,7 @@ def lead(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     units = Units(diagnosis.units)
     part = "held out" if one.is_held_out else "training: no recording was held out"
     whose = f"{clean(one.channel)}, {clean(one.recording)} ({part})" if one.recording else f"{clean(one.channel)} ({part})"
-    figure = drawn(lambda f: _paint(f.subplots(), one, units), 5.2, 2.9)
+    figure = drawn(lambda f: _paint(f, one, units), 5.2, 3.6)
     return element(
         "aside",
         element("p", element("strong", told(one, fit, units)), class_="number"),
@@ -61,14 +61,23 @@ def _stages(one: Series) -> list[str]:
     return [STAGES[0], own[-1]] if len(own) > 1 else [STAGES[0]]
 
 
-def _paint(axes: Axes, one: Series, units: Units) -> None:
+def _paint(figure: Figure, one: Series, units: Units) -> None:
+    """Above what was measured and what the models say, below measured minus simulated with the noise of the sensor."""
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
     scaled = units.axis(one.measured, one.unit)
+    factor, unit = units.difference(one.unit)
     keep = thinned(one.measured)
-    axes.plot(one.times[keep], scaled(one.measured[keep]), ".", ms=3.0, color="#2d3748", label="measured")
+    upper.plot(one.times[keep], scaled(one.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
+    noise = 2.0 * factor * float(np.sqrt(np.nanmean(np.square(one.deviation))))
+    lower.axhspan(-noise, noise, color="#cbd5e0", lw=0, label="2 deviations of the sensor")
     for stage in _stages(one):
-        values = one.curves[stage]
+        values, look = one.curves[stage], {**STAGE_LOOKS[stage], "lw": 1.4}
         keep = thinned(values)
-        axes.plot(one.times[keep], scaled(values[keep]), label=_LAST.get(stage, stage), **{**STAGE_LOOKS[stage], "lw": 1.5})
-    axes.set(xlabel="time [s]", ylabel=labelled(clean(one.channel).rpartition(".")[2], scaled.unit))
-    axes.margins(x=0.01)
-    axes.legend(frameon=False, fontsize=8, ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+        upper.plot(one.times[keep], scaled(values[keep]), label=_LAST.get(stage, stage), **look)
+        rest = factor * (one.measured - values)
+        keep = thinned(rest)
+        lower.plot(one.times[keep], rest[keep], **{**look, "lw": 1.0})
+    upper.set_ylabel(labelled(clean(one.channel).rpartition(".")[2], scaled.unit))
+    lower.set(xlabel="time [s]", ylabel=labelled("residual", unit))
+    lower.margins(x=0.01)
+    figure.legend(loc="outside upper left", frameon=False, ncols=2, fontsize=8)
