@@ -54,7 +54,9 @@ class Ngspice:
         logging.getLogger("PySpice").addHandler(logging.NullHandler())
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", SyntaxWarning)  # of its docstrings, when Python 3.12 or newer compiles it
+                warnings.simplefilter(
+                    "ignore", SyntaxWarning
+                )  # of its docstrings, when Python 3.12 or newer compiles it
                 from PySpice.Spice.NgSpice.Shared import NgSpiceShared, ffi
         except ModuleNotFoundError as error:
             raise PySpiceMissingError(error.name or "PySpice") from error

@@ -14,7 +14,7 @@ from rich.table import Table
 from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.commands.example import example
-from cosim.commands.options import Changes, ScenarioArgument, complete_scenario, show_version
+from cosim.commands.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
@@ -97,6 +97,7 @@ def run(
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
     csv: Annotated[bool, typer.Option("--csv", help="Write all recorded values as results.csv too.")] = False,
+    figures: Formats = "png",
     changes: Changes = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the run that the folder holds, once this one has begun.")
@@ -109,11 +110,12 @@ def run(
     if resume and (changes or overwrite):
         option = "--set" if changes else "--overwrite"
         raise InputError(option, "", "a run that goes on stays as it is", f"leave out `{option}` or `--resume`")
+    formats = formats_of(figures)
     folder = _folder(scenario, out, resume, overwrite)
     loaded = _loaded(scenario, folder, resume, changes or [])
     run_into(loaded, folder, resume, csv)
     if plots:
-        _draw(folder)
+        _draw(folder, formats)
     print(f"{folder.path}: {loaded.title}")
 
 
@@ -154,21 +156,22 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
 
 
-def _draw(folder: RunFolder) -> None:
+def _draw(folder: RunFolder, formats: list[str]) -> None:
     from cosim.figures.draw import draw_run
 
-    for path in draw_run(folder.path):
+    for path in draw_run(folder.path, formats):
         print(path)
 
 
 @app.command()
 def plot(
-    runs: Annotated[list[Path], typer.Argument(help="Run folders; Figure 3 is drawn from all of them together.")],
+    runs: Annotated[list[Path], typer.Argument(help="Run folders; the curvature is drawn of all of them together.")],
+    formats: Formats = "png",
 ) -> None:
     """Draw the figures of one or more runs into the first run's folder."""
     from cosim.figures.draw import draw_runs
 
-    for path in draw_runs(runs):
+    for path in draw_runs(runs, formats_of(formats)):
         print(path)
 
 

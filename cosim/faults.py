@@ -57,7 +57,9 @@ def _choice(fault: Fault) -> str:
 
 def _tag(fault: Fault) -> str:
     tags = [tag.strip("' ") for tag in str(fault["ctx"]["expected_tags"]).split(",")]
-    return f"`kind` must be one of: {', '.join(tags)}, not {shown(fault['ctx']['tag'])}{_hint(fault['ctx']['tag'], tags)}"
+    return (
+        f"`kind` must be one of: {', '.join(tags)}, not {shown(fault['ctx']['tag'])}{_hint(fault['ctx']['tag'], tags)}"
+    )
 
 
 def _hint(given: object, known: Iterable[str]) -> str:
@@ -78,9 +80,11 @@ _WORDS: dict[str, Callable[[Fault], str]] = {
     "literal_error": _choice,
     "enum": _choice,
     "union_tag_invalid": _tag,
-    "union_tag_not_found": lambda fault: "the key `kind` is missing"
-    if isinstance(fault["input"], Mapping)
-    else f"{shown(fault['input'])} is not a mapping with the key `kind`",
+    "union_tag_not_found": lambda fault: (
+        "the key `kind` is missing"
+        if isinstance(fault["input"], Mapping)
+        else f"{shown(fault['input'])} is not a mapping with the key `kind`"
+    ),
     "string_type": _is_not("text; put it in quotes if it is meant as text"),
     "string_unicode": _is_not("text that can be read"),
     "string_too_short": _count("least", "min_length"),
@@ -116,7 +120,7 @@ _WORDS: dict[str, Callable[[Fault], str]] = {
     "recursion_loop": lambda fault: "it contains itself",
 }
 #: Kinds that only say what a value is not. Of the members of a union another one says more.
-_WEAK = frozenset(kind for kind in _WORDS if kind.endswith("_type") or kind.endswith("_from_float"))
+_WEAK = frozenset(kind for kind in _WORDS if kind.endswith(("_type", "_from_float")))
 
 
 def words(fault: Fault, model: type[BaseModel] | None = None) -> str:

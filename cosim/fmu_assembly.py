@@ -73,7 +73,8 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
         return path
     known = shipped_actuators()
     if component.fmu not in known:
-        raise InputError(source, "fmu", f"there is no shipped FMU `{component.fmu}`{did_you_mean(component.fmu, known)}",
+        hint = did_you_mean(component.fmu, known)
+        raise InputError(source, "fmu", f"there is no shipped FMU `{component.fmu}`{hint}",
                          f"give the path of a .fmu file, or one of: {', '.join(known)}")  # fmt: skip
     name = file_name(component.fmu, component.fmi, coils if component.fmi == 2 else DEFAULT_COILS)
     there = ", ".join(sorted(p.name for p in fmu_folder().glob("*.fmu"))) or "no FMU"

@@ -12,7 +12,7 @@ from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.yaml_file import parse_yaml
 
-_EXAMPLE = "write it like `--set time.stop=\"5 s\"`, or with the name of a component: `--set fabric.rows=8`"
+_EXAMPLE = 'write it like `--set time.stop="5 s"`, or with the name of a component: `--set fabric.rows=8`'
 #: A key, a name in double quotes that may hold dots, or a place in a list.
 _PART = re.compile(r'"(?P<quoted>[^"]+)"|(?P<key>[^.\[\]"]+)|\[(?P<place>\d+)\]')
 #: A key to the one that it stands in place of: a programme's output has either.
@@ -50,7 +50,9 @@ def _path(change: str, key: str, data: Any, keys: Sequence[str]) -> list[str | i
     while at < len(key):
         match = _PART.match(key, at)
         if match is None:
-            raise InputError(f"--set {change}", "", f"`{key}` is no key: what follows `{key[:at]}` cannot be read", _EXAMPLE)
+            raise InputError(
+                f"--set {change}", "", f"`{key}` is no key: what follows `{key[:at]}` cannot be read", _EXAMPLE
+            )
         parts.append(int(match["place"]) if match["place"] else match["quoted"] or match["key"].strip())
         at = match.end()
         if key[at : at + 1] == "." and at + 1 < len(key):

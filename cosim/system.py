@@ -72,7 +72,9 @@ class System:
 
     def _variable(self, end: tuple[str, str], causalities: set[Causality], connection: Connection) -> Variable:
         if end[0] not in self.units:
-            raise ConnectionFault(f"{connection}: there is no component {end[0]}{_instead(end[0], self.units, 'there are')}")
+            raise ConnectionFault(
+                f"{connection}: there is no component {end[0]}{_instead(end[0], self.units, 'there are')}"
+            )
         variables = self.units[end[0]].variables
         found = variables.get(end[1])
         if found is None or found.causality not in causalities:

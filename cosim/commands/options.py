@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from cosim.errors import InputError
+from cosim.nearest import did_you_mean
 from cosim.shipped import SCENARIOS
 
 
@@ -32,9 +34,7 @@ def version() -> str:
 
 ScenarioArgument = Annotated[
     str,
-    typer.Argument(
-        help="A scenario file, or the name of a shipped scenario.", autocompletion=complete_scenario
-    ),
+    typer.Argument(help="A scenario file, or the name of a shipped scenario.", autocompletion=complete_scenario),
 ]
 Changes = Annotated[
     list[str] | None,
@@ -42,3 +42,24 @@ Changes = Annotated[
         "--set", metavar="KEY=VALUE", help="Replace a key of the scenario: `--set fabric.rows=8`; may be given again."
     ),
 ]
+Formats = Annotated[
+    str, typer.Option("--format", metavar="FORMATS", help="Of figures: png, svg, pdf, or several with commas.")
+]
+#: Formats in which figures are written; cosim.figures.style has the same ones, and a test compares them.
+FORMATS = ("png", "svg", "pdf")
+
+
+def formats_of(given: str) -> list[str]:
+    """Formats of `--format`, each once.
+
+    Raises:
+        InputError: There is no such format.
+    """
+    names = list(dict.fromkeys(name.strip().lower() for name in given.split(",") if name.strip()))
+    for name in names:
+        if name not in FORMATS:
+            raise InputError("--format", "", f"there is no format `{name}`{did_you_mean(name, FORMATS)}",
+                             f"give one or several of: {', '.join(FORMATS)}")  # fmt: skip
+    if not names:
+        raise InputError("--format", "", "no format is given", f"give one or several of: {', '.join(FORMATS)}")
+    return names

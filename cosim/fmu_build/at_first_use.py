@@ -48,6 +48,7 @@ def shipped_fmu(name: str, version: int, coils: int) -> Path | None:
             build_c(source, version, size, made)
             made.replace(path)
     except OSError as error:
-        raise InputError(path.parent, "", f"{path.name} cannot be built here: {error.strerror or error}",
-                         "make this folder writable, or name a folder with built FMUs: COSIM_FMU_PATH") from error  # fmt: skip
+        problem = f"{path.name} cannot be built here: {error.strerror or error}"
+        remedy = "make this folder writable, or name a folder with built FMUs: COSIM_FMU_PATH"
+        raise InputError(path.parent, "", problem, remedy) from error
     return path

@@ -45,7 +45,13 @@ def record(
     done = conditions(loaded)
     done["time"]["stop"] = f"{float(results['time'].values[-1]):.12g} s"
     read = read_results(results, channels.split(), sensors, seed, sensor or Path(scenario))
-    write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}{''.join(f' --set {c}' for c in changes or [])}, seed {seed}", done))
+    write_recording(
+        out,
+        read,
+        Notes(
+            loaded.title, f"cosim record {scenario}{''.join(f' --set {c}' for c in changes or [])}, seed {seed}", done
+        ),
+    )
     readings = sum(len(r.reading.times) for r in read.values())
     print(f"{out}: {len(read)} channels, {readings} readings of `{loaded.title}`")
 

@@ -69,15 +69,22 @@ def _matrix(classes: tuple[FaultClass, ...]) -> list[Html]:
     faults = [(fault, one) for one in classes for fault in one.faults]
     if not 2 <= len(faults) <= _MATRIX:
         return []
-    head = element("tr", element("th", ""), element("th", element("abbr", "seen", title="Whether it shows at all.")),
-                   *(element("th", element("abbr", str(n), title=clean(fault))) for n, (fault, _) in enumerate(faults, 1)))
+    head = element(
+        "tr",
+        element("th", ""),
+        element("th", element("abbr", "seen", title="Whether it shows at all.")),
+        *(element("th", element("abbr", str(n), title=clean(fault))) for n, (fault, _) in enumerate(faults, 1)),
+    )
     rows = [
         element("tr", element("th", f"{n}  {clean(fault)}", scope="row"),
                 element("td", "yes" if own.is_detectable else "no", class_="met" if own.is_detectable else "missed"),
                 *(_pair(fault, own, other, of) for other, of in faults))
         for n, (fault, own) in enumerate(faults, 1)
     ]  # fmt: skip
-    note = "Filled: the two cannot be told apart by these channels. Open: they can. The number of a column is that of a row."
+    note = (
+        "Filled: by the structure of the equations these channels cannot tell the two apart. Open: they can. Columns are "
+        "numbered as rows."
+    )
     grid = element("table", element("thead", head), element("tbody", *rows), class_="matrix")
     return [element("div", grid, class_="wide"), element("p", note, class_="note")]
 

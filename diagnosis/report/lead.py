@@ -27,7 +27,9 @@ def lead(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     one, fit = found
     units = Units(diagnosis.units)
     part = "held out" if one.is_held_out else "training: no recording was held out"
-    whose = f"{clean(one.channel)}, {clean(one.recording)} ({part})" if one.recording else f"{clean(one.channel)} ({part})"
+    whose = (
+        f"{clean(one.channel)}, {clean(one.recording)} ({part})" if one.recording else f"{clean(one.channel)} ({part})"
+    )
     figure = drawn(lambda f: _paint(f, one, units), 5.2, 3.6)
     return element(
         "aside",
@@ -52,7 +54,10 @@ def told(one: Series, fit: ChannelFit, units: Units) -> str:
     sizes = [number(factor * fit.rmse[stage]) for stage in _stages(one)]
     noise = number(factor * float(np.sqrt(np.nanmean(np.square(one.deviation)))))
     quantity = clean(one.channel).rpartition(".")[2].replace("_", " ")
-    return f"{quantity} error {' → '.join(sizes)} {unit}".rstrip() + f" (RMSE), noise of its sensor {noise} {unit}".rstrip()
+    return (
+        f"{quantity} error {' → '.join(sizes)} {unit}".rstrip()
+        + f" (RMSE), noise of its sensor {noise} {unit}".rstrip()
+    )
 
 
 def _stages(one: Series) -> list[str]:

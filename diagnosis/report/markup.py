@@ -7,7 +7,6 @@ from html import escape
 
 from diagnosis.report.display import clean
 
-
 #: Technical words of tables and what they mean.
 MEANINGS = {
     "RMSE": "Root mean square of measured minus simulated, in the unit of the quantity.",
@@ -33,9 +32,13 @@ class Html(str):
 
 
 def element(name: str, *children: str, **attributes: str) -> Html:
-    """`<name attributes>children</name>`; in the name of an attribute a trailing `_` is left out (`class_`), another one
-    stands for a hyphen (`aria_label`)."""
-    pairs = "".join(f' {key.rstrip("_").replace("_", "-")}="{escape(clean(value))}"' for key, value in attributes.items())
+    """`<name attributes>children</name>`.
+
+    In the name of an attribute a trailing `_` is left out (`class_`), and another one stands for a hyphen (`aria_label`).
+    """
+    pairs = "".join(
+        f' {key.rstrip("_").replace("_", "-")}="{escape(clean(value))}"' for key, value in attributes.items()
+    )
     return Html(f"<{name}{pairs}>{joined(children)}</{name}>")
 
 

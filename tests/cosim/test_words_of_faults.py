@@ -14,7 +14,9 @@ from cosim.nearest import did_you_mean, nearest
 from cosim.scenario import Scenario, load_scenario, parse_scenario, shipped_scenarios
 
 #: How the library that checks types begins its own sentences.
-FOREIGN = re.compile(r"Input should|Field required|Extra inputs|valid (string|integer|number|list|dict)|pydantic|Value error")
+FOREIGN = re.compile(
+    r"Input should|Field required|Extra inputs|valid (string|integer|number|list|dict)|pydantic|Value error"
+)
 BASE = "hanging_coils"
 
 

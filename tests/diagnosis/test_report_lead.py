@@ -48,7 +48,11 @@ def test_the_number_is_in_the_unit_of_the_user_and_names_the_noise(answer: Diagn
 
 
 def test_the_worst_held_out_channel_is_taken_and_training_only_where_nothing_was_held_out(answer: Diagnosis) -> None:
-    series = [channel("string[1].current", True), channel("string[2].current", True), channel("string[2].current", False)]
+    series = [
+        channel("string[1].current", True),
+        channel("string[2].current", True),
+        channel("string[2].current", False),
+    ]
     found = worst(answer, series)
     assert found is not None
     assert found[0] is series[1]

@@ -1,4 +1,4 @@
-"""The wheel is whole: built from what the repository holds, installed outside the clone, it does what the README says."""
+"""The wheel is whole: built from what the repository holds, installed outside the clone, it does what it promises."""
 
 import os
 import subprocess

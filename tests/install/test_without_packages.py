@@ -38,7 +38,9 @@ def cosim_without(shipped_fmus, tmp_path):
 
 
 def with_cvode(folder):
-    text = (SCENARIOS / "water_bath.yaml").read_text().replace("kind: actuator", "kind: actuator\n    integrator: cvode")
+    text = (
+        (SCENARIOS / "water_bath.yaml").read_text().replace("kind: actuator", "kind: actuator\n    integrator: cvode")
+    )
     (folder / "cvode.yaml").write_text(text)
     return folder / "cvode.yaml"
 
@@ -46,7 +48,12 @@ def with_cvode(folder):
 @pytest.mark.parametrize(
     ("hidden", "scenario", "what", "remedy"),
     [
-        ("pybullet", "pendulum", "a fabric or a pendulum needs pybullet, and it is not installed", "pip install pybullet"),
+        (
+            "pybullet",
+            "pendulum",
+            "a fabric or a pendulum needs pybullet, and it is not installed",
+            "pip install pybullet",
+        ),
         ("sksundae", "cvode", "`integrator: cvode` needs scikit-sundae", "pip install scikit-sundae"),
         ("PySpice", "hanging_coils", "a circuit needs PySpice, and PySpice is not installed", "pip install PySpice"),
         ("cffi", "hanging_coils", "and cffi, which PySpice imports, is not installed", "pip install PySpice"),
