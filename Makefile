@@ -12,7 +12,7 @@ JOBS ?= 2
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: help run plan prove real test test-slow test-wheel docs check lint types imports fmus setup dev bench lock clean distclean
+.PHONY: help run plan prove real test test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,8 +43,12 @@ test: dev fmus  ## the test suite (about ten minutes on two cores)
 test-wheel: dev  ## build the wheel, install it outside the clone and use it (two minutes)
 	$(BIN)/python -m pytest -m slow tests/install
 
-docs: $(VENV)/.installed-docs  ## the documents as a site, in build/site
-	$(BIN)/python -m docs.site --out build/site
+wheel: setup  ## the package, in build/wheel
+	@mkdir -p build/wheel
+	$(BIN)/python -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w build/wheel .
+
+docs: $(VENV)/.installed-docs  ## the documents as a searchable site, in build/site
+	$(BIN)/python -m mkdocs build --quiet --strict
 
 test-slow: dev fmus  ## tests that take minutes each
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
@@ -92,9 +96,14 @@ $(VENV)/.installed-dev: requirements-dev.lock $(VENV)/.installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.lock
 	@touch $@
 
+$(VENV)/.installed-docs: requirements-docs.lock $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
+	@touch $@
+
 lock:  ## pin the newest versions that pyproject.toml allows (needs uv)
 	uv pip compile pyproject.toml --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements.lock
 	uv pip compile pyproject.toml --extra dev -c requirements.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-dev.lock
+	uv pip compile pyproject.toml --extra docs -c requirements-dev.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-docs.lock
 
 clean:  ## remove what is built; runs and the virtual environment stay
 	rm -rf build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

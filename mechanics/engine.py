@@ -8,8 +8,8 @@ from cosim.unit import UnitError
 from mechanics.quiet import without_output
 
 REMEDY = (
-    "install it, `pip install pybullet`: Python up to 3.11 on Linux x86-64 has a wheel; elsewhere pip compiles it, which "
-    "needs a C++ compiler and many minutes"
+    "install it, `pip install pybullet`: Python up to 3.11 on Linux x86-64 has a wheel; elsewhere pip compiles it, "
+    "which needs a C++ compiler and many minutes"
 )
 
 

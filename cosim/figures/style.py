@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -44,7 +45,7 @@ def figure(
         title: What it shows, above.
         run: Which run it shows, small below the title.
     """
-    look = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "figure.dpi": 150,
+    look: dict[Any, Any] = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "figure.dpi": 150,
             "svg.hashsalt": "figure", "svg.fonttype": "path"}  # fmt: skip
     with plt.rc_context(look):
         drawn: Figure

@@ -82,8 +82,8 @@ def _matrix(classes: tuple[FaultClass, ...]) -> list[Html]:
         for n, (fault, own) in enumerate(faults, 1)
     ]  # fmt: skip
     note = (
-        "Filled: by the structure of the equations these channels cannot tell the two apart. Open: they can. Columns are "
-        "numbered as rows."
+        "Filled: by the structure of the equations these channels cannot tell the two apart. Open: they can. Columns "
+        "are numbered as rows."
     )
     grid = element("table", element("thead", head), element("tbody", *rows), class_="matrix")
     return [element("div", grid, class_="wide"), element("p", note, class_="note")]

@@ -34,7 +34,7 @@ class Html(str):
 def element(name: str, *children: str, **attributes: str) -> Html:
     """`<name attributes>children</name>`.
 
-    In the name of an attribute a trailing `_` is left out (`class_`), and another one stands for a hyphen (`aria_label`).
+    In the name of an attribute a trailing `_` is left out (`class_`), and another one is a hyphen (`aria_label`).
     """
     pairs = "".join(
         f' {key.rstrip("_").replace("_", "-")}="{escape(clean(value))}"' for key, value in attributes.items()
