@@ -14,6 +14,7 @@ from rich.table import Table
 from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.commands.example import example
+from cosim.commands.group import Commands
 from cosim.commands.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
@@ -28,6 +29,7 @@ from diagnosis.recording.command import record
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 app = typer.Typer(
+    cls=Commands,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Co-simulation of active chainmail: ngspice, actuator FMUs and Bullet behind one algorithm.",

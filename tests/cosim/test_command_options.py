@@ -163,3 +163,23 @@ def test_runs_in_other_processes_have_a_line_each(capsys):
     finally:
         report_to(None)
     assert "[1/3] first: done" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (("compare", COIL, "--jobs", "x"), "`x` is not a whole number"),
+        (("compare", COIL, "--jobs", "0"), "`0` must be at least 1"),
+        (("compare", COIL, "--fmi", "7"), "`7` must be at most 3"),
+        (("diagnose", "a", "--recording", "b", "--out", "c", "--level", "much"), "`much` is not a number"),
+        (("fmu", "build", "tcp_muscle", "--coils", "1.5"), "`1.5` is not a whole number"),
+        (("rnu", COIL), "Did you mean 'run'?"),
+        (("run", COIL, "--overwritten"), "--overwrite"),
+    ],
+)
+def test_a_wrong_argument_is_refused_in_our_words(cosim, arguments, what):
+    answer = cosim(*arguments)
+    assert answer.code == 2
+    said = re.sub(r"[\s│]+", " ", answer.err)
+    assert what in said
+    assert "Input should" not in said
