@@ -22,9 +22,9 @@ run: plan setup fmus  ## the paper's experiment: all runs, figures and the score
 
 plan:
 	@echo "make run does, in this order:"
-	@echo "  1. a virtual environment in $(VENV) and libngspice (the first time: a download of some 300 MB, minutes)"
-	@echo "  2. the FMUs from their C sources (the first time: some 10 s; compiler lines go to $(FMUS)/build.log)"
-	@echo "  3. the paper's experiments, figures and scorecard (about six minutes on two cores)"
+	@echo "  1. a virtual environment in $(VENV) and libngspice (the first time: downloads, minutes)"
+	@echo "  2. the FMUs from their C sources (the first time: seconds; compiler lines go to $(FMUS)/build.log)"
+	@echo "  3. the paper's experiments, figures and scorecard (minutes; it says how many)"
 
 PROOF ?= runs/prove
 prove: dev fmus  ## the diagnosis on 480 cases with concealed effects (three hours); what is done is kept in runs/prove
@@ -44,11 +44,12 @@ test-wheel: dev  ## build the wheel, install it outside the clone and use it (tw
 	$(BIN)/python -m pytest -m slow tests/install
 
 wheel: setup  ## the package, in build/wheel
+	@rm -rf build/lib build/lib.* build/bdist.* build/wheel  # a module that is gone must not come back from there
 	@mkdir -p build/wheel
 	$(BIN)/python -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w build/wheel .
 
 docs: $(VENV)/.installed-docs  ## the documents as a searchable site, in build/site
-	$(BIN)/python -m mkdocs build --quiet --strict
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
 test-slow: dev fmus  ## tests that take minutes each
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
