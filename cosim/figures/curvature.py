@@ -25,7 +25,7 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     Thin: as simulated. Thick: its mean over 0.2 s. Of the paper's own experiment what its text states is marked.
     """
     is_paper = label_of(runs[0]).endswith(PAPER)
-    title = "Maximum curvature" + (" (Figure 3 of the paper)" if is_paper else "")
+    title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
     named = label_of(runs[0]) if len(runs) == 1 else ""
     with figure(path, height=4.2, title=title, run=named) as (axes,):
         for run, colour in zip(runs, (WITH_MODEL, WITHOUT_MODEL, "0.3", "0.6"), strict=False):
