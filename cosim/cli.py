@@ -15,8 +15,8 @@ from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.commands.example import example
 from cosim.commands.group import Commands
-from cosim.commands.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.errors import InputError
+from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp

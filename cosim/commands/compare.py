@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cosim.commands.options import Changes, complete_scenario
+from cosim.options import Changes, complete_scenario
 
 
 def compare(

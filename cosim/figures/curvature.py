@@ -56,7 +56,11 @@ def _mark_text(axes: Axes, run: xr.Dataset, marks: list[float]) -> None:
     for begin, delay, height in zip(marks, delays, (0.97, 0.97)):
         if np.isfinite(delay):
             _span(axes, begin, begin + delay, height * top, "delay")
-    kept: dict[str, Any] = {"arrowprops": {"arrowstyle": "-", "color": SWITCH, "lw": 0.7}, "fontsize": 8, "color": "0.25"}
+    kept: dict[str, Any] = {
+        "arrowprops": {"arrowstyle": "-", "color": SWITCH, "lw": 0.7},
+        "fontsize": 8,
+        "color": "0.25",
+    }
     axes.annotate("full rigidity", (off - 1.0, levels[1]), (off + 1.5, levels[1] + 0.3 * top), **kept)
     axes.annotate(
         "flexibility regained,\nsmall residual", (end - 2.0, levels[2]), (end - 9.5, levels[2] - 0.4 * top), **kept

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from cosim.commands.options import Changes, ScenarioArgument
+from cosim.options import Changes, ScenarioArgument
 from cosim.scenario import Scenario, load_scenario
 from cosim.ssp.import_time import TimeRequest
 from cosim.ssp.namespaces import Version

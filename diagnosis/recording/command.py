@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 import xarray as xr
 
-from cosim.commands.options import Changes, complete_scenario
 from cosim.errors import InputError
+from cosim.options import Changes, complete_scenario
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.recording.readings import read_results

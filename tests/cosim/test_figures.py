@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.commands.options import FORMATS, formats_of
 from cosim.errors import InputError
 from cosim.figures import style
 from cosim.figures.draw import draw_run
 from cosim.figures.style import SWITCH, figure, mark_switches, smoothed
+from cosim.options import FORMATS, formats_of
 from cosim.run_folder import RunFolder
 
 
