@@ -107,4 +107,4 @@ def below(axes: Sequence[Axes]) -> None:
     axes[-1].set_xlabel("time [s]")
     for one in axes:
         if one.get_legend_handles_labels()[0]:
-            one.legend(frameon=False, fontsize=8)
+            one.legend(fontsize=8, facecolor="white", edgecolor="none", framealpha=0.85)
