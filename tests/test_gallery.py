@@ -39,7 +39,9 @@ def test_every_section_is_known_here():
     assert all(SECTIONS.values())
 
 
-@pytest.mark.parametrize("section", list(LEFT))
+@pytest.mark.parametrize(
+    "section", [pytest.param(s, marks=[pytest.mark.slow] if s.startswith("Another actuator") else []) for s in LEFT]
+)
 def test_the_commands_of_a_section_run(section, shipped_fmus, tmp_path, monkeypatch):
     monkeypatch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
     monkeypatch.chdir(tmp_path)
