@@ -12,13 +12,19 @@ JOBS ?= 2
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: help run prove real test test-slow check lint types imports fmus setup dev bench lock clean distclean
+.PHONY: help run plan prove real test test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-run: setup fmus  ## the paper's experiment: all runs, figures and the scorecard, in runs/reproduce
-	$(BIN)/cosim reproduce --out runs/reproduce
+run: plan setup fmus  ## the paper's experiment: all runs, figures and the scorecard, in runs/reproduce
+	@$(BIN)/cosim reproduce --out runs/reproduce
+
+plan:
+	@echo "make run does, in this order:"
+	@echo "  1. a virtual environment in $(VENV) and libngspice (the first time: downloads, minutes)"
+	@echo "  2. the FMUs from their C sources (the first time: seconds; compiler lines go to $(FMUS)/build.log)"
+	@echo "  3. the paper's experiments, figures and scorecard (minutes; it says how many)"
 
 PROOF ?= runs/prove
 prove: dev fmus  ## the diagnosis on 480 cases with concealed effects (three hours); what is done is kept in runs/prove
@@ -33,6 +39,17 @@ real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=fold
 
 test: dev fmus  ## the test suite (about ten minutes on two cores)
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m "not slow"
+
+test-wheel: dev  ## build the wheel, install it outside the clone and use it (two minutes)
+	$(BIN)/python -m pytest -m slow tests/install
+
+wheel: setup  ## the package, in build/wheel
+	@rm -rf build/lib build/lib.* build/bdist.* build/wheel  # a module that is gone must not come back from there
+	@mkdir -p build/wheel
+	$(BIN)/python -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w build/wheel .
+
+docs: $(VENV)/.installed-docs  ## the documents as a searchable site, in build/site
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
 test-slow: dev fmus  ## tests that take minutes each
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
@@ -50,7 +67,9 @@ imports: dev
 	$(BIN)/lint-imports
 
 fmus: setup  ## build the FMUs from their C sources
-	@$(MAKE) --no-print-directory -C fmus PYTHON=$(abspath $(BIN))/python BUILD=$(abspath $(FMUS)) COILS=36
+	@mkdir -p $(FMUS)
+	@$(MAKE) --no-print-directory -C fmus PYTHON=$(abspath $(BIN))/python BUILD=$(abspath $(FMUS)) COILS=36 \
+	  >$(FMUS)/build.log 2>&1 || { tail -n 20 $(FMUS)/build.log; echo "the FMUs cannot be built; all lines: $(FMUS)/build.log"; exit 1; }
 
 bench: dev fmus  ## all measurements of speed and convergence, written to benchmarks/results
 	$(BIN)/python -m benchmarks
@@ -78,9 +97,14 @@ $(VENV)/.installed-dev: requirements-dev.lock $(VENV)/.installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.lock
 	@touch $@
 
+$(VENV)/.installed-docs: requirements-docs.lock $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
+	@touch $@
+
 lock:  ## pin the newest versions that pyproject.toml allows (needs uv)
 	uv pip compile pyproject.toml --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements.lock
 	uv pip compile pyproject.toml --extra dev -c requirements.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-dev.lock
+	uv pip compile pyproject.toml --extra docs -c requirements-dev.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-docs.lock
 
 clean:  ## remove what is built; runs and the virtual environment stay
 	rm -rf build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

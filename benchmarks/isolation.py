@@ -20,9 +20,9 @@ from benchmarks.models.build import DEFAULT, build
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.settings import FmuSettings
-from cosim.fmu_assembly import fmu_folder
 from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
+from cosim.shipped import fmu_folder
 from cosim.unit import Causality, Unit
 
 SIZE = 10_000_000

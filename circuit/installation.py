@@ -38,6 +38,15 @@ class NgspiceMissingError(UnitError, ValueError):
         super().__init__("ngspice", what, remedy=REMEDY)
 
 
+class PySpiceMissingError(UnitError, ValueError):
+    """PySpice, or a package that it needs, is not installed; it loads libngspice for this program."""
+
+    def __init__(self, package: str) -> None:
+        needed = "PySpice" if package.startswith("PySpice") else f"{package}, which PySpice imports,"
+        super().__init__("ngspice", f"a circuit needs PySpice, and {needed} is not installed",
+                         remedy="install it, `pip install PySpice==1.5`")  # fmt: skip
+
+
 def find_ngspice() -> str:
     """File (or name known to the loader) of libngspice, loaded once to be sure.
 

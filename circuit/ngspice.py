@@ -12,12 +12,13 @@ import itertools
 import logging
 import re
 import threading
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from circuit.installation import NgspiceMissingError, find_ngspice
+from circuit.installation import NgspiceMissingError, PySpiceMissingError, find_ngspice
 from cosim.unit import Array
 
 #: Commands after which ngspice's command history is freed; PySpice's own number.
@@ -51,7 +52,14 @@ class Ngspice:
         path = find_ngspice()
         # PySpice logs `can't find init file` as an error; where the program configures no logging it stays quiet.
         logging.getLogger("PySpice").addHandler(logging.NullHandler())
-        from PySpice.Spice.NgSpice.Shared import NgSpiceShared, ffi
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter(
+                    "ignore", SyntaxWarning
+                )  # of its docstrings, when Python 3.12 or newer compiles it
+                from PySpice.Spice.NgSpice.Shared import NgSpiceShared, ffi
+        except ModuleNotFoundError as error:
+            raise PySpiceMissingError(error.name or "PySpice") from error
 
         NgSpiceShared.LIBRARY_PATH = path
         try:

@@ -44,6 +44,7 @@ from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
 from cosim.isolation.unit import IsolatedUnit
 from cosim.mechanics_assembly import build_fabric, build_pendulum
+from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
 from cosim.quantity import PhysicalValue, conversion
@@ -265,8 +266,9 @@ def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[st
         variable = unit.variables.get(key)
         where = f"components.{name}.start.{key}"
         if variable is None or variable.causality is not Causality.INPUT:
-            inputs = ", ".join(n for n, v in unit.variables.items() if v.causality is Causality.INPUT) or "none"
-            raise InputError(source, where, "there is no such input", f"it has: {inputs}")
+            inputs = [n for n, v in unit.variables.items() if v.causality is Causality.INPUT]
+            raise InputError(source, where, f"there is no such input{did_you_mean(key, inputs)}",
+                             f"it has: {', '.join(inputs) or 'none'}")  # fmt: skip
         try:
             values[key] = _quantity(value).to(variable.unit)
         except ValueError as error:

@@ -13,9 +13,12 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.example import example
+from cosim.commands.group import Commands
 from cosim.commands.play import play
 from cosim.commands.track import track
 from cosim.errors import InputError
+from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
@@ -28,8 +31,8 @@ from diagnosis.recording.command import record
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 app = typer.Typer(
+    cls=Commands,
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     help="Co-simulation of active chainmail: ngspice, actuator FMUs and Bullet behind one algorithm.",
     epilog="Begin with `cosim list`, then `cosim run single_coil_heating`. See docs/ for the file formats.",
@@ -40,12 +43,20 @@ app.add_typer(ssp.app, name="ssp")
 app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(play)
+app.command()(example)
 app.command()(record)
 app.command()(track)
 app.command()(diagnose)
 app.command()(prove)
 
-ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")]
+
+@app.callback()
+def _common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version and end.")
+    ] = False,
+) -> None:
+    """Options that stand before every command."""
 
 
 @app.command("list")
@@ -58,11 +69,11 @@ def list_scenarios() -> None:
 
 
 @app.command()
-def validate(scenario: ScenarioArgument) -> None:
+def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
     """Check a scenario, its FMUs and its connections without running it."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
 
-    loaded = load_scenario(scenario)
+    loaded = load_scenario(scenario, changes or ())
     assembly = assemble(loaded)
     counts = {n: len(u.variables) for n, u in assembly.system.units.items()}
     loops = dict.fromkeys(str(loop) for loop in [*assembly.system.initial_loops, *assembly.system.loops])
@@ -82,39 +93,52 @@ def schema() -> None:
 @app.command()
 def run(
     scenario: Annotated[
-        str, typer.Argument(help="A scenario file or name, or an .ssp file; with --resume it may be a run folder.")
+        str,
+        typer.Argument(
+            help="A scenario file or name, or an .ssp file; with --resume it may be a run folder.",
+            autocompletion=complete_scenario,
+        ),
     ],
     out: Annotated[Path | None, typer.Option(help="Run folder; default runs/SCENARIO.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
     csv: Annotated[bool, typer.Option("--csv", help="Write all recorded values as results.csv too.")] = False,
+    figures: Formats = "png",
+    changes: Changes = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace the run that the folder holds, once this one has begun.")
+    ] = False,
 ) -> None:
     """Run a scenario and write a run folder.
 
     Ctrl-C keeps what is computed; `--resume` goes on from there to the same result.
     """
-    folder = _folder(scenario, out, resume)
-    loaded = _loaded(scenario, folder, resume)
+    if resume and (changes or overwrite):
+        option = "--set" if changes else "--overwrite"
+        raise InputError(option, "", "a run that goes on stays as it is", f"leave out `{option}` or `--resume`")
+    formats = formats_of(figures)
+    folder = _folder(scenario, out, resume, overwrite)
+    loaded = _loaded(scenario, folder, resume, changes or [])
     run_into(loaded, folder, resume, csv)
     if plots:
-        _draw(folder)
+        _draw(folder, formats)
     print(f"{folder.path}: {loaded.title}")
 
 
-def _loaded(scenario: str, folder: RunFolder, resume: bool) -> Scenario:
+def _loaded(scenario: str, folder: RunFolder, resume: bool, changes: list[str]) -> Scenario:
     is_imported = ssp.is_ssp(scenario)
     if resume and (is_imported or Path(scenario).is_dir()):
         return load_scenario(folder.scenario)
     if is_imported:
         folder.refuse_existing()
-        return ssp.scenario_of(Path(scenario), folder.path / "imported")
-    return load_scenario(scenario)
+        return ssp.scenario_of(Path(scenario), folder.path / "imported", changes)
+    return load_scenario(scenario, changes)
 
 
-def _folder(scenario: str, out: Path | None, resume: bool) -> RunFolder:
+def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> RunFolder:
     if out is None and resume and Path(scenario).is_dir():
         out = Path(scenario)
-    folder = RunFolder(out or Path("runs") / Path(scenario).stem)
+    folder = RunFolder(out or Path("runs") / Path(scenario).stem, overwrites=overwrite)
     if resume and not folder.scenario.is_file():
         raise InputError(folder.path, "", "there is no run to resume here", "give its folder with `--out`")
     return folder
@@ -128,7 +152,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress, csv)
+            run_scenario(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():
@@ -138,21 +162,22 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
 
 
-def _draw(folder: RunFolder) -> None:
+def _draw(folder: RunFolder, formats: list[str]) -> None:
     from cosim.figures.draw import draw_run
 
-    for path in draw_run(folder.path):
+    for path in draw_run(folder.path, formats):
         print(path)
 
 
 @app.command()
 def plot(
-    runs: Annotated[list[Path], typer.Argument(help="Run folders; Figure 3 is drawn from all of them together.")],
+    runs: Annotated[list[Path], typer.Argument(help="Run folders; the curvature is drawn of all of them together.")],
+    formats: Formats = "png",
 ) -> None:
     """Draw the figures of one or more runs into the first run's folder."""
     from cosim.figures.draw import draw_runs
 
-    for path in draw_runs(runs):
+    for path in draw_runs(runs, formats_of(formats)):
         print(path)
 
 

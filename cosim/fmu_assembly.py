@@ -15,16 +15,13 @@ from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings
+from cosim.fmu_build.at_first_use import DEFAULT_COILS, file_name, shipped_fmu
 from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
+from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
+from cosim.shipped import fmu_folder, shipped_actuators
 from cosim.unit import Unit
-
-
-def fmu_folder() -> Path:
-    """Folder of the FMUs that `make fmus` builds; `COSIM_FMU_PATH` overrides it."""
-    given = os.environ.get("COSIM_FMU_PATH")
-    return Path(given) if given else Path(__file__).resolve().parent.parent / "build" / "fmus"
 
 
 def build_fmu(
@@ -70,12 +67,17 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
     if component.fmu.endswith(".fmu"):
         beside = source.parent / component.fmu
         return beside if os.path.isfile(beside) else Path(component.fmu)  # of a name too long it is False
-    coils = component.structure.get("coils", 36)
-    suffix = f"_n{coils}" if component.fmi == 2 and coils != 36 else ""
-    path = fmu_folder() / f"{component.fmu}_fmi{component.fmi}{suffix}.fmu"
-    if not os.path.isfile(path):
-        there = ", ".join(sorted(p.stem for p in fmu_folder().glob("*.fmu"))) or "none built"
-        how = f"make -C fmus COILS={coils}" if suffix else "make fmus"
-        raise InputError(source, "fmu", f"there is no FMU `{path.stem}` (there: {there})",
-                         f"build it with `{how}`, or give the path of a .fmu file")  # fmt: skip
-    return path
+    coils = component.structure.get("coils", DEFAULT_COILS)
+    path = shipped_fmu(component.fmu, component.fmi, coils)
+    if path is not None:
+        return path
+    known = shipped_actuators()
+    if component.fmu not in known:
+        hint = did_you_mean(component.fmu, known)
+        raise InputError(source, "fmu", f"there is no shipped FMU `{component.fmu}`{hint}",
+                         f"give the path of a .fmu file, or one of: {', '.join(known)}")  # fmt: skip
+    name = file_name(component.fmu, component.fmi, coils if component.fmi == 2 else DEFAULT_COILS)
+    there = ", ".join(sorted(p.name for p in fmu_folder().glob("*.fmu"))) or "no FMU"
+    how = f"cosim fmu build {component.fmu} --fmi {component.fmi} --coils {coils} --out {fmu_folder()}"
+    raise InputError(source, "fmu", f"there is no `{name}` in COSIM_FMU_PATH={fmu_folder()} (there: {there})",
+                     f"build it with `{how}`, give the path of a .fmu file, or unset the variable")  # fmt: skip

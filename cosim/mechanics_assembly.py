@@ -6,6 +6,7 @@ from dataclasses import fields
 from typing import Any
 
 from cosim.components import FabricComponent, ParameterValue, PendulumComponent
+from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
 from cosim.quantity import PhysicalValue
 from mechanics.added import AddedEffects, tilted
@@ -79,7 +80,7 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
         if key == "gravity":
             numbers[key] = _gravity(value)
         elif key not in FABRIC_UNITS:
-            raise ValueError(f"a fabric has no parameter `{key}`; it has: gravity, {', '.join(FABRIC_UNITS)}")
+            raise ValueError(_no_parameter("fabric", key, ["gravity", *FABRIC_UNITS]))
         elif not isinstance(value, PhysicalValue):
             raise ValueError(f"{key} must be one number with a unit")
         else:
@@ -112,12 +113,17 @@ def build_pendulum(name: str, component: PendulumComponent, parameters: Resolved
     numbers: dict[str, float] = {}
     for key, value in parameters.values.items():
         if key not in PENDULUM_UNITS:
-            raise ValueError(f"a pendulum has no parameter `{key}`; it has: {', '.join(PENDULUM_UNITS)}")
+            raise ValueError(_no_parameter("pendulum", key, list(PENDULUM_UNITS)))
         numbers[key] = _quantity(value).to(PENDULUM_UNITS[key])
     missing = [key for key in ("mass", "centre_distance", "central_inertia") if key not in numbers]
     if missing:
         raise ValueError(f"a pendulum needs {missing[0]}: give it under parameters or in a parameter set")
     return PendulumUnit(name, PendulumDesign(**numbers), component.micro_step.to("s"))
+
+
+def _no_parameter(kind: str, key: str, known: list[str]) -> str:
+    hint = did_you_mean(key, known)
+    return f"a {kind} has no parameter `{key}`{f'{hint} It has' if hint else '; it has'}: {', '.join(known)}"
 
 
 def _gravity(value: ParameterValue) -> tuple[float, float, float]:

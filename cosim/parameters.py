@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from cosim.components import ParameterValue
 from cosim.errors import InputError
+from cosim.nearest import did_you_mean
 from cosim.quantity import In, PhysicalValue, parse_unit
 from cosim.scenario import scenario_folder
 from cosim.yaml_file import input_error, parse_yaml, read_text
@@ -80,9 +81,9 @@ def find_parameter_set(name: str, scenario_file: Path) -> Path:
     for candidate in (scenario_file.parent / name, folder / f"{name}.yaml"):
         if os.path.isfile(candidate):  # of a name too long it is False
             return candidate
-    shipped = ", ".join(sorted(p.stem for p in folder.glob("*.yaml")))
-    raise InputError(scenario_file, "parameter_set", f"there is no parameter set `{name}`",
-                     f"give a file beside the scenario, or one of: {shipped}")  # fmt: skip
+    shipped = sorted(p.stem for p in folder.glob("*.yaml"))
+    raise InputError(scenario_file, "parameter_set", f"there is no parameter set `{name}`{did_you_mean(name, shipped)}",
+                     f"give a file beside the scenario, or one of: {', '.join(shipped)}")  # fmt: skip
 
 
 def load_parameter_set(path: Path) -> ParameterSet:
@@ -94,7 +95,7 @@ def load_parameter_set(path: Path) -> ParameterSet:
     try:
         return ParameterSet.model_validate(parse_yaml(read_text(path), path))
     except pydantic.ValidationError as error:
-        raise input_error(path, error, "each parameter needs value, unit and source") from error
+        raise input_error(path, error, "each parameter needs value, unit and source", ParameterSet) from error
 
 
 def resolve(set_name: str | None, overrides: Mapping[str, Any], scenario_file: Path) -> Resolved:

@@ -103,6 +103,7 @@ def run(
     resume: bool = False,
     on_progress: Callable[[Progress], None] | None = None,
     csv: bool = False,
+    overwrite: bool = False,
 ) -> xr.Dataset:
     """Run a scenario to its end.
 
@@ -112,6 +113,7 @@ def run(
         resume: Go on from the last checkpoint in `out`.
         on_progress: Called about twenty times a second, or after every macro-step that takes longer.
         csv: Write all recorded values to `out` as CSV too, also those of a run that stops early.
+        overwrite: Replace the run that `out` holds, once this one has begun.
 
     Returns:
         Every recorded variable `component.name` with dimension `time` [s] first; attributes hold title, wall time of
@@ -125,7 +127,7 @@ def run(
     if out is None:
         return _run(scenario, None, resume, on_progress)
     # An FMU may change the working folder: files are found all the same, and who called is where he was.
-    folder = RunFolder(out.absolute(), csv)
+    folder = RunFolder(out.absolute(), csv, overwrite)
     with chdir(Path.cwd()), alone(folder.path, "run"):
         return _run(scenario, folder, resume, on_progress)
 

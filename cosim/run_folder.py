@@ -50,10 +50,11 @@ class RunFolder:
     Args:
         path: The folder.
         has_csv: Whether `write_results` writes everything as CSV too.
+        overwrites: Whether a new run takes the place of one that the folder holds.
     """
 
-    def __init__(self, path: Path, has_csv: bool = False) -> None:
-        self.path, self.has_csv = path, has_csv
+    def __init__(self, path: Path, has_csv: bool = False, overwrites: bool = False) -> None:
+        self.path, self.has_csv, self.overwrites = path, has_csv, overwrites
 
     @property
     def scenario(self) -> Path:
@@ -76,10 +77,23 @@ class RunFolder:
         return self.path / "summary.json"
 
     def refuse_existing(self) -> None:
-        """Raise InputError where the folder already holds a run: nothing is ever overwritten."""
-        if self.checkpoints() or any(path.exists() for path in (self.scenario, self.results, self.summary)):
-            raise InputError(self.path, "", "this folder already holds a run",
-                             "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
+        """Raise InputError where the folder already holds a run that must not be overwritten."""
+        if not self.overwrites and self._holds_run():
+            raise InputError(
+                self.path, "", "this folder already holds a run", "go on from it with `--resume`, replace it with "
+                "`--overwrite`, or give another folder with `--out`",
+            )  # fmt: skip
+
+    def _holds_run(self) -> bool:
+        return bool(self.checkpoints()) or any(p.exists() for p in (self.scenario, self.results, self.summary))
+
+    def _remove_run(self) -> None:
+        """Remove the files of a run and nothing else; what says how it ended goes first."""
+        names = ("summary.json", "results.nc", "results.csv", "series.csv", "versions.json", "parameters.csv")
+        figures = (self.path / "figures").glob("*") if self._holds_run() else ()
+        for file in (*(self.path / name for name in names), *self.checkpoints(), *figures, self.scenario):
+            if file.is_file():
+                file.unlink()
 
     def create(self, scenario: Scenario, parameters: Mapping[str, Resolved], engines: Mapping[str, str]) -> None:
         """Make the folder of a new run.
@@ -94,6 +108,8 @@ class RunFolder:
         """
         self.refuse_existing()
         with writing(self.path):
+            if self.overwrites:
+                self._remove_run()
             (self.path / "checkpoints").mkdir(parents=True, exist_ok=True)
             write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml(True).encode())
             self._write_parameters(parameters)
@@ -289,10 +305,17 @@ def versions() -> dict[str, str]:
             found[package] = importlib.metadata.version(package)
         except importlib.metadata.PackageNotFoundError:
             found[package] = "not installed"
+    found["commit"] = _commit()
+    return found
+
+
+def _commit() -> str:
+    """Commit of a clone; an installation may lie inside the repository of something else, so it has none."""
     root = Path(__file__).resolve().parent.parent
+    if not (root / ".git").exists():
+        return "unknown"
     command = ["git", "-C", str(root), "describe", "--always", "--dirty"]
     try:
-        found["commit"] = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
-        found["commit"] = "unknown"
-    return found
+        return "unknown"

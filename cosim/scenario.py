@@ -7,6 +7,7 @@ their units. `json_schema()` is what editors use to complete and check a file.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -26,7 +27,10 @@ from cosim.components import (
     nanoseconds,
 )
 from cosim.errors import InputError
+from cosim.nearest import did_you_mean
+from cosim.overrides import with_changes
 from cosim.quantity import In, PhysicalValue
+from cosim.shipped import SCENARIOS
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
@@ -210,22 +214,34 @@ def scenario_of_data(data: object, source: Path) -> Scenario:
     try:
         return Scenario.model_validate({**data, "path": source})
     except pydantic.ValidationError as error:
-        raise input_error(source, error, _REMEDY) from error
+        raise input_error(source, error, _REMEDY, Scenario) from error
 
 
-def load_scenario(path: str | Path) -> Scenario:
+def load_scenario(path: str | Path, changes: Sequence[str] = ()) -> Scenario:
     """Read a scenario file, or a shipped scenario by its name.
 
+    Args:
+        path: File or name.
+        changes: `key=value` of `--set`, put in place of what the file says before it is checked.
+
     Raises:
-        InputError: There is no such file, or it is wrong.
+        InputError: There is no such file, it is wrong, or a change does not fit.
     """
     found = find_scenario(path)
-    return parse_scenario(read_text(found), found)
+    if not changes:
+        return parse_scenario(read_text(found), found)
+    keys = [name for name, field in Scenario.model_fields.items() if not field.exclude]
+    data = with_changes(parse_yaml(read_text(found), found), changes, keys)
+    try:
+        return scenario_of_data(data, found)
+    except InputError as error:
+        given = " ".join(f"--set {change}" for change in changes)
+        raise InputError(error.source, error.key, f"{error.problem} (with {given})", error.remedy) from error
 
 
 def scenario_folder() -> Path:
     """Folder of the shipped scenarios."""
-    return Path(__file__).resolve().parent.parent / "scenarios"
+    return SCENARIOS
 
 
 def shipped_scenarios() -> dict[str, Path]:
@@ -241,7 +257,8 @@ def find_scenario(path: str | Path) -> Path:
     shipped = shipped_scenarios()
     if str(path) in shipped:
         return shipped[str(path)]
-    raise InputError(path, "", "there is no such scenario", f"give a file, or one of: {', '.join(shipped)}")
+    problem = f"there is no such scenario{did_you_mean(str(path), shipped)}"
+    raise InputError(path, "", problem, f"give a file, or one of: {', '.join(shipped)}")
 
 
 def json_schema() -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from cosim.connection import Connection, ConnectionFault, Element, Transfer
 from cosim.loops import AlgebraicLoop, Propagation
+from cosim.nearest import did_you_mean
 from cosim.unit import AnyArray, Causality, ParallelUnit, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 __all__ = ["Connection", "ConnectionFault", "System"]
@@ -71,13 +72,15 @@ class System:
 
     def _variable(self, end: tuple[str, str], causalities: set[Causality], connection: Connection) -> Variable:
         if end[0] not in self.units:
-            raise ConnectionFault(f"{connection}: there is no component {end[0]}; there are: {', '.join(self.units)}")
+            raise ConnectionFault(
+                f"{connection}: there is no component {end[0]}{_instead(end[0], self.units, 'there are')}"
+            )
         variables = self.units[end[0]].variables
         found = variables.get(end[1])
         if found is None or found.causality not in causalities:
-            names = ", ".join(n for n, v in variables.items() if v.causality in causalities) or "none"
+            names = [n for n, v in variables.items() if v.causality in causalities]
             what = "input" if Causality.INPUT in causalities else "output"
-            raise ConnectionFault(f"{connection}: {end[0]} has no {what} {end[1]}; it has: {names}")
+            raise ConnectionFault(f"{connection}: {end[0]} has no {what} {end[1]}{_instead(end[1], names, 'it has')}")
         return found
 
     def _check(self, connection: Connection) -> None:
@@ -244,3 +247,9 @@ def _shape(variable: Variable, element: Element | None, connection: Connection) 
     if len(element) != len(variable.shape) or any(not 0 <= i < n for i, n in zip(element, variable.shape)):
         raise ConnectionFault(f"{connection}: {variable.name} has shape {variable.shape}; there is no such element")
     return ()
+
+
+def _instead(name: str, known: Collection[str], begin: str) -> str:
+    """The rest of a sentence about a name that does not exist: what may be meant, and what there is."""
+    hint, names = did_you_mean(name, known), ", ".join(known) or "none"
+    return f"{hint} {begin.capitalize()}: {names}" if hint else f"; {begin}: {names}"

@@ -11,6 +11,7 @@ import pydantic
 import yaml
 
 from cosim.errors import InputError
+from cosim.faults import is_weak, shown, words
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
 _MEMBER = re.compile(r"^(bool|function-plain\[.*|union\[.*|list\[.*|float|int|str)$")
@@ -80,15 +81,26 @@ def _check_depth(text: str, source: Path) -> None:
             raise InputError(source, "", f"not valid YAML: nested more than {DEEPEST} deep", "correct it")
 
 
-def input_error(source: Path, error: pydantic.ValidationError, remedy: str) -> InputError:
-    """All faults that pydantic found, one per key of the file."""
+def input_error(
+    source: Path, error: pydantic.ValidationError, remedy: str, model: type[pydantic.BaseModel] | None = None
+) -> InputError:
+    """All faults of a file, one per key.
+
+    Args:
+        source: The file.
+        error: What pydantic found.
+        remedy: What to do.
+        model: What the file was checked against; with it a key that does not exist is compared with those that do.
+    """
     faults: dict[str, str] = {}
+    weak: set[str] = set()
     for fault in error.errors():
         key = _key(fault["loc"])
         # Of the members of a union the one that reads numbers says most; the others only say what they are not.
         is_other_member = fault["type"] in ("bool_type", "list_type") and len(fault["loc"]) > 1
-        if key not in faults or (faults[key].startswith("Input should be a valid") and not is_other_member):
-            faults[key] = _message(fault)
+        if key not in faults or (key in weak and not is_other_member):
+            faults[key] = _message(fault, model)
+            (weak.add if is_weak(fault) else weak.discard)(key)
     (key, message), *rest = faults.items()
     more = "".join(f"\n  also {other}: {text}" for other, text in rest)
     return InputError(source, key, message + more, remedy)
@@ -103,15 +115,7 @@ def _key(place: Sequence[int | str]) -> str:
     return ".".join(str(p) for p in parts if not (isinstance(p, str) and _MEMBER.match(p)))
 
 
-def _message(fault: Any) -> str:
-    if fault["type"] == "extra_forbidden":
-        return "there is no such key here"
+def _message(fault: Any, model: type[pydantic.BaseModel] | None) -> str:
     if fault["type"] == "string_pattern_mismatch" and fault["loc"][0] == "connections":
-        return f"`{fault['input']}` is no connection; write `component.output -> component.input`"
-    if fault["type"] == "union_tag_invalid":
-        return f"`kind` must be one of: {fault['ctx']['expected_tags'].replace(chr(39), '')}"
-    if fault["type"] == "union_tag_not_found":
-        return "the key `kind` is missing"
-    if fault["type"] == "missing":
-        return "this key is missing"
-    return str(fault["msg"]).removeprefix("Value error, ")
+        return f"{shown(fault['input'])} is no connection; write `component.output -> component.input`"
+    return words(fault, model)

@@ -19,8 +19,16 @@ DRAWN = 3
 
 def curves(found: Found) -> list[Series]:
     """Channels held out, then channels that were fitted."""
-    drawn = [] if found.judge is None else _part(found, found.judge, found.held_out_points, True)
-    return drawn + _part(found, found.training, found.points, False)
+    names = _names(found.diagnosis)
+    drawn = [] if found.judge is None else _part(found, found.judge, found.held_out_points, True, names)
+    return drawn + _part(found, found.training, found.points, False, names)
+
+
+def _names(diagnosis: Diagnosis) -> list[str]:
+    """Channels drawn in both parts, so that training and held out stand side by side."""
+    parts = [[f for f in diagnosis.fit if f.is_held_out is part] for part in (True, False)]
+    chosen = [[fits[i].channel for i in drawn_channels(diagnosis, fits)] for fits in parts]
+    return list(dict.fromkeys(name for names in chosen for name in names))
 
 
 def drawn_channels(diagnosis: Diagnosis, fits: Sequence[ChannelFit]) -> list[int]:
@@ -35,11 +43,17 @@ def drawn_channels(diagnosis: Diagnosis, fits: Sequence[ChannelFit]) -> list[int
     return list(dict.fromkeys([*telling, *worst]))[:DRAWN]
 
 
-def _part(found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool) -> list[Series]:
+def _part(
+    found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool, names: Sequence[str]
+) -> list[Series]:
     fits = [f for f in found.diagnosis.fit if f.is_held_out is is_held_out]
     place = [(run, number) for run in range(len(model.runs)) for number in range(len(model.runs[run].series))]
     drawn = []
-    for i in drawn_channels(found.diagnosis, fits):
+    own = drawn_channels(found.diagnosis, fits)
+    worst = sorted(range(len(fits)), key=lambda i: -fits[i].chi_square["recalibrated"])
+    shown = {fits[i].channel for i in own}
+    partners = [next((i for i in worst if fits[i].channel == name), None) for name in names if name not in shown]
+    for i in [*own, *(i for i in partners if i is not None)]:
         run, number = place[i]
         series = model.runs[run].series[number]
         count = len(series.samples)

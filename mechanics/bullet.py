@@ -14,15 +14,14 @@ import numpy as np
 
 from cosim.unit import Array
 from mechanics.bullet_added import AddedForces
+from mechanics.engine import load
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
-from mechanics.quiet import without_output
 from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring
 
-with without_output():  # it prints its build time
-    import pybullet
+pybullet = load()
 
 __all__ = ["SCALE", "Contacts", "Motion", "World", "rotation", "woven"]
 

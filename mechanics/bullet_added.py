@@ -8,12 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit import Array
+from mechanics.engine import load
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.motion import SCALE, woven
-from mechanics.quiet import without_output
 
-with without_output():  # it prints its build time
-    import pybullet
+pybullet = load()
 
 
 class AddedForces:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
+from mechanics.engine import load
 from mechanics.pendulum_design import PendulumDesign
-from mechanics.quiet import without_output
 
-with without_output():  # it prints its build time
-    import pybullet
+pybullet = load()
 
 #: Bullet's limit of joint speed, set out of reach [rad/s].
 _NO_LIMIT = 1e6

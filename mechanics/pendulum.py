@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -20,8 +21,10 @@ from cosim.unit import (
     UnitError,
     Variable,
 )
-from mechanics.bullet_pendulum import PendulumWorld
 from mechanics.pendulum_design import PendulumDesign, behind_play
+
+if TYPE_CHECKING:
+    from mechanics.bullet_pendulum import PendulumWorld
 
 __all__ = ["PendulumDesign", "PendulumUnit"]
 
@@ -65,6 +68,9 @@ class PendulumUnit(Unit):
         )
         self.variables: Mapping[str, Variable] = {v.name: v for v in listed}
         self._store = ArrayStore(name, self.variables)
+        from mechanics.bullet_pendulum import PendulumWorld  # late: where pybullet is missing, everything else works
+
+        self._make_world = PendulumWorld
         self._world: PendulumWorld | None = None
 
     def set(self, name: str, value: Array) -> None:
@@ -144,7 +150,7 @@ class PendulumUnit(Unit):
 
     def _open(self) -> None:
         self.terminate()
-        self._world = PendulumWorld(self.design, self._micro / NANOSECONDS)
+        self._world = self._make_world(self.design, self._micro / NANOSECONDS)
 
     def _live(self) -> PendulumWorld:
         assert self._world is not None, "initialise comes first"

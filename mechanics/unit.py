@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +21,16 @@ from cosim.unit import (
     Variable,
     seconds,
 )
-from mechanics.bullet import SCALE, Motion, World, rotation, woven
 from mechanics.curvature import max_curvature
 from mechanics.fabric import FabricDesign, layout
 from mechanics.half import half
 from mechanics.linking import is_hooked
+from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring, coil_tension, spring_energy
+
+if TYPE_CHECKING:
+    from mechanics.bullet import World
 
 
 def fabric_variables(design: FabricDesign) -> dict[str, Variable]:
@@ -95,6 +99,9 @@ class FabricUnit(Unit):
         self._layout = layout(design)
         self._half = half(design)
         self._steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
+        from mechanics.bullet import World  # late: where pybullet is missing, everything else works
+
+        self._make_world = World
         self._world: World | None = None
 
     def set(self, name: str, value: Array) -> None:
@@ -117,7 +124,7 @@ class FabricUnit(Unit):
 
     def _seat(self, motion: Motion) -> None:
         self.terminate()
-        self._world = World(self.design, self._layout, self.solver, motion)
+        self._world = self._make_world(self.design, self._layout, self.solver, motion)
 
     def _check_inputs(self, time: int) -> None:
         for name in ("stiffness", "rest_length"):

@@ -7,9 +7,16 @@ from typing import Annotated
 
 import typer
 
+from cosim.options import Changes, complete_scenario
+
 
 def compare(
-    scenario: Annotated[str, typer.Argument(help="A scenario file or name, with a component of kind actuator.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="A scenario file or name, with a component of kind actuator.", autocompletion=complete_scenario
+        ),
+    ],
     actuators: Annotated[
         str, typer.Option(help="Shipped names or .fmu files, with commas; default: all shipped.")
     ] = "",
@@ -17,6 +24,7 @@ def compare(
     component: Annotated[str | None, typer.Option(help="Which actuator, where the scenario has several.")] = None,
     out: Annotated[Path | None, typer.Option(help="Folder; default runs/compare/SCENARIO.")] = None,
     jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
+    changes: Changes = None,
 ) -> None:
     """Run one scenario over several actuators and show delay, energy, stiffness and shape side by side.
 
@@ -26,4 +34,4 @@ def compare(
     from cosim.compare.command import compare as compare_actuators
 
     names = tuple(name.strip() for name in actuators.split(",") if name.strip())
-    raise typer.Exit(compare_actuators(Request(scenario, names, fmi, component, jobs), out))
+    raise typer.Exit(compare_actuators(Request(scenario, names, fmi, component, jobs, tuple(changes or ())), out))

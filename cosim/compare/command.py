@@ -20,11 +20,11 @@ from cosim.compare.table import Columns, as_csv, as_json, as_markdown, show
 from cosim.compare.variants import Variant, actuator_name, label_of, variant
 from cosim.errors import InputError
 from cosim.figures.draw import open_run
-from cosim.fmu_tools.sources import shipped_actuators
-from cosim.progress import progress_bar
+from cosim.progress import Board, report_to, reporter
 from cosim.run import RunStopped, run
 from cosim.run_folder import RunFolder, write_atomically, writing
 from cosim.scenario import Scenario, load_scenario
+from cosim.shipped import shipped_actuators
 
 INTERRUPTED = "interrupted; the same command goes on from here"
 
@@ -39,6 +39,7 @@ class Request:
         fmi: FMI version of shipped ones; None as in the scenario.
         component: The actuator to exchange, where there are several.
         jobs: Runs at the same time.
+        changes: `key=value` of `--set`.
     """
 
     scenario: str
@@ -46,18 +47,18 @@ class Request:
     fmi: int | None = None
     component: str | None = None
     jobs: int = 1
+    changes: Sequence[str] = ()
 
 
-def run_one(made: Variant, folder: Path) -> str:
-    """Run or resume one variant; returns an empty text, or why it stopped."""
+def run_one(made: Variant, folder: Path, number: int) -> str:
+    """Run or resume one variant, which has this number on the board; returns an empty text, or why it stopped."""
     kept = RunFolder(folder)
     try:
         is_begun = kept.scenario.exists()
         if kept.is_complete():
             _refuse_other(kept, made.scenario)
             return ""
-        with progress_bar(made.label, Console(stderr=True, force_terminal=False)) as on_progress:
-            run(made.scenario, folder, is_begun, on_progress)
+        run(made.scenario, folder, is_begun, reporter(number))
     except RunStopped as stopped:
         return INTERRUPTED if stopped.is_interrupt else stopped.reason
     except InputError as error:
@@ -88,7 +89,7 @@ def compare(request: Request, out: Path | None = None) -> int:
     Raises:
         InputError: The scenario has no actuator to exchange, or an actuator is named twice.
     """
-    scenario = load_scenario(request.scenario)
+    scenario = load_scenario(request.scenario, request.changes)
     component = actuator_name(scenario, request.component)
     names = list(request.actuators) or list(shipped_actuators())
     labels = [label_of(n) for n in names]
@@ -117,18 +118,21 @@ def _run_all(variants: Sequence[Variant], out: Path, jobs: int) -> dict[str, str
     """Label to problem of every variant that stopped."""
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
     problems: dict[str, str] = {}
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        futures: dict[Future[str], str] = {pool.submit(run_one, v, out / v.label): v.label for v in variants}
+    board = Board([v.label for v in variants], context)
+    with board.drawn(), ProcessPoolExecutor(jobs, context, report_to, (board.slots,)) as pool:
+        futures: dict[Future[str], int] = {
+            pool.submit(run_one, v, out / v.label, number): number for number, v in enumerate(variants)
+        }
         try:
-            for done, future in enumerate(as_completed(futures), start=1):
-                label = futures[future]
+            for future in as_completed(futures):
+                label = variants[futures[future]].label
                 try:
                     problem = future.result()
                 except Exception as error:  # a crash of the FMU ends the process, and the pool with it
                     problem = f"the process ended: {type(error).__name__}; use `isolation: process` to find where"
                 if problem:
                     problems[label] = problem
-                print(f"[{done}/{len(futures)}] {label}: {problem or 'done'}", file=sys.stderr, flush=True)
+                board.ended(futures[future], problem or "done")
         except KeyboardInterrupt:
             pool.shutdown(wait=True, cancel_futures=True)
             return {"": INTERRUPTED}

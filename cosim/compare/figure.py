@@ -14,8 +14,8 @@ from cosim.compare.layout import Layout
 from cosim.compare.measures import coil_series, shape_series, total_power
 from cosim.figures.style import figure, mark_switches
 
-#: Colours of the actuators: red is that of the switches. Dashes let equal curves all be seen.
-COLOURS = ("C0", "C1", "C2", "C4", "C5", "C6", "C7", "C8", "C9", "k")
+#: Colours of the actuators; grey is that of the switches. Dashes let equal curves all be seen.
+COLOURS = ("C0", "C1", "C2", "C4", "C5", "C6", "C3", "C8", "C9", "k")
 DASHES = ("-", "--", "-.", ":")
 #: Quantities whose peaks differ by more than this factor are drawn on a logarithmic axis.
 WIDE = 5.0
@@ -25,7 +25,7 @@ def draw(path: Path, runs: Mapping[str, xr.Dataset], layout: Layout) -> Path:
     """Draw one line per actuator in every panel that any of them fills."""
     panels = [(label, found) for label, found in (
         ("power [W]", {n: total_power(r, layout) for n, r in runs.items()}),
-        ("temperature [degC]", {n: coil_series(r, f"{layout.actuator}.temperature", layout) for n, r in runs.items()}),
+        ("temperature [°C]", {n: coil_series(r, f"{layout.actuator}.temperature", layout) for n, r in runs.items()}),
         ("stiffness [N/m]", {n: coil_series(r, f"{layout.actuator}.stiffness", layout) for n, r in runs.items()}),
         *_shapes(runs, layout),
     ) if any(v is not None for v in found.values())]  # fmt: skip

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -38,31 +39,46 @@ def switches(run: xr.Dataset) -> list[float]:
     return [float(run["time"].values[i]) for i in changed]
 
 
-def draw_run(folder: Path) -> list[Path]:
+def draw_run(folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Draw every figure that the results of one run allow."""
-    return draw_runs([folder])
+    return draw_runs([folder], formats)
 
 
-def draw_runs(folders: Sequence[Path]) -> list[Path]:
-    """Draw the figures of the first run; Figure 3 holds the curvature of all of them.
+def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Draw the figures of the first run; that of the curvature holds all of them.
+
+    Args:
+        folders: Run folders.
+        formats: Of `FORMATS`; each figure is written once in each.
 
     Returns:
         The files written, in the first run's folder `figures/`.
+
+    Raises:
+        InputError: A folder holds no results, or the figures cannot be written.
     """
     runs = [open_run(f) for f in folders]
-    first, target = runs[0], folders[0] / "figures"
-    marks = switches(first)
+    target = folders[0] / "figures"
     drawn: list[Path] = []
     with writing(target):
         target.mkdir(parents=True, exist_ok=True)
-        if "fabric.max_curvature" in first:
-            with_curvature = [r for r in runs if "fabric.max_curvature" in r]
-            drawn.append(curvature.draw(target / "figure3_curvature.png", with_curvature, marks))
-            drawn.append(lengths.draw(target / "lengths.png", first, marks))
-            drawn.append(side_view.draw(target / "side_view.png", first, marks))
-        if "actuator.temperature" in first:
-            drawn.append(temperatures.draw(target / "temperatures.png", first, marks))
-            drawn.append(stiffness_loops.draw(target / "stiffness_loops.png", first))
-        if "circuit.current" in first:
-            drawn.append(currents.draw(target / "currents.png", first, marks))
+        for name, draw in _figures(runs, switches(runs[0])).items():
+            drawn += [draw(target / f"{name}.{ending}") for ending in formats]
     return drawn
+
+
+def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callable[[Path], Path]]:
+    """Name to what draws it, for what the first run has recorded."""
+    first = runs[0]
+    found: dict[str, Callable[[Path], Path]] = {}
+    if "fabric.max_curvature" in first:
+        with_curvature = [r for r in runs if "fabric.max_curvature" in r]
+        found["curvature"] = partial(curvature.draw, runs=with_curvature, marks=marks)
+        found["lengths"] = partial(lengths.draw, run=first, marks=marks)
+        found["side_view"] = partial(side_view.draw, run=first, marks=marks)
+    if "actuator.temperature" in first:
+        found["temperatures"] = partial(temperatures.draw, run=first, marks=marks)
+        found["stiffness_loops"] = partial(stiffness_loops.draw, run=first)
+    if "circuit.current" in first:
+        found["currents"] = partial(currents.draw, run=first, marks=marks)
+    return found

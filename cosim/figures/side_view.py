@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from cosim.figures.style import COLD, HOT, RECOOLED, figure
+from cosim.figures.style import COLD, HOT, RECOOLED, figure, label_of
 
 
 def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
@@ -20,7 +20,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         moments.append(("hot", positive[1] if len(positive) > 1 else end, HOT))
     if len(positive) > 1:
         moments.append(("re-cooled", end, RECOOLED))
-    with figure(path, width=6.4, height=3.6) as (axes,):
+    with figure(path, width=6.4, height=4.0, title="Side view", run=label_of(run)) as (axes,):
         for label, moment, colour in moments:
             now = run.sel(time=moment, method="nearest")
             _outline(axes, now["fabric.marker_position"].values, now["fabric.row_centre"].values, colour,

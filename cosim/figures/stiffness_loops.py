@@ -7,23 +7,24 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.figures.style import COLD, HOT, figure
+from cosim.figures.style import COLD, DEGREES, HOT, figure, label_of
 from cosim.paper.laws import COOLING, HEATING
 
 
 def draw(path: Path, run: xr.Dataset) -> Path:
-    """Draw k [N/mm] against T [degC] of every coil whose course differs."""
-    with figure(path) as (axes,):
+    """Draw k [N/mm] against T [°C] of every coil whose course differs."""
+    with figure(path, title="Stiffness over temperature", run=label_of(run)) as (axes,):
         celsius = run["actuator.temperature"].values - 273.15
         stiffness = run["actuator.stiffness"].values / 1000.0
         grid = np.linspace(min(20.0, celsius.min()), max(75.0, celsius.max()), 300)
-        axes.plot(grid, HEATING(grid), color=HOT, ls="--", lw=1, label="equation (2), T rising")
-        axes.plot(grid, COOLING(grid), color=COLD, ls="--", lw=1, label="equation (2), T falling")
+        # Dashed on top: the run lies on the equation where it is right, and would hide it.
+        axes.plot(grid, HEATING(grid), color=HOT, ls=(0, (4, 3)), lw=1.2, zorder=4, label="equation (2), T rising")
+        axes.plot(grid, COOLING(grid), color=COLD, ls=(0, (4, 3)), lw=1.2, zorder=4, label="equation (2), T falling")
         distinct = np.unique(celsius.round(9), axis=1, return_index=True)[1]
         for index in sorted(distinct)[:8]:
-            axes.plot(celsius[:, index], stiffness[:, index], color="0.1", lw=1.3, alpha=0.8,
+            axes.plot(celsius[:, index], stiffness[:, index], color="0.65", lw=2.6,
                       label="run" if index == min(distinct) else None)  # fmt: skip
-        axes.set_xlabel("coil temperature [degC]")
+        axes.set_xlabel(f"coil temperature [{DEGREES}]")
         axes.set_ylabel("stiffness k [N/mm]")
         axes.legend(frameon=False, fontsize=8)
     return path

@@ -8,12 +8,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from cosim.figures.style import HOT, figure, mark_switches
+from cosim.figures.style import DEGREES, HOT, figure, label_of, mark_switches
 
 
 def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
-    """Draw the temperature [degC] of each coil, or the range where there are many, and the surroundings."""
-    with figure(path) as (axes,):
+    """Draw the temperature [°C] of each coil, or the range where there are many, and the surroundings."""
+    with figure(path, title="Temperatures of the coils", run=label_of(run)) as (axes,):
         celsius = run["actuator.temperature"] - 273.15
         draw_coils(axes, celsius, "coil")
         for name in ("room.temperature", "bath.temperature"):
@@ -22,7 +22,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
                 axes.plot(run["time"], ambient, color="0.5", ls=":", label=name.split(".")[0])
         mark_switches(axes, marks)
         axes.set_xlabel("time [s]")
-        axes.set_ylabel("coil temperature [degC]")
+        axes.set_ylabel(f"coil temperature [{DEGREES}]")
         axes.legend(frameon=False, fontsize=8)
     return path
 

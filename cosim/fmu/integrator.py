@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from sksundae.cvode import CVODE
 
 from cosim.fmu.continuous import ContinuousModel
 from cosim.unit import Array, UnitError
@@ -15,7 +14,29 @@ from cosim.unit import Array, UnitError
 MOST_STEPS = 50_000
 #: Absolute tolerance of a state over relative tolerance times nominal value.
 ABSOLUTE_SHARE = 0.01
+_INSTALL = "install it, `pip install scikit-sundae`"
+_OTHERWISE = "or take `integrator: internal` if the FMU has a Co-Simulation interface"
 _LOOSEN = "loosen its tolerance, or give a smaller macro_step"
+
+
+def load_cvode(name: str) -> Any:
+    """The class CVODE of scikit-sundae.
+
+    Args:
+        name: Component that needs it.
+
+    Raises:
+        UnitError: It is not installed or does not load.
+    """
+    try:
+        from sksundae.cvode import CVODE
+    except ModuleNotFoundError as error:
+        raise UnitError(name, "`integrator: cvode` needs scikit-sundae, and it is not installed",
+                        remedy=f"{_INSTALL}, {_OTHERWISE}") from error  # fmt: skip
+    except ImportError as error:
+        raise UnitError(name, f"`integrator: cvode` needs scikit-sundae, and it does not load: {error}",
+                        remedy=f"install it again, {_OTHERWISE}") from error  # fmt: skip
+    return CVODE
 
 
 @dataclass(frozen=True)
@@ -49,6 +70,7 @@ class Integrator:
     """
 
     def __init__(self, model: ContinuousModel, relative_tolerance: float, reports_steps: bool) -> None:
+        self._cvode = load_cvode(model.name)
         self._model, self._rtol, self._reports_steps = model, relative_tolerance, reports_steps
         #: A model with event indicators but no states gets one that stays zero: CVODE finds roots of ODEs only.
         self._count = max(model.states + model.own, 1)
@@ -93,7 +115,7 @@ class Integrator:
 
             self._events = events
             options.update(eventsfn=events, num_events=model.indicators)
-        self._solver, self._size = CVODE(model.derivatives, **options), size
+        self._solver, self._size = self._cvode(model.derivatives, **options), size
         self._is_fresh = True
 
     def advance(self, begin: float, end: float) -> Reached:

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.continuous import ContinuousModel
-from cosim.fmu.integrator import Integrator
+from cosim.fmu.integrator import Integrator, load_cvode
 from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, is_worth_reporting
 from cosim.unit import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
 
@@ -38,6 +38,7 @@ class ModelExchangeUnit(FmuUnit):
     """
 
     def __init__(self, name: str, archive: FmuArchive, settings: FmuSettings) -> None:
+        load_cvode(name)  # now: a run must not begin and then find that it is missing
         super().__init__(name, archive, settings, "model_exchange")
         self._next_event: float | None = None
 

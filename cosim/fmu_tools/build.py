@@ -6,13 +6,11 @@ import zipfile
 from pathlib import Path
 
 from cosim.errors import InputError
-from cosim.fmu_assembly import fmu_folder
-from cosim.fmu_tools.build_c import build_c, model_identifier
+from cosim.fmu_build.at_first_use import file_name
+from cosim.fmu_build.build_c import build_c, model_identifier
 from cosim.fmu_tools.build_python import build_python, class_name
-from cosim.fmu_tools.sources import Language, find_source, language_of, shipped_actuators
-
-#: The size for which `make fmus` builds, and which file names leave out.
-DEFAULT_COILS = 36
+from cosim.fmu_tools.sources import Language, find_source, language_of
+from cosim.shipped import fmu_folder, shipped_actuators
 
 
 def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path, list[str]]:
@@ -66,4 +64,4 @@ def _target(name: str, version: int, coils: int, out: Path) -> Path:
     """As fmus/Makefile names them: an FMI 3.0 FMU takes any size, so the size is no part of its name by default."""
     if out.suffix == ".fmu":
         return out
-    return out / f"{name}_fmi{version}{'' if coils == DEFAULT_COILS else f'_n{coils}'}.fmu"
+    return out / file_name(name, version, coils)

@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 from cosim.errors import InputError
-from cosim.fmu_tools.sources import TEMPLATES, Language, shipped_actuators
+from cosim.fmu_tools.sources import Language
+from cosim.shipped import TEMPLATES, shipped_actuators
 
 _PLACEHOLDER = "my_actuator"
 

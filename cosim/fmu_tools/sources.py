@@ -6,9 +6,8 @@ from enum import StrEnum
 from pathlib import Path
 
 from cosim.errors import InputError
-
-ROOT = Path(__file__).resolve().parents[2]
-FMUS, TEMPLATES = ROOT / "fmus", ROOT / "templates"
+from cosim.nearest import did_you_mean
+from cosim.shipped import shipped_actuators
 
 
 class Language(StrEnum):
@@ -16,11 +15,6 @@ class Language(StrEnum):
 
     C = "c"
     PYTHON = "python"
-
-
-def shipped_actuators() -> dict[str, Path]:
-    """Name to source folder of every shipped actuator."""
-    return {file.parent.name: file.parent for file in sorted(FMUS.glob("*/model.c"))}
 
 
 def find_source(given: str) -> Path:
@@ -34,7 +28,7 @@ def find_source(given: str) -> Path:
         return folder
     if given in shipped:
         return shipped[given]
-    raise InputError(given, "", "there is no such folder and no such actuator",
+    raise InputError(given, "", f"there is no such folder and no such actuator{did_you_mean(given, shipped)}",
                      f"give a folder, or one of: {', '.join(shipped)}")  # fmt: skip
 
 

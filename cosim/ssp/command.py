@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import shutil
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
+from cosim.options import Changes, ScenarioArgument
 from cosim.scenario import Scenario, load_scenario
 from cosim.ssp.import_time import TimeRequest
 from cosim.ssp.namespaces import Version
@@ -42,18 +44,19 @@ def import_command(
 
 @app.command("export")
 def export_command(
-    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    scenario: ScenarioArgument,
     out: Annotated[Path, typer.Option(help="The .ssp file.")],
     version: Annotated[Literal["1", "2"], typer.Option(help="Version of SSP.")] = "2",
     only_fmus: Annotated[
         bool, typer.Option("--only-fmus", help="Leave out what is no FMU, for tools that know FMUs alone.")
     ] = False,
+    changes: Changes = None,
 ) -> None:
     """Export a scenario as an SSP."""
     from cosim.ssp.export import export_ssp  # late: `--help` must not load Bullet
 
     number: Version = "1.0" if version == "1" else "2.0"
-    _print_notes(export_ssp(load_scenario(scenario), out, number, only_fmus))
+    _print_notes(export_ssp(load_scenario(scenario, changes or ()), out, number, only_fmus))
     print(out)
 
 
@@ -72,7 +75,7 @@ def is_ssp(scenario: str) -> bool:
     return Path(scenario).suffix.lower() in (".ssp", ".ssd")
 
 
-def scenario_of(file: Path, folder: Path) -> Scenario:
+def scenario_of(file: Path, folder: Path, changes: Sequence[str] = ()) -> Scenario:
     """Scenario of an SSP, imported into `folder`, which a run in the same place may have left behind."""
     from cosim.ssp.importer import import_ssp
 
@@ -80,7 +83,7 @@ def scenario_of(file: Path, folder: Path) -> Scenario:
         shutil.rmtree(folder)
     imported = import_ssp(file, folder)
     _print_notes(imported.notes)
-    return load_scenario(imported.scenario)
+    return load_scenario(imported.scenario, changes)
 
 
 def _print_notes(notes: list[str] | tuple[str, ...]) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from cosim.fmu_tools.build_c import build_c
+from cosim.fmu_build.build_c import build_c
 from cosim.scenario import Scenario
 from diagnosis.amend.actuator_fmu import actuator_source
 from diagnosis.amend.beside import take_along

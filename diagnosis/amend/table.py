@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from cosim.fmu_tools.sources import FMUS
 from cosim.quantity import parse_unit, registry
+from cosim.shipped import FMUS
 
 #: SI base units in the order of the table of units in fmus/fmi/describe.c, as pint names their dimensions.
 _BASES = ("[mass]", "[length]", "[time]", "[current]", "[temperature]")

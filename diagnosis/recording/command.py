@@ -12,6 +12,7 @@ import xarray as xr
 from rich.console import Console
 
 from cosim.errors import InputError
+from cosim.options import Changes, complete_scenario
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.recording.readings import read_results
@@ -20,7 +21,10 @@ from diagnosis.recording.write import Notes, write_recording
 
 
 def record(
-    scenario: Annotated[str, typer.Argument(help="A scenario file or name, or the folder of a run.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(help="A scenario file or name, or the folder of a run.", autocompletion=complete_scenario),
+    ],
     out: Annotated[Path, typer.Option(help="Folder for the recording.")],
     channels: Annotated[
         str, typer.Option(help="Quantities, separated by spaces, for example `supply.current coil[*].temperature`.")
@@ -30,6 +34,7 @@ def record(
     video: Annotated[
         Path | None, typer.Option(help="Camera file: render frames of the fabric's side instead (docs/camera.md).")
     ] = None,
+    changes: Changes = None,
 ) -> None:
     """Run a scenario, read it with sensors, and write a recording; or render it as a camera sees it.
 
@@ -40,23 +45,29 @@ def record(
     if video is not None:
         if channels or sensor is not None:
             raise InputError("--video", "", "a camera has neither --channels nor --sensor", "leave them out")
-        _render(scenario, out, video, seed)
+        _render(scenario, out, video, seed, changes or [])
         return
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
 
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
     sensors = SensorFile() if sensor is None else load_sensors(sensor)
-    loaded, results = _results(scenario)
+    loaded, results = _results(scenario, changes or [])
     done = conditions(loaded)
     done["time"]["stop"] = f"{float(results['time'].values[-1]):.12g} s"
     read = read_results(results, channels.split(), sensors, seed, sensor or Path(scenario))
-    write_recording(out, read, Notes(loaded.title, f"cosim record {scenario}, seed {seed}", done))
+    write_recording(
+        out,
+        read,
+        Notes(
+            loaded.title, f"cosim record {scenario}{''.join(f' --set {c}' for c in changes or [])}, seed {seed}", done
+        ),
+    )
     readings = sum(len(r.reading.times) for r in read.values())
     print(f"{out}: {len(read)} channels, {readings} readings of `{loaded.title}`")
 
 
-def _render(scenario: str, out: Path, camera: Path, seed: int) -> None:
+def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str]) -> None:
     """Frames of a run, or of the markers of a CSV file."""
     from cosim.camera.camera_file import load_camera  # late: OpenCV is an extra
     from cosim.camera.opencv import opencv
@@ -67,7 +78,7 @@ def _render(scenario: str, out: Path, camera: Path, seed: int) -> None:
     if Path(scenario).suffix.lower() == ".csv":
         motion, title = motion_of_table(Path(scenario)), f"Markers of {Path(scenario).name}"
     else:
-        loaded, results = _results(scenario)
+        loaded, results = _results(scenario, changes)
         motion, title = motion_of_results(results, Path(scenario)), loaded.title
     console = Console(stderr=True)
     with console.status("rendering") if console.is_terminal else nullcontext() as status:
@@ -79,10 +90,12 @@ def _render(scenario: str, out: Path, camera: Path, seed: int) -> None:
           f"cosim track {out / 'frames'} --rig {out / 'rig.yaml'} --out RECORDING")  # fmt: skip
 
 
-def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
+def _results(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:
     """Scenario and results of a finished run, or of one made now."""
     if not Path(scenario).is_dir():
-        return _run(scenario)
+        return _run(scenario, changes)
+    if changes:
+        raise InputError("--set", "", f"{scenario} is a run that is made already", "give its scenario instead")
     folder = RunFolder(Path(scenario))
     if not folder.is_complete():
         raise InputError(folder.path, "", "this folder holds no complete run", "give a scenario, or finish the run")
@@ -90,11 +103,11 @@ def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
         return load_scenario(folder.scenario), stored.load()
 
 
-def _run(scenario: str) -> tuple[Scenario, xr.Dataset]:
+def _run(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:
     from cosim.progress import progress_bar  # late: `--help` must not load Bullet
     from cosim.run import RunStopped, run
 
-    loaded = load_scenario(scenario)
+    loaded = load_scenario(scenario, changes)
     try:
         with progress_bar(loaded.title) as on_progress:
             return loaded, run(loaded, on_progress=on_progress)

@@ -80,7 +80,7 @@ def load_sensors(path: Path) -> SensorFile:
     try:
         return SensorFile.model_validate(data)
     except pydantic.ValidationError as error:
-        raise input_error(path, error, "docs/recordings.md lists the keys of a sensor") from error
+        raise input_error(path, error, "docs/recordings.md lists the keys of a sensor", SensorFile) from error
 
 
 @dataclass(frozen=True)

@@ -150,4 +150,4 @@ def load_sidecar(file: Path) -> Sidecar:
     try:
         return Sidecar.model_validate(data)
     except pydantic.ValidationError as error:
-        raise input_error(file, error, "docs/recordings.md lists the keys of a recording") from error
+        raise input_error(file, error, "docs/recordings.md lists the keys of a recording", Sidecar) from error

@@ -9,6 +9,8 @@ from diagnosis.report.display import clean, listed, number, percent
 from diagnosis.report.markup import Html, element, folded, image, listing, table, wrapped
 
 _CHANNELS = 5
+#: Faults up to which they are shown as a matrix.
+_MATRIX = 24
 
 
 def experiment_section(experiment: NextExperiment | None) -> Html:
@@ -57,8 +59,43 @@ def isolability_section(told: Isolability) -> Html:
         parts += [element("p", "Channels that would help, the best first:"),
                   table(("channel", "classes told apart", ""), rows)]  # fmt: skip
     if told.classes:
+        parts += _matrix(told.classes)
         parts.append(folded(f"All {len(told.classes)} classes", listing(_class(c) for c in told.classes)))
     return element("section", element("h2", "What these channels can tell apart"), *parts)
+
+
+def _matrix(classes: tuple[FaultClass, ...]) -> list[Html]:
+    """Which fault is told from which, as far as it fits."""
+    faults = [(fault, one) for one in classes for fault in one.faults]
+    if not 2 <= len(faults) <= _MATRIX:
+        return []
+    head = element(
+        "tr",
+        element("th", ""),
+        element("th", element("abbr", "seen", title="Whether it shows at all.")),
+        *(element("th", element("abbr", str(n), title=clean(fault))) for n, (fault, _) in enumerate(faults, 1)),
+    )
+    rows = [
+        element("tr", element("th", f"{n}  {clean(fault)}", scope="row"),
+                element("td", "yes" if own.is_detectable else "no", class_="met" if own.is_detectable else "missed"),
+                *(_pair(fault, own, other, of) for other, of in faults))
+        for n, (fault, own) in enumerate(faults, 1)
+    ]  # fmt: skip
+    note = (
+        "Filled: by the structure of the equations these channels cannot tell the two apart. Open: they can. Columns "
+        "are numbered as rows."
+    )
+    grid = element("table", element("thead", head), element("tbody", *rows), class_="matrix")
+    return [element("div", grid, class_="wide"), element("p", note, class_="note")]
+
+
+def _pair(fault: str, own: FaultClass, other: str, of: FaultClass) -> Html:
+    if fault == other:
+        return element("td", "", class_="self")
+    both = f"{clean(fault)} and {clean(other)}"
+    if own is of:
+        return element("td", "●", class_="alike", title=f"{both}: cannot be told apart")
+    return element("td", "○", class_="apart", title=f"{both}: told apart")
 
 
 def _class(one: FaultClass) -> str:

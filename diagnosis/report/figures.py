@@ -27,7 +27,8 @@ from diagnosis.report.user_units import IN_SI, Units
 
 #: One colour for each finding, in their order.
 FINDING_COLOURS = (HOT, COLD, RECOOLED, "#b7791f", "#6b46c1")
-_STAGES: dict[str, dict[str, Any]] = {
+#: Looks of the curves of each stage.
+STAGE_LOOKS: dict[str, dict[str, Any]] = {
     "before": {"color": WITHOUT_MODEL, "ls": ":", "lw": 1.2},
     "recalibrated": {"color": "#d97706", "ls": "--", "lw": 1.2},
     "after": {"color": WITH_MODEL, "ls": "-", "lw": 1.2},
@@ -138,7 +139,7 @@ def _paint_series(
     upper.plot(series.times[keep], scaled(series.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
     for name, values in curves.items():
         keep = thinned(values)
-        upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **_STAGES[name])
+        upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **STAGE_LOOKS[name])
     factor, of_difference = units.difference(series.unit)
     noise = 2.0 * factor * np.broadcast_to(np.asarray(series.deviation, dtype=np.float64), series.times.shape)
     keep = np.array([0, -1]) if np.ndim(series.deviation) == 0 else thinned(noise)
@@ -148,12 +149,12 @@ def _paint_series(
     for name, values in curves.items():
         residual = factor * (series.measured - values)
         keep = thinned(residual)
-        lower.plot(series.times[keep], residual[keep], **{**_STAGES[name], "lw": 0.9})
+        lower.plot(series.times[keep], residual[keep], **{**STAGE_LOOKS[name], "lw": 0.9})
     lower.set_ylim(*residual_limits(series, factor))
     for axes in (upper, lower):
         _shade(axes, series, findings, left)
-    upper.set_ylabel(_labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
-    lower.set_ylabel(_labelled("residual", of_difference))
+    upper.set_ylabel(labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
+    lower.set_ylabel(labelled("residual", of_difference))
     lower.set(xlabel="time [s]", xlim=_limits(series.times))
     figure.legend(loc="outside upper left", frameon=False, ncols=5, fontsize=8)
 
@@ -188,13 +189,14 @@ def residual_limits(series: Series, factor: float) -> tuple[float, float]:
 
 def _labels(curves: dict[str, Array]) -> dict[str, str]:
     """Names of the curves; one that stands for several stages says so."""
-    order = list(_STAGES)
+    order = list(STAGE_LOOKS)
     own = [order.index(name) for name in curves]
     ends = [*own[1:], len(order)]
     return {name: " = ".join(order[a:b]) for name, a, b in zip(curves, own, ends)}
 
 
-def _labelled(name: str, unit: str) -> str:
+def labelled(name: str, unit: str) -> str:
+    """Name of an axis with its unit."""
     return f"{name.replace('_', ' ')} [{unit}]" if unit else name.replace("_", " ")
 
 

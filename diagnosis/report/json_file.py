@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from cosim.errors import InputError
+from cosim.faults import words
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis
 
@@ -51,7 +52,7 @@ def read_json(path: Path) -> Diagnosis:
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(str(part) for part in first["loc"])
-        raise InputError(path, key, f"{first['msg']}, not {first['input']!r}", _REMEDY) from error
+        raise InputError(path, key, words(first), _REMEDY) from error
 
 
 def _plain(value: Any) -> Any:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
+from diagnosis.report.anchors import anchored
 from diagnosis.report.display import clean, listed, number
 from diagnosis.report.experiment_section import experiment_section, isolability_section
 from diagnosis.report.figures import is_left_in, network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
 from diagnosis.report.fit_section import TITLE, fit_section
+from diagnosis.report.lead import lead
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
 from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
 from diagnosis.report.network import Network, concerned, inferred
@@ -75,9 +78,7 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
     # Where nothing was found, what is left is the answer.
     units = Units(diagnosis.units)
     left, is_first = [remainder_section(diagnosis.left, units)], not diagnosis.findings
-    body = element(
-        "body",
-        _answer(diagnosis, name),
+    sections, contents = anchored(joined([
         _place_and_time(diagnosis, series, network),
         *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
         *left[:is_first],
@@ -90,8 +91,8 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         location_section(diagnosis.locations, units),
         isolability_section(diagnosis.isolability),
         _rests_on(diagnosis),
-        element("footer", effort(diagnosis)),
-    )  # fmt: skip
+    ]))  # fmt: skip
+    body = element("body", _answer(diagnosis, name, series), contents, sections, element("footer", effort(diagnosis)))
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 
 
@@ -99,7 +100,7 @@ def _section(title: str, *content: str) -> Html:
     return element("section", element("h2", title), *content)
 
 
-def _answer(diagnosis: Diagnosis, name: str) -> Html:
+def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
     """Verdict, and where, when, what and how much better in a line each."""
     verdict = diagnosis.verdict.value
     facts = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
@@ -110,18 +111,27 @@ def _answer(diagnosis: Diagnosis, name: str) -> Html:
     if diagnosis.amended_model:
         note = model_note(diagnosis)
         facts.append(("Model", f"{diagnosis.amended_model} ({note})") if note else
-                     ("Amended model", diagnosis.amended_model))  # fmt: skip
+                     ("Amended model", _command(diagnosis.amended_model)))  # fmt: skip
     if diagnosis.adequacy is not None and not any(f.is_held_out for f in diagnosis.fit):
         facts.append(("Judged by", diagnosis.adequacy.basis))
     elif diagnosis.held_out_by:
         facts.append(("Judged by", coded(diagnosis.held_out_by)))
+    beside = lead(diagnosis, series)
     return element(
         "header",
         element("h1", name),
         element("p", element("span", verdict, class_=f"verdict {verdict.replace(' ', '-')}"), " ",
                 element("strong", diagnosis.statement), " ", ADVICE[diagnosis.verdict]),
-        element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
+        element("div", element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)), beside,
+                class_="answer" if beside else "wide"),
     )  # fmt: skip
+
+
+def _command(scenario: str) -> Html:
+    """How the amended model is run."""
+    folder = Path("runs") / Path(scenario).parent.name
+    return joined([element("code", f"cosim run {shlex.quote(scenario)} --out {shlex.quote(str(folder))}"),
+                   " simulates it."])  # fmt: skip
 
 
 def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
@@ -198,7 +208,7 @@ def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, floa
 def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
     if not series:
         return Html("")
-    drawn = []
+    drawn: dict[str, dict[bool, list[Html]]] = {}
     if not diagnosis.findings:  # what is left is the answer
         series = sorted(series, key=lambda s: not any(is_left_in(r, s) for r in diagnosis.left))
     for one in series:
@@ -208,14 +218,20 @@ def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
             series_figure(one, diagnosis.findings, diagnosis.left, Units(diagnosis.units)),
             f"{caption}: measured and simulated",
         )
-        drawn.append(element("figure", element("figcaption", caption), picture))
+        figure = element("figure", element("figcaption", caption), picture)
+        drawn.setdefault(one.channel, {}).setdefault(one.is_held_out, []).append(figure)
     told = (
-        "Those in which findings show most or most is left, and those that are met worst. Above: measured and "
+        "Those in which findings show most or most is left, and those that are met worst; the same channel in training "
+        "and held out side by side, where both recorded it. Above: measured and "
         "simulated. Below: measured minus simulated. Shaded in training: where a finding shows; grey: where more than "
         "noise is left."
     )
     note = element("p", told, class_="note")
-    return _section("Channels", note, *drawn)
+    rows = [
+        element("div", *(element("div", *parts[part]) for part in (False, True) if part in parts), class_="pair")
+        for parts in drawn.values()
+    ]
+    return _section("Channels", note, *rows)
 
 
 def _rests_on(diagnosis: Diagnosis) -> Html:

@@ -39,7 +39,10 @@ def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
     Of a law with an instant, or with begin and end, that is when it acts; of any other, where it is seen.
     """
     told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
-    if not any(p.name in _INSTANTS for p in finding.parameters):
+    onset = next((p for p in finding.parameters if p.name == "instant"), None)
+    if onset is not None and finding.intervals:
+        told = f"from {units.estimate(onset)} on"
+    elif not any(p.name in _INSTANTS for p in finding.parameters):
         told = f"seen {told}" if finding.intervals else told
     return f"{told} of {clean(finding.recording)}" if finding.recording else told
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from cosim.fmu_tools.sources import shipped_actuators
+from cosim.shipped import shipped_actuators
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -5,9 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from cosim.fmu_tools.sources import shipped_actuators
 from cosim.run import run
 from cosim.scenario import parse_scenario
+from cosim.shipped import shipped_actuators
 
 from .scenarios import short
 

@@ -32,7 +32,7 @@ HOSTILE = {
     "an infinite step": (("macro_step: 0.1 s", "macro_step: .inf"), "time.macro_step", "is not a finite number"),
     "a negative step": (("macro_step: 0.1 s", "macro_step: -1 s"), "time.macro_step", ""),
     "an FMU's name of 300 letters": (("x.fmu", "y" * 300 + ".fmu"), "", "there is no such FMU"),
-    "an actuator's name of 300 letters": (("x.fmu", "y" * 300), "components.u.fmu", "there is no FMU"),
+    "an actuator's name of 300 letters": (("x.fmu", "y" * 300), "components.u.fmu", "there is no shipped FMU"),
     "an FMU that is a folder": (("x.fmu", "/.fmu"), "", "there is no such FMU"),
 }
 

@@ -68,8 +68,8 @@ WRONG = [
     (("time", "macro_step"), "0.3 ns", "time", "whole number of nanoseconds"),
     (("time", "stop"), ".nan s", "time.stop", "not a number with a unit"),
     (("time", "stop"), None, "time.stop", "this key is missing"),
-    ((*FABRIC, "rows"), 1, "components.fabric", "greater than or equal to"),
-    ((*FABRIC, "tether", "kind"), "nailed", "components.fabric", "'cantilever' or 'hanging'"),
+    ((*FABRIC, "rows"), 1, "components.fabric", "`1` must be at least 2"),
+    ((*FABRIC, "tether", "kind"), "nailed", "components.fabric", "it is one of: cantilever, hanging"),
     (
         (*FABRIC, "kind"),
         "cloth",
@@ -77,7 +77,7 @@ WRONG = [
         "`kind` must be one of: programme, ngspice, fmu, actuator, bullet_fabric",
     ),
     ((*FABRIC, "solver"), {"micro_step": "0.3 ms"}, "components.fabric.solver.micro_step", "whole number of steps"),
-    ((*FABRIC, "solver"), {"iterations": 0}, "iterations", "greater than or equal to 1"),
+    ((*FABRIC, "solver"), {"iterations": 0}, "iterations", "`0` must be at least 1"),
     (
         ("connections",),
         ["coil.stiffness = fabric.stiffness"],

@@ -35,19 +35,26 @@ def read_page(path: Path) -> str:
 
 
 class Page(HTMLParser):
-    """Elements, addresses and text of a page; every element that opens must close."""
+    """Elements, pictures, links and text of a page; every element that opens must close.
+
+    The list of links and what stands beside the answer are no part of the text.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__()
         self.open: list[str] = []
         self.addresses: list[str] = []
+        self.links: list[str] = []
+        self.ids: list[str] = []
         self.names: list[str] = []
-        self.text = ""
+        self.text = self.beside = ""
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.names.append(tag)
-        self.addresses += [v or "" for k, v in attrs if k in ("src", "href")]
+        self.addresses += [v or "" for k, v in attrs if k == "src"]
+        self.links += [v or "" for k, v in attrs if k == "href"]
+        self.ids += [v or "" for k, v in attrs if k == "id"]
         if tag not in ("meta", "img"):
             self.open.append(tag)
 
@@ -55,7 +62,9 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data: str) -> None:
-        if self.open and self.open[-1] != "style":
+        if "aside" in self.open:
+            self.beside += data
+        elif self.open and self.open[-1] != "style" and "nav" not in self.open:
             self.text += data
 
 
@@ -139,8 +148,13 @@ def test_the_page_tells_verdict_and_findings_and_loads_nothing(verdict: Verdict,
         assert finding.statement in page.text
         assert finding.law in page.text
     assert all(a.startswith("data:image/svg+xml;base64,") for a in page.addresses)
-    # Two channels, with findings the network and the time line, where there are any waveform and next experiment.
-    expected = 2 + (2 if told.findings else 0) + len(told.waveforms) + (told.next_experiment is not None)
+    assert page.links
+    assert {link[1:] for link in page.links} == set(page.ids)  # every link leads to a section of this page
+    assert len(set(page.ids)) == len(page.ids)
+    # Two channels and, where one was judged, the worst of them beside the answer; with findings the network and the
+    # time line, where there are any waveform and next experiment.
+    judged = {f.channel for f in told.fit} & {"coil[2,5].temperature", "string[3].current"}
+    expected = 2 + bool(judged) + (2 if told.findings else 0) + len(told.waveforms) + (told.next_experiment is not None)
     assert len(page.addresses) == expected
     for address in page.addresses:
         ElementTree.fromstring(base64.b64decode(address.partition(",")[2]))

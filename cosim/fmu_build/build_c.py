@@ -18,7 +18,7 @@ from pathlib import Path
 import fmpy
 
 from cosim.errors import InputError
-from cosim.fmu_tools.sources import FMUS
+from cosim.shipped import FMUS
 
 WARNINGS = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic")
 _SHARED = ("variables.c", "instance.c", "states.c", "snapshot.c")

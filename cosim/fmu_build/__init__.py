@@ -1,0 +1,1 @@
+"""Compiling actuators in C to FMUs."""

@@ -1,0 +1,130 @@
+"""Figures of runs: which there are, what they say, and the mean over a noisy line."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cosim.errors import InputError
+from cosim.figures import style
+from cosim.figures.draw import draw_run
+from cosim.figures.style import SWITCH, figure, mark_switches, smoothed
+from cosim.options import FORMATS, formats_of
+from cosim.run_folder import RunFolder
+
+
+@pytest.fixture
+def fabric_run(tmp_path):
+    """A run folder of a small fabric, with the results that the figures read."""
+    time = np.arange(0.0, 30.0, 0.02)
+    hot = (time > 8.0) & (time < 18.0)
+    curve = np.where(hot, 1.0, 10.0) + 0.5 * np.cos(np.pi * np.arange(len(time)))
+    voltage = np.where((time > 0.37) & (time < 12.6), 6.0, 0.0)
+    kelvin = np.repeat((295.15 + 3.0 * voltage)[:, None], 4, axis=1)
+    dataset = xr.Dataset(
+        {
+            "supply.voltage": ("time", voltage),
+            "fabric.max_curvature": ("time", curve),
+            "fabric.fabric_length": ("time", 0.1 + 0.0 * time),
+            "fabric.link_length": (("time", "link"), np.full((len(time), 2), 0.03)),
+            "fabric.marker_position": (("time", "marker", "axis"), np.zeros((len(time), 4, 3))),
+            "fabric.row_centre": (("time", "row", "axis"), np.zeros((len(time), 2, 3))),
+            "actuator.temperature": (("time", "coil"), kelvin),
+            "actuator.stiffness": (("time", "coil"), 200.0 + 0.0 * kelvin),
+            "circuit.current": (("time", "coil"), 0.4 + 0.0 * kelvin),
+            "circuit.supply_current": ("time", voltage),
+            "circuit.supply_power": ("time", 6 * voltage),
+        },
+        {"time": time},
+        {"title": "My fabric, 5 $ a link"},
+    )
+    folder = RunFolder(tmp_path / "run")
+    folder.path.mkdir()
+    dataset.to_netcdf(folder.results, engine="netcdf4")
+    return folder.path
+
+
+def test_every_figure_is_written_in_every_format_under_a_name_that_fits_any_fabric(fabric_run):
+    drawn = draw_run(fabric_run, FORMATS)
+    names = {path.stem for path in drawn}
+    assert names == {"curvature", "lengths", "side_view", "temperatures", "stiffness_loops", "currents"}
+    assert len(drawn) == len(names) * len(FORMATS)
+    for path in drawn:
+        begin = path.read_bytes()[:200]
+        assert {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[path.suffix[1:]] in begin
+
+
+def test_the_same_run_gives_the_same_files(fabric_run):
+    first = {path: path.read_bytes() for path in draw_run(fabric_run, FORMATS)}
+    assert {path: path.read_bytes() for path in draw_run(fabric_run, FORMATS)} == first
+
+
+@pytest.fixture
+def texts(fabric_run, monkeypatch):
+    """Figure to its texts, as it is saved."""
+    found = {}
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        axes = self.axes
+        found[path.stem] = {
+            "heading": self.get_suptitle(), "labels": [a.get_ylabel() for a in axes] + [axes[-1].get_xlabel()],
+            "switches": [line.get_color() for a in axes for line in a.lines if line.get_label() == "supply switched"],
+            "marks": [t.get_text() for t in axes[0].texts],
+        }  # fmt: skip
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    draw_run(fabric_run)
+    return found
+
+
+def test_each_figure_has_its_title_and_the_run_and_an_axis_per_unit(texts):
+    for name, told in texts.items():
+        title, run = told["heading"].split("\n")
+        assert run == r"My fabric, 5 \$ a link", name
+        assert title
+        assert not [label for label in told["labels"] if "degC" in label or label.count("[") > 1]
+        assert {str(c) for c in told["switches"]} <= {SWITCH}
+    assert texts["currents"]["labels"][:3] == ["coil current [mA]", "supply current [A]", "supply power [W]"]
+    assert "°C" in texts["temperatures"]["labels"][0]
+
+
+def test_what_the_paper_states_is_marked_in_the_paper_s_own_run_alone(texts, fabric_run):
+    assert texts["curvature"]["marks"] == []
+    with xr.open_dataset(fabric_run / "results.nc") as stored:
+        paper = stored.load()
+    paper.attrs["title"] = "Prototype (paper, Figure 3)"
+    (fabric_run / "results.nc").unlink()
+    paper.to_netcdf(fabric_run / "results.nc", engine="netcdf4")
+    draw_run(fabric_run)
+    marks = texts["curvature"]["marks"]
+    assert "Figure 3" in texts["curvature"]["heading"]
+    for part in ("full rigidity", "flexibility regained", "delay"):
+        assert any(part in mark for mark in marks), part
+
+
+def test_the_mean_keeps_a_line_and_takes_away_what_alternates():
+    times = np.arange(0.0, 2.0, 0.02)
+    line = 3.0 + 2.0 * times
+    inside = slice(5, -5)
+    assert smoothed(times, line)[inside] == pytest.approx(line[inside], rel=1e-12)
+    noise = np.cos(np.pi * np.arange(len(times)))
+    # Eleven samples of +1 and -1 sum to 1: the mean is at most 1/11.
+    assert np.abs(smoothed(times, noise)[inside]).max() == pytest.approx(1 / 11, rel=1e-9)
+    assert smoothed(times[:2], line[:2]).tolist() == line[:2].tolist()
+
+
+def test_a_long_name_of_a_run_stays_inside(tmp_path):
+    with figure(tmp_path / "f.png", title="Lengths", run="word " * 80) as (axes,):
+        mark_switches(axes, [0.5])
+        heading = axes.figure.get_suptitle()
+    assert heading.count("\n") == 2
+    assert heading.endswith("...")
+
+
+@pytest.mark.parametrize("given", ["", " , ", "gif", "png,sgv"])
+def test_a_format_that_is_none_is_refused(given):
+    with pytest.raises(InputError, match="--format"):
+        formats_of(given)
+    assert FORMATS == style.FORMATS
+    assert formats_of("SVG, png,svg") == ["svg", "png"]
