@@ -88,7 +88,7 @@ def page(folders: Sequence[Path], seed: int, cases: int) -> str:
         (
             "physics named where a sensor was at fault",
             "at most 2 %",
-            [bool(s["named"]) for s in done if s["kind"] == "fault"],
+            [bool(s["named"]) for s in faulty],
         ),
         ("wrong name on hidden and composed laws", "at most 10 %", [s["misnamed"] for s in outside]),
         ("hidden and composed: 80 % of the possible gain", "80 %", gains),
@@ -101,9 +101,10 @@ def page(folders: Sequence[Path], seed: int, cases: int) -> str:
     lines = [
         "# What the diagnosis reaches on systems of FMUs",
         "",
-        f"`python -m evaluation.systems --cases {cases} --seed {seed}`, {date.today()}, at {commit}; {len(scores)} scored.",
-        "Rigs, truths and the rules of scoring: [laws.md](laws.md#proof). Single effects count where recalibration alone",
-        "leaves chi-square per held-out reading above 1.3: what lies below is taken up by the numbers of the model.",
+        f"`python -m evaluation.systems --cases {cases} --seed {seed}`, {date.today()}, at {commit}.",
+        f"{len(scores)} cases are scored.",
+        "Rigs, truths, scoring: [laws.md](laws.md#proof). Single effects count where recalibration alone leaves",
+        "chi-square per held-out reading above 1.3: what lies below is taken up by the numbers of the model.",
         "",
         "| measure | aim | reached |",
         "|---|---|---|",
