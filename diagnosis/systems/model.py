@@ -269,11 +269,11 @@ def laws_at(
         for system in systems:
             system.close()
     laws = [law for law in library() if law.identifier not in without]
-    step = sample_step(recordings)
+    step, macro = sample_step(recordings), nanoseconds(scenario.time.macro_step) * 1e-9
     channels = dict.fromkeys(name for r in recordings for name in r.channels)
-    sensors = [law for law in sensor_laws_of(channels, step) if law.place.term.identifier not in without]
+    sensors = [law for law in sensor_laws_of(channels, step, macro) if law.place.term.identifier not in without]
     untried = tuple(text for own in places for text in own.untried)
-    return SystemLaws(tuple(fits(places, laws, step)), tuple(sensors), tuple(usual), untried)
+    return SystemLaws(tuple(fits(places, laws, step, macro)), tuple(sensors), tuple(usual), untried)
 
 
 def sample_step(recordings: Sequence[Recording]) -> float:

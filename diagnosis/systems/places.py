@@ -194,19 +194,22 @@ def _velocities(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, str]
 # fitting laws
 
 
-def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float) -> Iterator[Fit]:
+def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macro_step: float = 0.0) -> Iterator[Fit]:
     """Every law at every place where its quantities fit.
 
     Args:
         places: Of the system.
         laws: The library.
         sample_step: Typical time between readings [s].
+        macro_step: Of the co-simulation [s]: values that pass between FMUs are early or late by up to so much, and a lag
+            that is no longer is none of the rig.
     """
+    steps = sample_step, macro_step
     seen: set[tuple[str, str, str]] = set()
     for own in places:
         for law in laws:
             for to, target, symbols in _targets(own, law.role):
-                fit = _fit(own, law, to, target, symbols, sample_step)
+                fit = _fit(own, law, to, target, symbols, steps)
                 if fit is None:
                     continue
                 signature = own.component, to, _form(fit.placed)
@@ -271,7 +274,7 @@ def _is(quantity: Quantity, *units: str) -> bool:
 
 
 def _fit(
-    own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], sample_step: float
+    own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: tuple[float, float]
 ) -> Fit | None:
     numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
     needed = {n for f in (law.formula, *(s.rate for s in law.states)) for n in names_in(f)} - numbers
@@ -282,7 +285,7 @@ def _fit(
     if any(v in taken for v in fresh.values()):
         return None
     names = {**{s: q.name for s, q in symbols.items()}, **fresh}
-    scale = _Scale(symbols, target, to.startswith("der("), sample_step)
+    scale = _Scale(symbols, target, to.startswith("der("), steps[0])
     try:
         constants = {
             fresh[n]: PhysicalValue(float(f"{share * scale.size(of):.3g}"), scale.unit(of))
@@ -303,7 +306,7 @@ def _fit(
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
     domain = domain_of(target.unit)
-    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols) for n in law.numbers)
+    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
     others = [q.name for symbol, q in symbols.items() if symbol == "o"]
@@ -352,14 +355,17 @@ def _check(own: Places, placed: Placed, to: str) -> None:
         Formula(state.start, units, state.unit)
 
 
-def _parameter(number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity]) -> TermParameter:
+def _parameter(
+    number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float
+) -> TermParameter:
     size = scale.size(number.of)
     middle = symbols[number.origin].middle if number.origin else 0.0
     lower = -number.most if number.least is None else number.least
     starts = tuple(middle + size * s for s in number.starts)
     return TermParameter(
-        name, scale.unit(number.of), middle + size * lower, middle + size * number.most, starts, meaning=number.meaning
-    )
+        name, scale.unit(number.of), middle + size * lower, middle + size * number.most, starts,
+        negligible=macro_step if scale.unit(number.of) == "s" else 0.0, meaning=number.meaning,
+    )  # fmt: skip
 
 
 def _form(placed: Placed) -> str:

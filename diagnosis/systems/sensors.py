@@ -14,29 +14,30 @@ from diagnosis.search.unit_law import UnitLaw
 LONGEST_LAG, LARGEST_OFFSET, LAGS, OFFSETS = 300.0, 50.0, (1.0, 8.0), (1.0, -1.0)
 
 
-def sensor_laws_of(channels: Collection[str], sample_step: float) -> list[UnitLaw]:
+def sensor_laws_of(channels: Collection[str], sample_step: float, macro_step: float) -> list[UnitLaw]:
     """Gain, lag and clock of every channel.
 
     Args:
         channels: Their names.
         sample_step: Typical time between two readings [s].
+        macro_step: Of the co-simulation [s]; what is shorter is an error of the coupling.
     """
     found = []
     for channel in channels:
         for identifier, (name, law, number) in SENSOR_TERMS.items():
-            own = _sized(identifier, number, sample_step)
+            own = _sized(identifier, number, sample_step, macro_step)
             term = Term(identifier, channel, "measurement", (own,), law=law.replace("pi", "middle"))
             found.append(UnitLaw(ComponentTerm(term, channel, ()), name))
     return found
 
 
-def _sized(identifier: str, number: TermParameter, step: float) -> TermParameter:
+def _sized(identifier: str, number: TermParameter, step: float, macro_step: float) -> TermParameter:
     if identifier == "sensor_lag":
         return replace(
             number,
             upper=LONGEST_LAG * step,
             starts=tuple(step * s for s in LAGS),
-            negligible=0.0,
+            negligible=macro_step,
             plausible=LONGEST_LAG * step,
             plausible_reason="no sensor of a rig follows that late",
         )
@@ -47,7 +48,7 @@ def _sized(identifier: str, number: TermParameter, step: float) -> TermParameter
             lower=-most,
             upper=most,
             starts=tuple(step * s for s in OFFSETS),
-            negligible=0.0,
+            negligible=macro_step,
             plausible=most,
             plausible_reason="an offset of so many readings is seen in the table",
         )

@@ -114,6 +114,15 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
     assert {law.role for law in library()} == set(Role)
 
 
+def test_a_lag_of_a_macro_step_is_an_error_of_the_coupling_and_no_finding(folder: Path) -> None:
+    """Gauss-Seidel hands on values that are half a macro-step early: a lag of that size mends it, and is none of the rig."""
+    system = FastSystem(parse_scenario(_TANK, folder / "scenario.yaml"))
+    found = {f.term.identifier: f for f in fits(places_of([system]), library(), 1.0, 0.5)}
+    system.close()
+    assert found["input_lag"].term.parameters[0].negligible == 0.5
+    assert found["free_outflow"].term.parameters[0].negligible == 0.0
+
+
 def test_the_page_of_the_library_is_that_of_the_files() -> None:
     page = Path(__file__).parents[2] / "docs" / "law-library.md"
     assert page.read_text(encoding="utf-8").rstrip() == "\n".join(lines()).rstrip()
