@@ -191,14 +191,15 @@ def explained(beside: Beside, course: Beside, at: Array | None = None, inside: A
     return fit(beside.measured[chosen], design(course, instants), beside.tolerance)
 
 
-def explains(own: float, other: float) -> bool:
-    """Whether another explanation takes away at least half of what the recording's own conditions leave.
+def explains(own: float, other: float, most_left: float = MOST_LEFT) -> bool:
+    """Whether another explanation takes away enough of what the recording's own conditions leave.
 
     Args:
         own: Share of the variance that these explain.
         other: Share that it explains.
+        most_left: Share of what is left that it leaves at most.
 
     >>> explains(0.97, 0.999), explains(0.38, 0.51)
     (True, False)
     """
-    return 1.0 - other <= MOST_LEFT * (1.0 - own)
+    return 1.0 - other <= most_left * (1.0 - own)

@@ -25,6 +25,9 @@ SHIFTS, FACTORS = 24, 16
 FASTEST = 0.3
 #: Bends of a sensor's characteristic that are tried, at quantiles of what it should read.
 KNOTS = 8
+#: Share of what the programme leaves that switches at free instants leave at most: with a dozen of them any slow course
+#: can be drawn, so that they have to explain nearly all of it.
+FREE_LEFT = 0.2
 #: Instants at which an unknown switch may lie.
 INSTANTS = 120
 
@@ -98,7 +101,7 @@ def switch_doubts(compared: Compared) -> list[Doubt]:
     if not leads or not len(compared.switches()):
         return []
     found = _switches(compared, leads, [_own(compared, b) for b in leads])
-    return [_doubt(compared, r) for r in found if r.gain > critical(4.0) and explains(r.own, r.other)]
+    return [_doubt(compared, r) for r in found if r.gain > critical(4.0) and explains(r.own, r.other, FREE_LEFT)]
 
 
 def _doubt(compared: Compared, best: Rival) -> Doubt:

@@ -201,8 +201,8 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
         places: Of the system.
         laws: The library.
         sample_step: Typical time between readings [s].
-        macro_step: Of the co-simulation [s]: values that pass between FMUs are early or late by up to so much, and a lag
-            that is no longer is none of the rig.
+        macro_step: Of the co-simulation [s]: values that pass between FMUs are early or late by up to so much, and a
+            lag that is no longer is none of the rig.
     """
     steps = sample_step, macro_step
     seen: set[tuple[str, str, str]] = set()

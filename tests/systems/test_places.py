@@ -115,7 +115,7 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
 
 
 def test_a_lag_of_a_macro_step_is_an_error_of_the_coupling_and_no_finding(folder: Path) -> None:
-    """Gauss-Seidel hands on values that are half a macro-step early: a lag of that size mends it, and is none of the rig."""
+    """Gauss-Seidel hands on values that are half a macro-step early: a lag of that size mends it."""
     system = FastSystem(parse_scenario(_TANK, folder / "scenario.yaml"))
     found = {f.term.identifier: f for f in fits(places_of([system]), library(), 1.0, 0.5)}
     system.close()
