@@ -38,7 +38,19 @@ from cosim.yaml_file import read_text
 if TYPE_CHECKING:
     from cosim.observers.trace import Trace
 
-_PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
+_PACKAGES = (
+    "numpy",
+    "scipy",
+    "fmpy",
+    "pybullet",
+    "mujoco",
+    "scikit-sundae",
+    "PySpice",
+    "xarray",
+    "netCDF4",
+    "pydantic",
+    "pint",
+)
 
 _NOT_NETCDF = re.compile(r"[\x00-\x1f\x7f/]| $")
 _MAKE_ROOM = "free some room, then go on with `--resume`"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +21,16 @@ from cosim.unit import (
     Variable,
     seconds,
 )
-from mechanics.bullet import SCALE, Motion, World, rotation, woven
+from mechanics.bullet import World as BulletWorld
 from mechanics.curvature import max_curvature
 from mechanics.fabric import FabricDesign, layout
 from mechanics.half import half
 from mechanics.linking import is_hooked
+from mechanics.motion import SCALE, Motion, rotation, woven
+from mechanics.mujoco_world import MujocoWorld, check_design, load_mujoco
 from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring, coil_tension, spring_energy
+from mechanics.world import Divergence, World
 
 
 def fabric_variables(design: FabricDesign) -> dict[str, Variable]:
@@ -73,7 +77,7 @@ def fabric_coordinates(design: FabricDesign) -> dict[str, Coordinate]:
 
 
 class FabricUnit(Unit):
-    """A fabric of interlocked links in Bullet.
+    """A fabric of interlocked links, in the engine that the settings name.
 
     Args:
         name: Name of the unit.
@@ -81,7 +85,8 @@ class FabricUnit(Unit):
         solver: Numerical settings.
 
     Raises:
-        ValueError: The micro-step is no whole number of nanoseconds.
+        ValueError: The micro-step is no whole number of nanoseconds, or the engine lacks what the design needs.
+        MujocoMissing: The engine is MuJoCo, and its package is not installed.
     """
 
     def __init__(self, name: str, design: FabricDesign, solver: SolverSettings) -> None:
@@ -96,6 +101,11 @@ class FabricUnit(Unit):
         self._half = half(design)
         self._steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
         self._world: World | None = None
+        if solver.engine == "mujoco":
+            check_design(design, solver)
+            load_mujoco()
+        #: MuJoCo's states are exact; Bullet's are not (docs/decisions/0004-bullet-settings.md).
+        self.can_restore = solver.engine == "mujoco"
 
     def set(self, name: str, value: Array) -> None:
         """Copy an input; raises UnitError if it is not finite."""
@@ -117,7 +127,8 @@ class FabricUnit(Unit):
 
     def _seat(self, motion: Motion) -> None:
         self.terminate()
-        self._world = World(self.design, self._layout, self.solver, motion)
+        engine = MujocoWorld if self.solver.engine == "mujoco" else BulletWorld
+        self._world = engine(self.design, self._layout, self.solver, motion)
 
     def _check_inputs(self, time: int) -> None:
         for name in ("stiffness", "rest_length"):
@@ -135,8 +146,8 @@ class FabricUnit(Unit):
         """Micro-steps with constant spring constants.
 
         Raises:
-            UnitError: A pose that is not finite, links overlap beyond the limit, a link torn free, or a macro-step
-                that the micro-step does not divide.
+            UnitError: The engine diverged, a pose that is not finite, links overlap beyond the limit, a link torn free,
+                or a macro-step that the micro-step does not divide.
         """
         assert self._world is not None, "initialise first"
         steps, rest = divmod(size, self._micro)
@@ -147,12 +158,15 @@ class FabricUnit(Unit):
                 time, "change solver.micro_step or time.macro_step",
             )  # fmt: skip
         self._check_inputs(time)
-        self._world.advance(steps, self._store.get("stiffness"), self._store.get("rest_length"))
+        try:
+            self._world.advance(steps, self._store.get("stiffness"), self._store.get("rest_length"))
+        except Divergence as error:
+            raise UnitError(self.name, str(error), time + size, "take a smaller solver.micro_step") from error
         self._measure(time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
-        """State of all links; Bullet's world is rebuilt from it here, as `resume` will."""
+        """State of all links; the engine's world is rebuilt from it here, as `resume` will."""
         assert self._world is not None, "initialise first"
         motion = self._world.motion().copy()
         self._seat(motion)
@@ -168,8 +182,26 @@ class FabricUnit(Unit):
         for name in self.variables:
             self._store.arrays[name][...] = state[f"value.{name}"]
 
+    def save(self) -> Any:
+        """State of MuJoCo's world and all values; Bullet cannot return to a state.
+
+        Raises:
+            UnitError: The engine is Bullet.
+        """
+        if not isinstance(self._world, MujocoWorld):
+            raise UnitError(self.name, "Bullet cannot return to a saved state", None, "use `engine: mujoco`")
+        return self._world.save(), {name: self._store.get(name).copy() for name in self.variables}
+
+    def restore(self, saved: Any, time: int) -> None:
+        """Return to what `save` gave."""
+        assert isinstance(self._world, MujocoWorld), "nothing was saved"
+        state, values = saved
+        self._world.restore(state)
+        for name in self.variables:
+            self._store.arrays[name][...] = values[name]
+
     def terminate(self) -> None:
-        """Free Bullet's world."""
+        """Free the engine's world."""
         if self._world is not None:
             self._world.close()
             self._world = None
@@ -241,7 +273,7 @@ class FabricUnit(Unit):
             if bad.size:
                 raise UnitError(
                     self.name, f"{what} of {self._describe(int(bad[0]))} is not finite", time,
-                    "Bullet diverged: take a smaller solver.micro_step",
+                    f"{'MuJoCo' if self.can_restore else 'Bullet'} diverged: take a smaller solver.micro_step",
                 )  # fmt: skip
 
     def _check_hooks(self, back: Array, axes: Array, bar_distance: Array, time: int) -> None:

@@ -138,7 +138,7 @@ class FabricModel:
 
     @property
     def residual_of_reading(self) -> AnyArray:
-        """Residual of the search that each reading is part of, run by run, channel by channel: those of Bullet are bins."""
+        """Residual of the search that each reading is part of, run by run, channel by channel."""
         found: list[AnyArray] = []
         banked, channel = 0, 0
         first = len(self.bank.layout.time) if self.bank else 0

@@ -1,4 +1,4 @@
-"""A finding of a fabric that other readings refute ends in an answer: held out, resumed, and without held-out recordings."""
+"""A finding of a fabric that other readings refute ends in an answer, also when it is resumed."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from tests.fabric_diagnosis.fabrics import DRAPE, shortened, with_fabric
 SENSORS = SensorFile.model_validate({"default": {"rate": "200 Hz", "noise": "0.1 mm", "unit": "m"}})
 CHANNELS = [f"marker[{i}].{axis}" for i in (5, 6) for axis in "yz"]
 #: All but a lean of the stand: few simulations do.
-WITHOUT = ["contact_friction", "slide_friction", "viscous_damping", "hinge_friction", "supply_wire_stiffness", "backlash",
-           "thermal_contraction", "payload", "roll"]  # fmt: skip
+WITHOUT = ["contact_friction", "slide_friction", "viscous_damping", "hinge_friction", "supply_wire_stiffness",
+           "backlash", "thermal_contraction", "payload", "roll"]  # fmt: skip
 
 
 def tiny() -> Scenario:
