@@ -84,6 +84,11 @@ def run(
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the last checkpoint of an earlier run.")] = False,
     plots: Annotated[bool, typer.Option(help="Draw the figures at the end.")] = True,
     csv: Annotated[bool, typer.Option("--csv", help="Write all recorded values as results.csv too.")] = False,
+    starts: Annotated[
+        int | None,
+        typer.Option(min=1, help="Run a fabric from so many starts: the result has medians and bands."),
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Starts at the same time.")] = 2,
 ) -> None:
     """Run a scenario and write a run folder.
 
@@ -91,10 +96,39 @@ def run(
     """
     folder = _folder(scenario, out, resume)
     loaded = _loaded(scenario, folder, resume)
-    run_into(loaded, folder, resume, csv)
+    if starts is not None or (resume and is_ensemble(folder.path)):
+        _run_starts(loaded, folder.path, starts, resume, jobs, csv)
+    else:
+        run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder)
     print(f"{folder.path}: {loaded.title}")
+
+
+def is_ensemble(folder: Path) -> bool:
+    """Whether a folder holds an ensemble."""
+    return (folder / "ensemble.json").is_file()
+
+
+def _run_starts(scenario: Scenario, path: Path, starts: int | None, resume: bool, jobs: int, csv: bool) -> None:
+    """Run or resume an ensemble; where a start stopped, the program ends with the exit code of a failure."""
+    from cosim.ensemble.folder import EnsembleFolder
+    from cosim.ensemble.run import run_ensemble
+
+    folder = EnsembleFolder(path)
+    count = folder.starts() if starts is None else starts
+    outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
+    if outcome.is_interrupted:
+        print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
+        print(f"  go on with: cosim run {path} --resume", file=sys.stderr)
+        raise typer.Exit(INTERRUPTED)
+    for start, reason in sorted(outcome.failures.items()):
+        print(f"stopped: start {start}: {reason}", file=sys.stderr)
+    if outcome.failures:
+        if outcome.complete:
+            _draw(folder.run)
+            print(f"  kept: {folder.run.results}, {len(outcome.complete)} of {count} starts", file=sys.stderr)
+        raise typer.Exit(FAILED)
 
 
 def _loaded(scenario: str, folder: RunFolder, resume: bool) -> Scenario:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from cosim.errors import InputError
 from cosim.figures import currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from cosim.paper.measures import band, switches
 from cosim.run_folder import RunFolder, writing
 
 
@@ -29,15 +29,6 @@ def open_run(folder: Path) -> xr.Dataset:
         raise InputError(path, "", f"it cannot be read: {error}", "run the scenario again") from error
 
 
-def switches(run: xr.Dataset) -> list[float]:
-    """Times [s] at which a supply voltage changes."""
-    if "supply.voltage" not in run:
-        return []
-    values = run["supply.voltage"].values.reshape(run.sizes["time"], -1)
-    changed = np.flatnonzero(np.any(np.diff(values, axis=0) != 0, axis=1))
-    return [float(run["time"].values[i]) for i in changed]
-
-
 def draw_run(folder: Path) -> list[Path]:
     """Draw every figure that the results of one run allow."""
     return draw_runs([folder])
@@ -45,6 +36,9 @@ def draw_run(folder: Path) -> list[Path]:
 
 def draw_runs(folders: Sequence[Path]) -> list[Path]:
     """Draw the figures of the first run; Figure 3 holds the curvature of all of them.
+
+    Of an ensemble Figure 3 and the lengths show median and band over its starts; the other figures show the start whose
+    curvature is nearest to the median; the side view names it.
 
     Returns:
         The files written, in the first run's folder `figures/`.
@@ -59,6 +53,8 @@ def draw_runs(folders: Sequence[Path]) -> list[Path]:
             with_curvature = [r for r in runs if "fabric.max_curvature" in r]
             drawn.append(curvature.draw(target / "figure3_curvature.png", with_curvature, marks))
             drawn.append(lengths.draw(target / "lengths.png", first, marks))
+        first = one_start(first)
+        if "fabric.max_curvature" in first:
             drawn.append(side_view.draw(target / "side_view.png", first, marks))
         if "actuator.temperature" in first:
             drawn.append(temperatures.draw(target / "temperatures.png", first, marks))
@@ -66,3 +62,12 @@ def draw_runs(folders: Sequence[Path]) -> list[Path]:
         if "circuit.current" in first:
             drawn.append(currents.draw(target / "currents.png", first, marks))
     return drawn
+
+
+def one_start(run: xr.Dataset) -> xr.Dataset:
+    """Of an ensemble the start whose curvature is nearest to the median, over all times; any other run as it is."""
+    if "start" not in run.dims:
+        return run
+    curvature_of = run["fabric.max_curvature"]
+    distance = ((curvature_of - band(curvature_of)[1]) ** 2).mean("time")
+    return run.isel(start=int(distance.argmin("start")))

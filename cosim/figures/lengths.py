@@ -7,17 +7,24 @@ from pathlib import Path
 import xarray as xr
 
 from cosim.figures.style import figure, mark_switches
+from cosim.paper.measures import band
 
 
 def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
     """Draw fabric length [cm] and mean and range of the link length l [cm]."""
     with figure(path, height=5.0, rows=2) as (fabric, link):
-        fabric.plot(run["time"], 100 * run["fabric.fabric_length"], color="C0")
+        length = 100 * run["fabric.fabric_length"]
+        if "start" in length.dims:
+            low, length, high = band(length)
+            fabric.fill_between(run["time"], low, high, color="C0", alpha=0.2, lw=0)
+        fabric.plot(run["time"], length, color="C0")
         fabric.set_ylabel("fabric length [cm]")
         mark_switches(fabric, marks)
         lengths = 100 * run["fabric.link_length"]
-        link.plot(run["time"], lengths.mean("link"), color="C0", label="mean of the links")
-        link.fill_between(run["time"], lengths.min("link"), lengths.max("link"), color="C0", alpha=0.2, label="range")
+        every = [d for d in lengths.dims if d != "time"]  # links, of all starts where there are several
+        of = "" if "start" not in every else f" in {run.sizes['start']} starts"
+        link.plot(run["time"], lengths.mean(every), color="C0", label=f"mean of the links{of}")
+        link.fill_between(run["time"], lengths.min(every), lengths.max(every), color="C0", alpha=0.2, label="range")
         mark_switches(link, marks)
         link.set_xlabel("time [s]")
         link.set_ylabel("link length l [cm]")

@@ -1,0 +1,165 @@
+"""Run an ensemble: every start in a run folder of its own, some at a time, then all of them as one result."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time as clock
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+from rich.console import Console
+
+from cosim.alone import alone
+from cosim.assemble import assemble
+from cosim.ensemble.combine import bands, combined, spread
+from cosim.ensemble.folder import EnsembleFolder
+from cosim.ensemble.members import member
+from cosim.errors import InputError
+from cosim.figures.draw import open_run
+from cosim.progress import progress_bar
+from cosim.run import RunStopped, run
+from cosim.run_folder import replacing, with_netcdf_names, write_series, writing
+from cosim.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How an ensemble ended.
+
+    Args:
+        complete: Starts that reached their end.
+        failures: Start to why it stopped.
+        is_interrupted: Whether the user interrupted it.
+    """
+
+    complete: tuple[int, ...]
+    failures: dict[int, str]
+    is_interrupted: bool = False
+
+
+@dataclass(frozen=True)
+class _Ended:
+    reason: str = ""
+    is_interrupt: bool = False
+    is_input: bool = False
+
+
+def run_ensemble(
+    scenario: Scenario, folder: EnsembleFolder, starts: int, resume: bool = False, jobs: int = 2, csv: bool = False,
+    say: Callable[[str], None] = print,
+) -> Outcome:  # fmt: skip
+    """Run a scenario from several starts, and write their common result.
+
+    A start that stops early (links torn free, the engine diverged) does not stop the others; it is missing in the
+    result and named in the summary. Starts that are complete are not made again, begun ones go on from their last
+    checkpoint.
+
+    Args:
+        scenario: With a fabric.
+        folder: Where everything is written.
+        starts: How many.
+        resume: Whether an ensemble that is there goes on.
+        jobs: How many run at the same time, in processes of this machine.
+        csv: Write all values of every start as CSV too.
+        say: Told of every start that ends.
+
+    Raises:
+        InputError: The scenario, an FMU or the folder is wrong.
+    """
+    member(scenario, 1)
+    begin = clock.perf_counter()
+    assembly = assemble(scenario)  # what is wrong with it is said once, before any start begins
+    assembly.system.terminate()
+    with alone(folder.path, "ensemble"):
+        scenario = folder.begin(assembly, starts, resume)
+        failures: dict[int, str] = {}
+        is_interrupted = False
+        for start, ended in _each(scenario, folder, starts, jobs, csv):
+            if ended.is_input:
+                raise InputError(folder.member(start).path, "", f"start {start} cannot run: {ended.reason}",
+                                 "correct the scenario")  # fmt: skip
+            is_interrupted = is_interrupted or ended.is_interrupt
+            if ended.reason:
+                failures[start] = ended.reason
+            say(f"start {start} of {starts}: {ended.reason or 'complete'}")
+        complete = tuple(s for s in range(1, starts + 1) if folder.member(s).is_complete())
+        if is_interrupted:
+            return Outcome(complete, failures, True)
+        _write(folder, scenario, complete, failures, starts, clock.perf_counter() - begin)
+    return Outcome(complete, failures)
+
+
+def _each(
+    scenario: Scenario, folder: EnsembleFolder, starts: int, jobs: int, csv: bool
+) -> Iterator[tuple[int, _Ended]]:  # fmt: skip
+    """Starts as they end."""
+    waiting = [s for s in range(1, starts + 1) if not folder.member(s).is_complete()]
+    if min(jobs, len(waiting)) <= 1:
+        for start in waiting:
+            ended = _one(scenario, start, folder.member(start).path, csv)
+            yield start, ended
+            if ended.is_interrupt:
+                return
+        return
+    context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
+    with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
+        futures = {pool.submit(_one, scenario, s, folder.member(s).path, csv): s for s in waiting}
+        try:
+            for future in as_completed(futures):
+                yield futures[future], future.result()
+        except KeyboardInterrupt:
+            pool.shutdown(wait=True, cancel_futures=True)
+            for future, start in futures.items():
+                if not future.cancelled() and not folder.member(start).is_complete():
+                    yield start, _Ended("interrupted", is_interrupt=True)
+                    return
+            yield waiting[-1], _Ended("interrupted", is_interrupt=True)
+
+
+def _one(scenario: Scenario, start: int, path: Path, csv: bool) -> _Ended:
+    """Run or resume one start; in a process of its own, or here."""
+    is_begun = (path / "scenario.yaml").is_file()
+    try:
+        with progress_bar(f"start {start}", Console(stderr=True, force_terminal=False)) as on_progress:
+            run(member(scenario, start), path, is_begun, on_progress, csv)
+    except RunStopped as stopped:
+        return _Ended(stopped.reason, stopped.is_interrupt)
+    except InputError as error:
+        return _Ended(str(error), is_input=True)
+    except KeyboardInterrupt:
+        return _Ended("interrupted", is_interrupt=True)
+    return _Ended()
+
+
+def _write(
+    folder: EnsembleFolder, scenario: Scenario, complete: tuple[int, ...], failures: dict[int, str], starts: int,
+    seconds: float,
+) -> None:  # fmt: skip
+    """Common results, series and summary of the starts that are complete."""
+    failed = {str(s): reason for s, reason in sorted(failures.items())}
+    status = "complete" if len(complete) == starts else f"{len(complete)} of {starts} starts are complete"
+    summary: dict[str, Any] = {
+        "title": scenario.title, "status": status,
+        "ensemble": {"starts": starts, "complete": list(complete), "failures": failed},
+        "wall_time_s": {"since_start_or_resumption": seconds},
+    }  # fmt: skip
+    if complete:
+        whole = combined({s: open_run(folder.member(s).path) for s in complete})
+        whole.attrs.update(title=scenario.title, status=status, starts=starts)
+        write_results(folder, whole)
+        summary["spread"] = spread(whole)
+    folder.write_summary(summary)
+
+
+def write_results(folder: EnsembleFolder, whole: xr.Dataset) -> None:
+    """Results and main series of an ensemble; raises InputError where they cannot be written."""
+    with writing(folder.path):
+        stored = with_netcdf_names(whole)
+        numbers = [name for name, values in stored.data_vars.items() if values.dtype.kind in "biuf"]
+        with replacing(folder.run.results) as partial:
+            stored.to_netcdf(partial, engine="netcdf4", encoding={n: {"zlib": True, "complevel": 4} for n in numbers})
+        write_series(folder.path / "series.csv", bands(whole))
