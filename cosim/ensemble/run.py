@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
 import time as clock
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -79,11 +81,14 @@ def run_ensemble(
         failures: dict[int, str] = {}
         is_interrupted = False
         for start, ended in _each(scenario, folder, starts, jobs, csv):
+            if not start:
+                is_interrupted = True
+                continue
             if ended.is_input:
                 raise InputError(folder.member(start).path, "", f"start {start} cannot run: {ended.reason}",
                                  "correct the scenario")  # fmt: skip
             is_interrupted = is_interrupted or ended.is_interrupt
-            if ended.reason:
+            if ended.reason and not ended.is_interrupt:
                 failures[start] = ended.reason
             say(f"start {start} of {starts}: {ended.reason or 'complete'}")
         complete = tuple(s for s in range(1, starts + 1) if folder.member(s).is_complete())
@@ -96,7 +101,7 @@ def run_ensemble(
 def _each(
     scenario: Scenario, folder: EnsembleFolder, starts: int, jobs: int, csv: bool
 ) -> Iterator[tuple[int, _Ended]]:  # fmt: skip
-    """Starts as they end."""
+    """Starts as they end; at last number 0 where the user interrupted them."""
     waiting = [s for s in range(1, starts + 1) if not folder.member(s).is_complete()]
     if min(jobs, len(waiting)) <= 1:
         for start in waiting:
@@ -106,22 +111,54 @@ def _each(
                 return
         return
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
-    with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
-        futures = {pool.submit(_one, scenario, s, folder.member(s).path, csv): s for s in waiting}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], future.result()
-        except KeyboardInterrupt:
-            pool.shutdown(wait=True, cancel_futures=True)
-            for future, start in futures.items():
-                if not future.cancelled() and not folder.member(start).is_complete():
-                    yield start, _Ended("interrupted", is_interrupt=True)
-                    return
-            yield waiting[-1], _Ended("interrupted", is_interrupt=True)
+    count = min(jobs, len(waiting))
+    under_way: dict[Future[_Ended], int] = {}
+    is_interrupted = False
+    with ProcessPoolExecutor(count, mp_context=context, initializer=_ignore_interrupts_between_runs) as pool:
+        while waiting or under_way:
+            # No more are handed over than run: what waits in the pool's own queue would begin after an interrupt.
+            while waiting and len(under_way) < count and not is_interrupted:
+                under_way[pool.submit(_one, scenario, waiting[0], folder.member(waiting[0]).path, csv)] = waiting.pop(0)
+            try:
+                done = wait(under_way, return_when=FIRST_COMPLETED).done
+            except KeyboardInterrupt:  # the processes have got it too, and stop after their macro-step
+                is_interrupted = True
+                waiting.clear()
+                continue
+            for future in done:
+                found = _result(future, folder.member(under_way[future]).path)
+                is_interrupted = is_interrupted or found.is_interrupt
+                yield under_way.pop(future), found
+            if is_interrupted:
+                waiting.clear()
+    if is_interrupted:
+        yield 0, _Ended("interrupted", is_interrupt=True)
+
+
+def _result(future: Future[_Ended], path: Path) -> _Ended:
+    try:
+        return future.result()
+    except BrokenProcessPool as error:
+        raise InputError(path, "", "a process died while it simulated; most often memory ran out",
+                         "go on with `--resume --jobs 1`, which shows why") from error  # fmt: skip
+
+
+def _ignore_interrupts_between_runs() -> None:
+    """A process without work waits for some, whatever happens: its parent ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _one(scenario: Scenario, start: int, path: Path, csv: bool) -> _Ended:
     """Run or resume one start; in a process of its own, or here."""
+    given = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        return _run_one(scenario, start, path, csv)
+    finally:
+        signal.signal(signal.SIGINT, given)
+
+
+def _run_one(scenario: Scenario, start: int, path: Path, csv: bool) -> _Ended:
     is_begun = (path / "scenario.yaml").is_file()
     try:
         with progress_bar(f"start {start}", Console(stderr=True, force_terminal=False)) as on_progress:
