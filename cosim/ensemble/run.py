@@ -118,7 +118,8 @@ def _each(
         while waiting or under_way:
             # No more are handed over than run: what waits in the pool's own queue would begin after an interrupt.
             while waiting and len(under_way) < count and not is_interrupted:
-                under_way[pool.submit(_one, scenario, waiting[0], folder.member(waiting[0]).path, csv)] = waiting.pop(0)
+                start = waiting.pop(0)
+                under_way[pool.submit(_one, scenario, start, folder.member(start).path, csv)] = start
             try:
                 done = wait(under_way, return_when=FIRST_COMPLETED).done
             except KeyboardInterrupt:  # the processes have got it too, and stop after their macro-step
