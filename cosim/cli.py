@@ -192,11 +192,14 @@ def reproduce(
         "runs/reproduce"
     ),
     jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
+    starts: Annotated[
+        int, typer.Option(min=1, help="Starts of every fabric; with several the scorecard has medians and bands.")
+    ] = 1,
 ) -> None:
     """Run the paper's experiments and compare every published number with ours."""
     from cosim.reproduce.command import reproduce as reproduce_paper
 
-    raise typer.Exit(reproduce_paper(out, jobs))
+    raise typer.Exit(reproduce_paper(out, jobs, starts))
 
 
 def main() -> NoReturn:

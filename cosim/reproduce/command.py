@@ -11,7 +11,9 @@ from pathlib import Path
 import xarray as xr
 from rich.console import Console
 
-from cosim.components import FmuComponent
+from cosim.components import FabricComponent, FmuComponent
+from cosim.ensemble.folder import EnsembleFolder
+from cosim.ensemble.run import run_ensemble
 from cosim.errors import InputError
 from cosim.figures.draw import draw_runs, open_run
 from cosim.progress import progress_bar
@@ -19,6 +21,7 @@ from cosim.reproduce.electrical import electrical_rows
 from cosim.reproduce.mechanical import curvature_rows, link_rows
 from cosim.reproduce.row import Row
 from cosim.reproduce.scorecard import as_json, as_markdown, show
+from cosim.reproduce.starts import rows_over_starts
 from cosim.reproduce.stiffness import stiffness_rows
 from cosim.reproduce.thermal import thermal_rows
 from cosim.run import RunStopped, run
@@ -49,12 +52,14 @@ def scenario_of(name: str) -> Scenario:
     return base.model_copy(update={"components": {**base.components, "actuator": changed}, "title": title})
 
 
-def run_one(name: str, out: Path) -> str:
-    """Run or resume one scenario in `out/name`; returns an empty text or why it stopped."""
+def run_one(name: str, out: Path, starts: int = 1) -> str:
+    """Run or resume one scenario in `out/name`, a fabric from several starts; an empty text or why it stopped."""
     folder = RunFolder(out / name)
-    if folder.is_complete():
+    if folder.is_complete() and (starts == 1 or not _has_fabric(scenario_of(name)) or _has_starts(folder.path, starts)):
         return ""
     scenario = scenario_of(name)
+    if starts > 1 and _has_fabric(scenario):
+        return _run_starts(name, scenario, folder.path, starts)
     is_begun = folder.scenario.exists()
     try:
         with progress_bar(name, Console(stderr=True, force_terminal=False)) as on_progress:
@@ -64,25 +69,51 @@ def run_one(name: str, out: Path) -> str:
     return ""
 
 
-def reproduce(out: Path, jobs: int) -> int:
+def _has_fabric(scenario: Scenario) -> bool:
+    return any(isinstance(c, FabricComponent) for c in scenario.components.values())
+
+
+def _has_starts(path: Path, starts: int) -> bool:
+    folder = EnsembleFolder(path)
+    return folder.exists() and folder.starts() >= starts
+
+
+def _run_starts(name: str, scenario: Scenario, path: Path, starts: int) -> str:
+    """An ensemble; starts that stop are left out, and said, as long as one is complete."""
+    folder = EnsembleFolder(path)
+
+    def say(text: str) -> None:
+        print(f"{name}: {text}", file=sys.stderr, flush=True)
+
+    try:
+        outcome = run_ensemble(scenario, folder, starts, folder.exists(), 1, say=say)
+    except InputError as error:
+        return f"{name}: {error}"
+    if outcome.is_interrupted:
+        return f"{name}: interrupted"
+    return "" if outcome.complete else f"{name}: no start reached its end: {next(iter(outcome.failures.values()))}"
+
+
+def reproduce(out: Path, jobs: int, starts: int = 1) -> int:
     """Run what is needed, then print and write the scorecard.
 
     Args:
         out: Folder; complete runs in it are used again, begun ones are resumed.
         jobs: Processes.
+        starts: Starts of every scenario with a fabric; with several the scorecard has medians and bands.
 
     Returns:
         Exit code: 0 where the scorecard was made (a line that fails stays visible in it), 1 where a run stopped.
     """
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
-    problems = _run_all(out, jobs)
+    problems = _run_all(out, jobs, starts)
     if problems:
         for problem in problems:
             print(f"stopped: {problem}", file=sys.stderr)
         return 1
     runs = {name: open_run(out / name) for name in RUNS}
-    rows = scorecard_rows(runs)
+    rows = rows_over_starts(runs, scorecard_rows)
     for name in RUNS:
         # Figure 3 compares the prototype with and without the heating model.
         compared = ["prototype_cantilever_instant"] if name == "prototype_cantilever" else []
@@ -95,11 +126,11 @@ def reproduce(out: Path, jobs: int) -> int:
     return 0
 
 
-def _run_all(out: Path, jobs: int) -> list[str]:
+def _run_all(out: Path, jobs: int, starts: int) -> list[str]:
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
     problems: list[str] = []
     with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        futures: dict[Future[str], str] = {pool.submit(run_one, name, out): name for name in RUNS}
+        futures: dict[Future[str], str] = {pool.submit(run_one, name, out, starts): name for name in RUNS}
         try:
             for done, future in enumerate(as_completed(futures), start=1):
                 problem = future.result()
