@@ -120,8 +120,8 @@ def main(arguments: list[str] | None = None) -> None:
     given.runs.parent.mkdir(parents=True, exist_ok=True)
     text = heading("Bullet and MuJoCo, side by side", "python -m benchmarks.engines") + (
         f"\nPrototype cantilever from flat, {DURATIONS[0]:g} s at {COLD} N/m, then {DURATIONS[1]:g} s at {HOT} N/m, "
-        "switched at once. Medians with the range over starts that differ by speeds of up to 1 mm/s; means over the last "
-        "half second. Speed: simulated time per processor time, runs interleaved on a busy machine.\n\n"
+        "switched at once. Medians with the range over starts that differ by speeds of up to 1 mm/s; means over the "
+        "last half second. Speed: simulated time per processor time, runs interleaved on a busy machine.\n\n"
     )
     text += table(measure(given.runs, given.starts, given.settings))
     (results_folder() / "engines.md").write_text(text)

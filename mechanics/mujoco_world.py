@@ -25,8 +25,9 @@ from mechanics.world import Contacts, Divergence
 TIME_CONSTANT = 1e-3
 #: Share of a constraint that contacts and stops hold: 1 would be rigid; at MuJoCo's own 0.9 hot stops give by 0.3 mm.
 IMPEDANCE = 0.99
-#: Ratio of frictional to normal impedance: at 1 contacts at rest creep.
-FRICTION_RATIO = 10.0
+#: Ratio of frictional to normal impedance. Friction is regularised, and what is at rest creeps: the sag of a drape by
+#: 1.6 % in 5 s at 10 (docs/engines.md).
+FRICTION_RATIO = 1000.0
 #: Lengths by which a slide may pass its stops and still be where both its springs are linear [m].
 _BEYOND = 1e-3
 
