@@ -108,6 +108,11 @@ def run(
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the run that the folder holds, once this one has begun.")
     ] = False,
+    starts: Annotated[
+        int | None,
+        typer.Option(min=1, help="Run a fabric from so many starts: the result has medians and bands."),
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Starts at the same time.")] = 2,
 ) -> None:
     """Run a scenario and write a run folder.
 
@@ -119,10 +124,42 @@ def run(
     formats = formats_of(figures)
     folder = _folder(scenario, out, resume, overwrite)
     loaded = _loaded(scenario, folder, resume, changes or [])
-    run_into(loaded, folder, resume, csv)
+    if starts is not None or (resume and is_ensemble(folder.path)):
+        _run_starts(loaded, folder, starts, resume, jobs, csv, formats if plots else [])
+    else:
+        run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder, formats)
     print(f"{folder.path}: {loaded.title}")
+
+
+def is_ensemble(folder: Path) -> bool:
+    """Whether a folder holds an ensemble."""
+    return RunFolder(folder).ensemble.is_file()
+
+
+def _run_starts(
+    scenario: Scenario, target: RunFolder, starts: int | None, resume: bool, jobs: int, csv: bool, formats: list[str]
+) -> None:  # fmt: skip
+    """Run or resume an ensemble; where a start stopped, the program ends with the exit code of a failure."""
+    from cosim.ensemble.folder import EnsembleFolder
+    from cosim.ensemble.run import run_ensemble
+
+    folder = EnsembleFolder(target.path, target.overwrites)
+    count = folder.starts() if starts is None else starts
+    outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
+    if outcome.is_interrupted:
+        print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
+        print(f"  go on with: cosim run {folder.path} --resume", file=sys.stderr)
+        raise typer.Exit(INTERRUPTED)
+    for start, reason in sorted(outcome.failures.items()):
+        print(f"stopped: start {start}: {reason}", file=sys.stderr)
+    if outcome.failures:
+        if outcome.complete:
+            if formats:
+                _draw(folder.run, formats)
+            print(f"  kept: {folder.run.results}, {len(outcome.complete)} of {count} starts", file=sys.stderr)
+        raise typer.Exit(FAILED)
 
 
 def _loaded(scenario: str, folder: RunFolder, resume: bool, changes: list[str]) -> Scenario:
@@ -187,11 +224,14 @@ def reproduce(
         "runs/reproduce"
     ),
     jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
+    starts: Annotated[
+        int, typer.Option(min=1, help="Starts of every fabric; with several the scorecard has medians and bands.")
+    ] = 1,
 ) -> None:
     """Run the paper's experiments and compare every published number with ours."""
     from cosim.reproduce.command import reproduce as reproduce_paper
 
-    raise typer.Exit(reproduce_paper(out, jobs))
+    raise typer.Exit(reproduce_paper(out, jobs, starts))
 
 
 def main() -> NoReturn:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, StrictStr, model_validator
 
@@ -230,10 +230,15 @@ class Tether(Strict):
 
 
 class Solver(Strict):
-    """Bullet's solver."""
+    """Numerical settings of the engine."""
 
     micro_step: Duration = PhysicalValue(0.5, "ms")
-    iterations: Count = 200
+    iterations: Count = Field(
+        default=200, description="bullet: of every micro-step; mujoco: the most of them, fewer where it converges."
+    )
+    friction_model: Literal["cone", "pyramid"] = Field(
+        default="cone", description="bullet: pyramid takes about 0.6 of the time (docs/engines.md)."
+    )
     springs: Literal["force", "motor"] = Field(
         default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
     )
@@ -241,16 +246,29 @@ class Solver(Strict):
 
 
 class FabricComponent(Strict):
-    """Interlocked links as rigid bodies in Bullet."""
+    """Interlocked links as rigid bodies, in Bullet unless another engine is named."""
 
     kind: Literal["bullet_fabric"]
+    engine: Literal["bullet", "mujoco"] = Field(
+        default="bullet", description="bullet reproduces the paper; mujoco is faster (docs/engines.md)."
+    )
     rows: Annotated[StrictInt, Field(ge=2)]
     columns: Count
     tether: Tether
-    solver: Solver = Solver()
+    solver: Solver = Field(default=Solver(), description="micro_step: 0.5 ms by default, 0.25 ms with mujoco.")
     parameter_set: str | None = None
     parameters: dict[str, NumberValue] = {}
     start: dict[str, AnyQuantity] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _micro_step_of_the_engine(cls, given: Any) -> Any:
+        """MuJoCo's stops and contacts need a shorter step: at 0.5 ms some starts tear (docs/engines.md)."""
+        if isinstance(given, dict) and given.get("engine") == "mujoco":
+            solver = given.get("solver", {})
+            if isinstance(solver, dict):
+                given = {**given, "solver": {"micro_step": "0.25 ms", **solver}}
+        return given
 
 
 class HangingMassComponent(Strict):

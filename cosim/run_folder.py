@@ -38,7 +38,19 @@ from cosim.yaml_file import read_text
 if TYPE_CHECKING:
     from cosim.observers.trace import Trace
 
-_PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
+_PACKAGES = (
+    "numpy",
+    "scipy",
+    "fmpy",
+    "pybullet",
+    "mujoco",
+    "scikit-sundae",
+    "PySpice",
+    "xarray",
+    "netCDF4",
+    "pydantic",
+    "pint",
+)
 
 _NOT_NETCDF = re.compile(r"[\x00-\x1f\x7f/]| $")
 _MAKE_ROOM = "free some room, then go on with `--resume`"
@@ -76,6 +88,11 @@ class RunFolder:
         """Status, timings and energies."""
         return self.path / "summary.json"
 
+    @property
+    def ensemble(self) -> Path:
+        """How many starts there are, where the folder holds an ensemble (`cosim.ensemble`)."""
+        return self.path / "ensemble.json"
+
     def refuse_existing(self) -> None:
         """Raise InputError where the folder already holds a run that must not be overwritten."""
         if not self.overwrites and self._holds_run():
@@ -87,13 +104,21 @@ class RunFolder:
     def _holds_run(self) -> bool:
         return bool(self.checkpoints()) or any(p.exists() for p in (self.scenario, self.results, self.summary))
 
-    def _remove_run(self) -> None:
-        """Remove the files of a run and nothing else; what says how it ended goes first."""
+    def remove_run(self) -> None:
+        """Remove the files of a run or an ensemble and nothing else; what says how it ended goes first."""
         names = ("summary.json", "results.nc", "results.csv", "series.csv", "versions.json", "parameters.csv")
         figures = (self.path / "figures").glob("*") if self._holds_run() else ()
-        for file in (*(self.path / name for name in names), *self.checkpoints(), *figures, self.scenario):
+        for file in (*(self.path / name for name in names), *self.checkpoints(), *figures):
             if file.is_file():
                 file.unlink()
+        if self.ensemble.is_file():
+            for start in (self.path / "starts").glob("*"):
+                RunFolder(start).remove_run()
+                _remove_empty(start / "checkpoints", start / "figures", start)
+            _remove_empty(self.path / "starts")
+            self.ensemble.unlink()
+        if self.scenario.is_file():
+            self.scenario.unlink()
 
     def create(self, scenario: Scenario, parameters: Mapping[str, Resolved], engines: Mapping[str, str]) -> None:
         """Make the folder of a new run.
@@ -109,7 +134,7 @@ class RunFolder:
         self.refuse_existing()
         with writing(self.path):
             if self.overwrites:
-                self._remove_run()
+                self.remove_run()
             (self.path / "checkpoints").mkdir(parents=True, exist_ok=True)
             write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml(True).encode())
             self._write_parameters(parameters)
@@ -187,6 +212,13 @@ class RunFolder:
             if self.has_csv or self.results_csv.exists():  # a resumed run leaves no half of a file behind
                 self.write_csv(trace)
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
+
+
+def _remove_empty(*folders: Path) -> None:
+    """Remove folders that are empty, and leave the others."""
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def with_netcdf_names(dataset: xr.Dataset) -> xr.Dataset:

@@ -137,6 +137,21 @@ class FabricModel:
         return found
 
     @property
+    def residual_of_reading(self) -> AnyArray:
+        """Residual of the search that each reading is part of, run by run, channel by channel."""
+        found: list[AnyArray] = []
+        banked, channel = 0, 0
+        first = len(self.bank.layout.time) if self.bank else 0
+        for number, recording in enumerate(self.mechanical_recordings):
+            for series in self.bank.runs[number].series if self.bank else ():
+                found.append(banked + np.arange(len(series.samples)))
+                banked += len(series.samples)
+            for _ in recording.channels:
+                found.append(first + self.binning.bin_of(channel))
+                channel += 1
+        return np.concatenate(found)
+
+    @property
     def effort(self) -> float:
         """Of one simulation of every recording: links times micro-steps, and more for many iterations."""
         return self.fabric_runs.effort
