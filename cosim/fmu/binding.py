@@ -27,6 +27,7 @@ from cosim.fmu.access import (
     TextWriter,
 )
 from cosim.fmu.archive import FmuArchive
+from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
 from cosim.unit import AnyArray, UnitError, VariableType
@@ -90,6 +91,8 @@ class Binding(ABC):
 
     #: Begin of the names of all functions, `fmi2` or `fmi3`.
     prefix: str
+    #: Rest of the names of the functions that give the size of a serialised state, and the state.
+    _state_names: tuple[str, str]
     c_types: dict[VariableType, CType]
     #: fmi2DoStep or fmi3DoStep, with the argument types of C; of Co-Simulation alone.
     step_function: Callable[..., int]
@@ -210,7 +213,7 @@ class Binding(ABC):
         buffer = values if kind is plain else np.zeros(values.shape, dtype=c_type.dtype)
         call = self.function(name, *argtypes)
         return kind(
-            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check
+            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check, self.name
         )  # fmt: skip
 
     def writer(self, variable: FmuVariable, values: AnyArray) -> Access:
@@ -268,13 +271,28 @@ class Binding(ABC):
         self.call(self.fmu.freeFMUState, state)
 
     def serialise(self) -> np.ndarray[Any, np.dtype[np.uint8]]:
-        """State as bytes, shape (size,)."""
+        """State as bytes, shape (size,).
+
+        Raises:
+            UnitError: The FMU refuses, or its state is too large to be kept.
+        """
         state = self.save()
         try:
-            data = self.call(self.fmu.serializeFMUState, state)
+            size = ctypes.c_size_t()
+            self.checked(self._state_names[0], ctypes.c_void_p, ctypes.c_void_p)(state, ctypes.addressof(size))
+            if size.value > MOST_BYTES:
+                raise UnitError(
+                    self.name,
+                    f"{self.prefix}{self._state_names[0]} says that its state has {size.value} bytes, more than "
+                    f"{MOST_BYTES}, so it is not saved",
+                    remedy="give a `checkpoint_step` as long as the run, which then cannot be resumed",
+                )
+            data = np.zeros(size.value, dtype=np.uint8)
+            write = self.checked(self._state_names[1], ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
+            write(state, data.ctypes.data, data.size)
         finally:
             self.free_state(state)
-        return np.frombuffer(data, dtype=np.uint8).copy()
+        return data
 
     def deserialise(self, data: np.ndarray[Any, Any]) -> None:
         """Restore a serialised state."""

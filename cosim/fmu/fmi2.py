@@ -40,6 +40,7 @@ class Fmi2Binding(Binding):
     """FMI 2.0."""
 
     prefix = "fmi2"
+    _state_names = "SerializedFMUstateSize", "SerializeFMUstate"
     c_types = FMI2
     _update: Callable[..., None] | None = None
 

@@ -32,6 +32,7 @@ class Fmi3Binding(Binding):
     """FMI 3.0."""
 
     prefix = "fmi3"
+    _state_names = "SerializedFMUStateSize", "SerializeFMUState"
     c_types = FMI3
     _update: Callable[..., None] | None = None
 

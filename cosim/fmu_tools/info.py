@@ -12,8 +12,10 @@ from rich.console import Console
 from rich.table import Table
 
 from cosim.actuator.interface import PORTS, faults
+from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.sizes import StructureFault
 from cosim.fmu.units import UnitNames
 from cosim.fmu.variables import FmuVariable
 from cosim.unit import Causality, Variable
@@ -55,6 +57,8 @@ def read_info(path: Path) -> FmuInfo:
     try:
         variables = fmu_variables(archive.description, {}, UnitNames(archive.description))
         general = _general(archive, variables)
+    except StructureFault as error:
+        raise InputError(path, "modelDescription.xml", str(error), error.remedy or "correct its description") from error
     finally:
         archive.remove()
     rows = [_row(name, v) for name, v in variables.items()]
