@@ -213,7 +213,8 @@ class Binding(ABC):
         buffer = values if kind is plain else np.zeros(values.shape, dtype=c_type.dtype)
         call = self.function(name, *argtypes)
         return kind(
-            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check, self.name
+            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check,
+            self.name,
         )  # fmt: skip
 
     def writer(self, variable: FmuVariable, values: AnyArray) -> Access:

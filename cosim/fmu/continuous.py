@@ -39,7 +39,8 @@ class ContinuousModel:
         if max(self.states, self.indicators) > MOST_STATES:
             raise UnitError(
                 self.name, f"the FMU says that it has {self.states} continuous states and {self.indicators} event "
-                f"indicators; more than {MOST_STATES} are not integrated", remedy="use its Co-Simulation interface, if any",
+                f"indicators; more than {MOST_STATES} are not integrated",
+                remedy="use its Co-Simulation interface, if it has one",
             )  # fmt: skip
         array = ctypes.c_void_p, ctypes.c_size_t
         self._set_time = binding.checked("SetTime", ctypes.c_double)

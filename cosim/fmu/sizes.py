@@ -15,7 +15,7 @@ MOST_ELEMENTS = 1 << 25
 MOST_DIMENSIONS = 32
 #: Bytes of a serialised state, and of one Binary value (1 GiB).
 MOST_BYTES = 1 << 30
-#: Continuous states, and event indicators (32 MiB of Float64 each; CVODE holds some ten copies, and a Jacobian besides).
+#: Continuous states, and event indicators (32 MiB of Float64 each, and CVODE holds some ten copies).
 MOST_STATES = 1 << 22
 #: Bytes of modelDescription.xml; parsed it takes about ten times as much memory.
 MOST_XML = 256 << 20

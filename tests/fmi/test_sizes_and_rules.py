@@ -73,7 +73,7 @@ def test_a_size_that_the_user_gives_is_judged_too(built: Built, tmp_path: Path) 
     with pytest.raises(InputError, match=r"matrix_in has 10000000000 x 3 elements") as caught:
         loaded(path, structure={"rows": 10**10})
     assert "give a smaller rows or columns under `structure`" in str(caught.value)
-    with pytest.raises(InputError, match="u.structure"):
+    with pytest.raises(InputError, match=r"u\.structure"):
         loaded(path, structure={"rows": -1})
 
 
