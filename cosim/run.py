@@ -85,6 +85,9 @@ class _Clockwork:
     index: int = 0
     written: int = 0
     is_resumed: bool = False
+    #: Wall time of the checkpoints, and how many [s].
+    checkpoint_time: float = 0.0
+    checkpoint_count: int = 0
     begin: float = field(default_factory=clock.perf_counter)
     first_index: int = 0
 
@@ -294,7 +297,10 @@ def _step_to_end(
                             "cannot repeat a step", outcome.time,
                             "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
         if state.index == due < state.total and has_checkpoints:
+            begin = clock.perf_counter()
             _checkpoint(state, folder)
+            state.checkpoint_time += clock.perf_counter() - begin
+            state.checkpoint_count += 1
         if on_progress is not None:
             elapsed = clock.perf_counter() - state.begin
             simulated = seconds((state.index - state.first_index) * state.macro)
@@ -339,8 +345,13 @@ def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
         "macro_steps": state.index,
         "algorithm": {"kind": state.scenario.algorithm.kind, **state.assembly.algorithm.counts()},
         "loop": state.loop.language,
+        "loop_without_python": state.loop.native_share,
         "resumed": state.is_resumed,
-        "wall_time_s": {"since_start_or_resumption": clock.perf_counter() - state.begin, "units": units},
+        "checkpoints": state.checkpoint_count,
+        "wall_time_s": {
+            "since_start_or_resumption": clock.perf_counter() - state.begin,
+            "checkpoints": state.checkpoint_time, "units": units,
+        },
         "energy_J": None if balance is None else {
             "electrical": balance.electrical, "stored": balance.stored, "convected": balance.convected,
             "relative_residual": balance.residual,
