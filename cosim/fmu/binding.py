@@ -58,6 +58,24 @@ class StepResult(NamedTuple):
     terminate: bool = False
 
 
+_SPOKEN: dict[Interface, str] = {"co_simulation": "Co-Simulation", "model_exchange": "Model Exchange"}
+
+
+def _other_interface(archive: FmuArchive) -> str:
+    """What to do where an FMU lacks the interface that was asked for."""
+    description = archive.description
+    if description.coSimulation is not None:
+        return "it has Co-Simulation: write `integrator: internal`"
+    if description.modelExchange is not None:
+        return "it has Model Exchange: write `integrator: cvode`"
+    only = (
+        "it has Scheduled Execution alone, which is not supported; "
+        if description.scheduledExecution is not None
+        else ""
+    )
+    return f"{only}export it for Co-Simulation or Model Exchange"
+
+
 @dataclass(frozen=True)
 class DiscreteStates:
     """Result of fmi3UpdateDiscreteStates or fmi2NewDiscreteStates.
@@ -107,10 +125,12 @@ class Binding(ABC):
         description = archive.description
         kind = description.coSimulation if interface == "co_simulation" else description.modelExchange
         if kind is None:
-            other = "model_exchange" if interface == "co_simulation" else "co_simulation"
             raise InputError(
-                archive.path, "modelDescription.xml", f"it has no {interface} interface", f"it offers {other}: use that"
-            )
+                archive.path,
+                "modelDescription.xml",
+                f"it has no {_SPOKEN[interface]} interface",
+                _other_interface(archive),
+            )  # fmt: skip
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
         self.uses_event_mode = interface == "model_exchange"

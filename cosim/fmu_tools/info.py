@@ -75,7 +75,10 @@ def _general(archive: FmuArchive, variables: dict[str, FmuVariable]) -> dict[str
     d = archive.description
     found = {"model": d.modelName or "", "FMI version": d.fmiVersion, "description": d.description or "",
              "made by": d.generationTool or "", "token": getattr(d, "instantiationToken", None) or d.guid}  # fmt: skip
-    for kind, declared in (("Co-Simulation", d.coSimulation), ("Model Exchange", d.modelExchange)):
+    for kind, declared in (
+        ("Co-Simulation", d.coSimulation), ("Model Exchange", d.modelExchange),
+        ("Scheduled Execution", d.scheduledExecution),
+    ):  # fmt: skip
         if declared is not None:
             able = [c for c in _CAPABILITIES if getattr(declared, c, False)]
             found[kind] = ", ".join(able) or "no capabilities"
