@@ -119,12 +119,11 @@ def _folder(scenario: str, out: Path | None, resume: bool) -> RunFolder:
 def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
     from cosim.progress import progress_bar
-    from cosim.run import RunStopped
-    from cosim.run import run as run_scenario
+    from cosim.run import RunStopped, record
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress, csv)
+            record(scenario, folder.path, resume, on_progress, csv)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():

@@ -56,7 +56,7 @@ def turns(source: str, target: str) -> float:
 def cycles_and_angles(text: str) -> tuple[float, float]:
     """Powers of hertz as written, and of radian in base units; raises ValueError for an unknown unit."""
     unit = parse_unit(text)
-    written: dict[str, Any] = dict(unit._units)  # type: ignore[attr-defined]
+    written: dict[str, Any] = dict(unit._units)
     cycles = sum(float(power) for name, power in written.items() if name.endswith("hertz"))
     base: dict[str, Any] = dict(registry().get_root_units(unit)[1]._units)
     return cycles, float(base.get("radian", 0.0))
