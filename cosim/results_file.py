@@ -80,6 +80,8 @@ def _write(
             row = max(1, math.prod(values.shape[1:]) * np.dtype(kind).itemsize)
             options["chunksizes"] = (min(len(values), max(1, _PIECE // row)), *values.shape[1:])
     variable = file.createVariable(stored, kind, tuple(netcdf_name(d) for d in dims), fill_value=False, **options)
+    if values.size:  # whole pieces are written once: HDF5 need not hold 16 MB of each variable
+        variable.set_var_chunk_cache(size=2 * _PIECE)
     variable.set_auto_maskandscale(False)
     variable.setncatts(attributes)
     for begin, end in _pieces(values):

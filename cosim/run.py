@@ -171,6 +171,7 @@ def record(
         return _run(scenario, None, resume, on_progress)
     # An FMU may change the working folder: files are found all the same, and who called is where he was.
     folder = RunFolder(out.absolute(), csv)
+    folder.prepare_writing()
     with chdir(Path.cwd()), alone(folder.path, "run"):
         return _run(scenario, folder, resume, on_progress)
 

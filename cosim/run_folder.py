@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import csv
 import errno
+import importlib
 import importlib.metadata
 import itertools
 import json
@@ -71,6 +72,12 @@ class RunFolder:
     def summary(self) -> Path:
         """Status, timings and energies."""
         return self.path / "summary.json"
+
+    @staticmethod
+    def prepare_writing() -> None:
+        """Load what `write_results` needs: a run must not find out at its end that something is not installed."""
+        for module in ("cosim.native.trace_csv", "cosim.results_file"):
+            importlib.import_module(module)
 
     def refuse_existing(self) -> None:
         """Raise InputError where the folder already holds a run: nothing is ever overwritten."""
