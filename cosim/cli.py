@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from rich.console import Console
@@ -14,13 +14,16 @@ from rich.table import Table
 from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.run_folder import RunFolder
-from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
 from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
+
+if TYPE_CHECKING:
+    from cosim.scenario import Scenario
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
@@ -47,6 +50,8 @@ ScenarioArgument = Annotated[str, typer.Argument(help="A scenario file, or the n
 @app.command("list")
 def list_scenarios() -> None:
     """List the shipped scenarios."""
+    from cosim.scenario import shipped_scenarios
+
     table = Table("scenario", "what it does", box=None)
     for name, path in shipped_scenarios().items():
         table.add_row(name, load_scenario(path).title)
@@ -72,6 +77,8 @@ def validate(scenario: ScenarioArgument) -> None:
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of scenario files, for editors."""
+    from cosim.scenario import json_schema
+
     print(json.dumps(json_schema(), indent=2))
 
 

@@ -176,15 +176,19 @@ class Propagation:
     @property
     def settled(self) -> list[Transfer]:
         """Transfers that would bring nothing if they were carried out again: what they read has not changed since."""
-        found: list[Transfer] = []
+        found: dict[int, Transfer] = {}
+        readers: dict[int, list[int]] = {}  # a unit to the transfers that read it
         for action in self.actions:
             owner = getattr(action, "__self__", None)
             if isinstance(owner, Transfer):
-                found.append(owner)
+                found[id(owner)] = owner
+                for part in owner.parts:
+                    readers.setdefault(id(part.source), []).append(id(owner))
                 continue
-            changed = owner.units if isinstance(owner, AlgebraicLoop) else [owner]
-            found = [t for t in found if not any(p.source is unit for p in t.parts for unit in changed)]
-        return found
+            for unit in owner.units if isinstance(owner, AlgebraicLoop) else [owner]:
+                for reader in readers.pop(id(unit), ()):
+                    found.pop(reader, None)
+        return list(found.values())
 
     def _edges(self, through: Mapping[str, Mapping[str, frozenset[str]]]) -> list[tuple[int, int]]:
         """(before, after): input `after` is fed by an output that depends directly on input `before`."""

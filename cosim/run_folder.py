@@ -27,15 +27,14 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from cosim.errors import InputError
-from cosim.parameters import Resolved
-from cosim.scenario import Scenario
-from cosim.yaml_file import read_text
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # `cosim --help` needs none of them
+    import numpy as np
+
     from cosim.observers.trace import Trace
+    from cosim.parameters import Resolved
+    from cosim.scenario import Scenario
 
 _PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
 
@@ -114,6 +113,8 @@ class RunFolder:
 
     def refuse_other(self, scenario: Scenario, parameters: Mapping[str, Resolved]) -> None:
         """Raise InputError where the folder holds the run of another scenario, with the first line that differs."""
+        from cosim.yaml_file import read_text
+
         stored = read_text(self.scenario).splitlines()
         asked = resolved_scenario(scenario, parameters).to_yaml(True).splitlines()
         for here, there in itertools.zip_longest(asked, stored, fillvalue="nothing"):
@@ -140,6 +141,8 @@ class RunFolder:
 
     def write_checkpoint(self, index: int, content: Mapping[str, np.ndarray[Any, Any]]) -> None:
         """Write checkpoint `index` as a whole or not at all."""
+        import numpy as np
+
         with writing(self.path):
             target = self.path / "checkpoints" / f"{index:06d}.npz"
             with replacing(target) as partial, partial.open("wb") as file:
@@ -180,6 +183,8 @@ class RunFolder:
 
 def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:
     """Content of a checkpoint; raises InputError if it cannot be read."""
+    import numpy as np
+
     try:
         with file.open("rb") as stream, np.load(stream) as content:
             return dict(content)

@@ -45,6 +45,8 @@ def check_shape(name: str, shape: Sequence[int], sizes: Iterable[str] = ()) -> N
     Raises:
         StructureFault: It is negative, or too large.
     """
+    if not shape:
+        return
     given = list(sizes)
     smaller = f"give a smaller {' or '.join(given)} under `structure`" if given else "export it with a smaller array"
     text = " x ".join(f"{n:d}" for n in shape[:8]) + (" x ..." if len(shape) > 8 else "")

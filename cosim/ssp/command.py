@@ -5,13 +5,15 @@ from __future__ import annotations
 import shutil
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from cosim.scenario import Scenario, load_scenario
-from cosim.ssp.import_time import TimeRequest
-from cosim.ssp.namespaces import Version
+from cosim.loading import load_scenario
+
+if TYPE_CHECKING:
+    from cosim.scenario import Scenario
+    from cosim.ssp.namespaces import Version
 
 app = typer.Typer(no_args_is_help=True, help="System Structure and Parameterization (SSP) 1.0 and 2.0.")
 
@@ -35,6 +37,7 @@ def import_command(
     schema: SchemaOption = None,
 ) -> None:
     """Import an SSP as a scenario that `cosim run` runs."""
+    from cosim.ssp.import_time import TimeRequest
     from cosim.ssp.importer import import_ssp
     from cosim.ssp.schemas import named_schemas
 

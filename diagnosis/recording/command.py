@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-import xarray as xr
 
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.run_folder import RunFolder
-from cosim.scenario import Scenario, load_scenario
-from diagnosis.recording.readings import read_results
-from diagnosis.recording.sensor import SensorFile, load_sensors
-from diagnosis.recording.write import Notes, write_recording
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cosim.scenario import Scenario
 
 
 def record(
@@ -32,6 +33,9 @@ def record(
     (noise, steps, limits, bounds). Lag, gain, bias, drift and the offset of a clock are in its readings alone.
     """
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
+    from diagnosis.recording.readings import read_results
+    from diagnosis.recording.sensor import SensorFile, load_sensors
+    from diagnosis.recording.write import Notes, write_recording
 
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
@@ -47,6 +51,8 @@ def record(
 
 def _results(scenario: str) -> tuple[Scenario, xr.Dataset]:
     """Scenario and results of a finished run, or of one made now."""
+    import xarray as xr  # late: `cosim --help` does without
+
     if not Path(scenario).is_dir():
         return _run(scenario)
     folder = RunFolder(Path(scenario))
