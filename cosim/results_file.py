@@ -70,8 +70,9 @@ def _write(
     stored = netcdf_name(name)
     attributes = dict(about) | ({"name": name} if stored != name else {})
     kind: Any = values.dtype
+    options: dict[str, Any] = {}
     if values.dtype.kind in "OU":
-        kind, options = str, {}
+        kind = str
     else:
         options = {"zlib": True, "complevel": _LEVEL, "shuffle": True} if values.size else {}
         if values.dtype == np.bool_:

@@ -132,7 +132,8 @@ class Trace:
 
     def coordinates(self) -> dict[str, tuple[tuple[str, ...], AnyArray, dict[str, str]]]:
         """Time [s] and labels of the other dimensions: name to dimensions, values, attributes."""
-        found = {"time": (("time",), self.moments, {"units": "s", "long_name": "simulated time"})}
+        found: dict[str, tuple[tuple[str, ...], AnyArray, dict[str, str]]] = {}
+        found["time"] = (("time",), self.moments, {"units": "s", "long_name": "simulated time"})
         for name, (dim, values, about) in _coordinates(self.system, self.channels).items():
             found[name] = ((dim,), values, about)
         return found
