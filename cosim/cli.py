@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from rich.console import Console
@@ -18,14 +18,17 @@ from cosim.commands.group import Commands
 from cosim.commands.play import play
 from cosim.commands.track import track
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
-from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
 from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
+
+if TYPE_CHECKING:
+    from cosim.scenario import Scenario
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
@@ -62,6 +65,8 @@ def _common(
 @app.command("list")
 def list_scenarios() -> None:
     """List the shipped scenarios."""
+    from cosim.scenario import shipped_scenarios
+
     table = Table("scenario", "what it does", box=None)
     for name, path in shipped_scenarios().items():
         table.add_row(name, load_scenario(path).title)
@@ -87,6 +92,8 @@ def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of scenario files, for editors."""
+    from cosim.scenario import json_schema
+
     print(json.dumps(json_schema(), indent=2))
 
 
@@ -184,12 +191,11 @@ def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> R
 def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
     from cosim.progress import progress_bar
-    from cosim.run import RunStopped
-    from cosim.run import run as run_scenario
+    from cosim.run import RunStopped, record
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
+            record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():

@@ -12,8 +12,8 @@ from rich.console import Console
 
 from cosim.alone import alone
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.run_folder import writing
-from cosim.scenario import load_scenario
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -20,13 +20,14 @@ from rich.console import Console
 from cosim.alone import alone
 from cosim.assemble import assemble
 from cosim.ensemble.combine import bands, combined, spread
+from cosim.ensemble.files import write_netcdf, write_series
 from cosim.ensemble.folder import EnsembleFolder
 from cosim.ensemble.members import member
 from cosim.errors import InputError
 from cosim.figures.draw import open_run
 from cosim.progress import OnProgress, progress_bar
-from cosim.run import Progress, RunStopped, run
-from cosim.run_folder import replacing, with_netcdf_names, write_series, writing
+from cosim.run import Progress, RunStopped, record
+from cosim.run_folder import replacing, writing
 from cosim.scenario import Scenario
 
 #: Told of a start, counted from 1, and how far it is.
@@ -169,7 +170,7 @@ def _run_one(scenario: Scenario, start: int, path: Path, csv: bool, told: OnStar
     is_begun = (path / "scenario.yaml").is_file()
     try:
         with _progress(start, told) as on_progress:
-            run(member(scenario, start), path, is_begun, on_progress, csv)
+            record(member(scenario, start), path, is_begun, on_progress, csv)
     except RunStopped as stopped:
         return _Ended(stopped.reason, stopped.is_interrupt)
     except InputError as error:
@@ -208,8 +209,7 @@ def _write(
 def write_results(folder: EnsembleFolder, whole: xr.Dataset) -> None:
     """Results and main series of an ensemble; raises InputError where they cannot be written."""
     with writing(folder.path):
-        stored = with_netcdf_names(whole)
-        numbers = [name for name, values in stored.data_vars.items() if values.dtype.kind in "biuf"]
         with replacing(folder.run.results) as partial:
-            stored.to_netcdf(partial, engine="netcdf4", encoding={n: {"zlib": True, "complevel": 4} for n in numbers})
-        write_series(folder.path / "series.csv", bands(whole))
+            write_netcdf(partial, whole)
+        with replacing(folder.path / "series.csv") as partial:
+            write_series(partial, bands(whole))

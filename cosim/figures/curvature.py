@@ -10,7 +10,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from cosim.figures.style import SWITCH, WITH_MODEL, WITHOUT_MODEL, draw_noisy, figure, label_of, mark_switches
+from cosim.figures.style import (
+    SWITCH,
+    WITH_MODEL,
+    WITHOUT_MODEL,
+    draw_band,
+    draw_noisy,
+    figure,
+    label_of,
+    mark_switches,
+)
 from cosim.paper.measures import band, half_way_delay, plateau
 
 #: How the titles of the paper's runs end.
@@ -22,8 +31,8 @@ _LEVEL = 1.0
 def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     """Draw `fabric.max_curvature` [1/cm] of each run from t = 0 (or from its start) on.
 
-    Thin: as simulated. Thick: its mean over 0.2 s. Of an ensemble: the median, and its band over the starts. Of the
-    paper's own experiment what its text states is marked.
+    Thin: as simulated. Thick: its mean over 0.2 s. Of an ensemble: the median as it is, and the band over the starts.
+    Of the paper's own experiment what its text states is marked.
     """
     is_paper = label_of(runs[0]).endswith(PAPER)
     title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
@@ -34,10 +43,10 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
             label = label_of(run).split(" (")[0]
             if "start" in shown.dims:
-                low, shown, high = band(shown)
-                axes.fill_between(shown["time"], low, high, color=colour, alpha=0.2, lw=0)
                 label += f": median and 5 to 95 % of {run.sizes['start']} starts"
-            draw_noisy(axes, shown["time"].values, shown.values, colour, label)
+                draw_band(axes, shown, colour, label)
+            else:
+                draw_noisy(axes, shown["time"].values, shown.values, colour, label)
         mark_switches(axes, marks)
         axes.set_xlabel("time [s]")
         axes.set_ylabel(r"maximum curvature $\kappa_{max}$ [1/cm]")

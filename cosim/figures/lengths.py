@@ -6,8 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosim.figures.style import draw_noisy, figure, label_of, mark_switches
-from cosim.paper.measures import band
+from cosim.figures.style import draw_band, draw_noisy, figure, label_of, mark_switches
 
 
 def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
@@ -16,9 +15,10 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         times = run["time"].values
         length = 100 * run["fabric.fabric_length"]
         if "start" in length.dims:
-            low, length, high = band(length)
-            fabric.fill_between(times, low, high, color="C0", alpha=0.2, lw=0)
-        draw_noisy(fabric, times, length.values, "C0", "")
+            draw_band(fabric, length, "C0", f"median and 5 to 95 % of {run.sizes['start']} starts")
+            fabric.legend(frameon=False, fontsize=8)
+        else:
+            draw_noisy(fabric, times, length.values, "C0", "")
         fabric.set_ylabel("fabric length [cm]")
         mark_switches(fabric, marks)
         lengths = 100 * run["fabric.link_length"]

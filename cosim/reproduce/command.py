@@ -25,7 +25,7 @@ from cosim.reproduce.scorecard import as_json, as_markdown, show
 from cosim.reproduce.starts import rows_over_starts
 from cosim.reproduce.stiffness import stiffness_rows
 from cosim.reproduce.thermal import thermal_rows
-from cosim.run import Progress, RunStopped, run
+from cosim.run import Progress, RunStopped, record
 from cosim.run_folder import RunFolder, write_atomically, writing
 from cosim.scenario import Scenario, load_scenario
 
@@ -76,7 +76,7 @@ def run_one(name: str, out: Path, starts: int = 1, line: int = 0) -> str:
         return _run_starts(name, scenario, folder.path, starts, line)
     is_begun = folder.scenario.exists()
     try:
-        run(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, reporter(line))
+        record(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, reporter(line))
     except (RunStopped, InputError) as error:
         return f"{name}: {error}"
     return ""

@@ -101,9 +101,6 @@ class FmuImport:
         wanted = component.implementation
         if wanted == "any":
             return "CoSimulation" if "CoSimulation" in fmu.interfaces else "ModelExchange"
-        if wanted not in fmu.interfaces:
-            there = ", ".join(sorted(fmu.interfaces))
-            raise component.place.error(f"the FMU of `{component.name}` has no {wanted}", f"it has: {there}")
         return wanted
 
     def _sorted(self, path: ElementPath, component: Component, fmu: Fmu) -> dict[str, dict[str, Any]]:
