@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
-from diagnosis.compute.batch import Batches
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import CosimModel, free_parameters

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from typing import Any, Protocol
 
+from cosim.compute.result import Result, Task, Work
 from cosim.errors import InputError
-from diagnosis.compute.result import Result, Task, Work
 
 #: Time in which a cluster must answer [s].
 CONNECT_TIME = 30.0
@@ -49,7 +49,7 @@ class Here:
 
 
 class DaskPlace:
-    """A Dask cluster; it is opened with the first batch, since a diagnosis may need none.
+    """A Dask cluster; it is opened with the first batch, since one may need none.
 
     Workers live as long as this object: modules, unpacked FMUs and what tasks share are loaded once in each.
 
@@ -130,7 +130,7 @@ def _same(shared: Any) -> Any:
 
 
 def _distributed() -> Any:
-    """Dask's package, late: it takes half a second, which a diagnosis in one process need not spend."""
+    """Dask's package, late: it takes half a second, which one process need not spend."""
     return importlib.import_module("distributed")
 
 
