@@ -13,6 +13,7 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.sweep import sweep
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
 from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
@@ -37,6 +38,7 @@ app.add_typer(fmu.app, name="fmu")
 app.add_typer(ssp.app, name="ssp")
 app.add_typer(recording.app, name="recording")
 app.command()(compare)
+app.command()(sweep)
 app.command()(record)
 app.command()(diagnose)
 app.command()(prove)

@@ -38,7 +38,7 @@ class Cache:
             with np.load(io.BytesIO(self.file(key).read_bytes()), allow_pickle=False) as content:
                 about = json.loads(str(content["about"]))
                 arrays = tuple(np.asarray(content[f"a{i}"]) for i in range(int(about["arrays"])))
-            return Result(arrays, str(about["failure"]), float(about["seconds"]))
+            return Result(arrays, str(about["failure"]), float(about["seconds"]), tuple(about.get("text", ())))
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
             return None
 
@@ -48,7 +48,12 @@ class Cache:
         Raises:
             InputError: The folder cannot be written.
         """
-        about = {"arrays": len(result.arrays), "failure": result.failure, "seconds": result.seconds}
+        about = {
+            "arrays": len(result.arrays),
+            "failure": result.failure,
+            "seconds": result.seconds,
+            "text": result.text,
+        }
         buffer = io.BytesIO()
         named = {f"a{i}": array for i, array in enumerate(result.arrays)}
         np.savez_compressed(buffer, allow_pickle=False, about=np.array(json.dumps(about)), **named)
