@@ -33,7 +33,7 @@ def draw(folder: Path, data: xr.Dataset, axes: Sequence[Points], outputs: Sequen
     scatter = [a for a in axes if a.kind in _SCATTER and a.size > 1]
     files = []
     for name in outputs:
-        values = data[name]
+        values = data[name].squeeze(drop=True)  # an axis of one point is no axis of a figure
         if not np.isfinite(values.values).any():
             continue
         if chosen:
