@@ -19,9 +19,6 @@ from typing import Any
 
 import numpy as np
 
-#: Keys of a component that name a file.
-FILE_KEYS = ("fmu", "file")
-
 
 @dataclass(frozen=True)
 class Files:
@@ -61,10 +58,14 @@ class Packer:
         components = {}
         for name, given in data["components"].items():
             component = dict(given)
-            for key in FILE_KEYS:
-                found = _file(component.get(key), folder)
+            law = component.get("law")
+            # An actuator or system names its FMU; a controller of a user's own, the file of its law.
+            for holder, key in ((component, "fmu"), (dict(law) if isinstance(law, dict) else {}, "file")):
+                found = _file(holder.get(key), folder)
                 if found is not None:
-                    component[key] = self._named(found)
+                    holder[key] = self._named(found)
+                if key == "file" and holder:
+                    component["law"] = holder
             components[name] = component
         return {**data, "components": components}
 
