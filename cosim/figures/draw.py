@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from cosim.errors import InputError
-from cosim.figures import currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from cosim.figures import closed_loop, currents, curvature, lengths, side_view, stiffness_loops, temperatures
 from cosim.run_folder import RunFolder, writing
 
 
@@ -65,4 +65,6 @@ def draw_runs(folders: Sequence[Path]) -> list[Path]:
             drawn.append(stiffness_loops.draw(target / "stiffness_loops.png", first))
         if "circuit.current" in first:
             drawn.append(currents.draw(target / "currents.png", first, marks))
+        for name in closed_loop.controllers(first):
+            drawn.append(closed_loop.draw(target / f"closed_loop_{name}.png", first, name))
     return drawn
