@@ -13,6 +13,7 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.design import design
 from cosim.commands.sweep import sweep
 from cosim.errors import InputError
 from cosim.run_folder import RunFolder
@@ -39,6 +40,7 @@ app.add_typer(ssp.app, name="ssp")
 app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(sweep)
+app.command()(design)
 app.command()(record)
 app.command()(diagnose)
 app.command()(prove)

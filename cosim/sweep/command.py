@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import sys
 import time as clock
@@ -16,16 +15,14 @@ import xarray as xr
 
 from cosim.alone import alone
 from cosim.assemble import assemble
-from cosim.components import FmuComponent
 from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Place
-from cosim.compute.package import Files, Packer
+from cosim.compute.package import Packer
 from cosim.compute.progress import Progress, duration
 from cosim.compute.result import Task
 from cosim.errors import InputError
-from cosim.fmu_assembly import find_fmu
-from cosim.run_folder import replacing, resolved_scenario, versions, write_atomically, writing
+from cosim.run_folder import replacing, versions, write_atomically, writing
 from cosim.scenario import Scenario, scenario_of_data
 from cosim.sweep.axes import Points, axes_of, grid
 from cosim.sweep.figures import draw, draw_all_indices
@@ -34,6 +31,7 @@ from cosim.sweep.keys import changed
 from cosim.sweep.one_run import Shared, simulate
 from cosim.sweep.result import Made, dataset, failures_table, indices_table, reasons, table
 from cosim.sweep.sensitivity import sobol_indices
+from cosim.sweep.travel import packed_text, run_key
 
 #: Exit codes: as of the command line.
 FAILED = 1
@@ -76,10 +74,10 @@ def plan(path: Path) -> Plan:
         elif sweep.series and scenario.time != first.time:
             raise InputError(path, "series", "the runs have different times, so their series have no common axis",
                              "leave `series` out, or do not change `time`")  # fmt: skip
-        texts.append(_text(scenario, packer))
+        texts.append(packed_text(scenario, packer))
     files = packer.files()
     shared = Shared(files, sweep.outputs, sweep.series)
-    return Plan(sweep, axes, shared, [Task(_key(files, sweep, t), t) for t in texts])
+    return Plan(sweep, axes, shared, [Task(run_key(shared, t), t) for t in texts])
 
 
 def _assembled(scenario: Scenario) -> Scenario:
@@ -99,54 +97,6 @@ def _scenario(
         at = ", ".join(f"{a.name} = {a.columns[0].values[i]}" for a, i in zip(axes, place))
         raise InputError(path, "axes", f"with {at} the scenario is wrong: {error.key}: {error.problem}",
                          error.remedy or "correct the axis") from error  # fmt: skip
-
-
-def _text(scenario: Scenario, packer: Packer) -> str:
-    """The scenario as text that needs no file but those of the packer.
-
-    Raises:
-        InputError: A parameter set is wrong.
-    """
-    # Parameter sets of actuators are named when they are resolved; names alone travel, since every worker has them.
-    data = json.loads(resolved_scenario(scenario, _sets(scenario)).model_dump_json(exclude_none=True))
-    return json.dumps(packer.packed(data, (scenario.path or Path()).parent))
-
-
-def _sets(scenario: Scenario) -> dict[str, Any]:
-    from cosim.parameters import Resolved, resolve
-
-    source = scenario.path or Path("scenario")
-    found = {}
-    for name, component in scenario.components.items():
-        given = getattr(component, "parameter_set", None)
-        own = dict(getattr(component, "parameters", {}))
-        try:
-            found[name] = resolve(given, own, source) if given is not None else Resolved({}, {})
-        except InputError as error:
-            raise error.within(name, source) from error
-    return found
-
-
-def _key(files: Files, sweep: SweepFile, text: str) -> str:
-    asked = json.dumps([{n: o.model_dump(mode="json", by_alias=True) for n, o in part.items()}
-                        for part in (sweep.outputs, sweep.series)])  # fmt: skip
-    return hashlib.sha256(f"{files.digest} {asked} {text} {_shipped(text)}".encode()).hexdigest()
-
-
-_SHIPPED: dict[str, str] = {}
-
-
-def _shipped(text: str) -> str:
-    """Hashes of the shipped FMUs of a scenario: one that was built anew makes other runs."""
-    found = []
-    for name, given in json.loads(text)["components"].items():
-        if "fmu" in given and not given["fmu"].endswith(".fmu"):
-            component = FmuComponent.model_construct(**{"fmi": 3, "structure": {}, **given})
-            file = find_fmu(component, Path(name))
-            if str(file) not in _SHIPPED:
-                _SHIPPED[str(file)] = hashlib.sha256(file.read_bytes()).hexdigest()
-            found.append(_SHIPPED[str(file)])
-    return " ".join(found)
 
 
 def sweep(path: Path, out: Path, place: Place, resume: bool, progress: Progress | None = None) -> int:
