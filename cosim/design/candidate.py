@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from cosim.actuator.resolve import default_parameter_set
 from cosim.components import (
     ActuatorComponent,
     CircuitComponent,
@@ -151,7 +152,7 @@ def _rows(
     actuator: ActuatorComponent, network: CircuitComponent, ambient: float, scenario: Scenario
 ) -> tuple[Row, ...]:
     source = scenario.path or Path("scenario")
-    values = resolve(actuator.parameter_set or actuator.fmu, {}, source).values
+    values = resolve(default_parameter_set(actuator), {}, source).values
     values = {"reference_resistance": PhysicalValue(2.2, "ohm"), **values}
     values |= dict(actuator.parameters)
 

@@ -81,10 +81,8 @@ class Ledger:
     def can_be_coarse(self) -> bool:
         """Whether coarse runs may judge everything that is wanted."""
         fabric = f"{self.rig.fabric}."
-        return all(
-            not w.quantity.startswith(fabric) or w.quantity.removeprefix(fabric) in KEPT_COARSE
-            for w in self.task.wanted
-        )
+        asked = [w.quantity.removeprefix(fabric) for w in self.task.wanted if w.quantity.startswith(fabric)]
+        return all(name in KEPT_COARSE for name in asked)
 
     def count(self, fidelity: str) -> int:
         """Runs of a fidelity; a coarse run that was made again counts as both."""
@@ -143,8 +141,8 @@ class Ledger:
         buffer = io.StringIO()
         writer = csv.writer(buffer)
         wanted = [f"{w.quantity} [{u}]" for w, u in zip(self.task.wanted, self.units or [""] * len(self.task.wanted))]
-        writer.writerow(["run", "fidelity", "design", "start", *wanted, "energy [J]", "overlap [mm]", "met", "wall time [s]",
-                         "failure"])  # fmt: skip
+        head = ["energy [J]", "overlap [mm]", "met", "wall time [s]", "failure"]
+        writer.writerow(["run", "fidelity", "design", "start", *wanted, *head])
         for number, e in enumerate(self.entries, start=1):
             values = [f"{v:.6g}" for v in e.values] or [""] * len(wanted)
             writer.writerow([number, e.fidelity, e.candidate.text(), e.start, *values, f"{e.energy:.6g}",

@@ -11,7 +11,7 @@ import numpy as np
 
 from cosim.design.candidate import Candidate, Rig, scenario_for
 from cosim.design.ledger import Entry, Ledger
-from cosim.design.search import ERROR, Impossible, Outcome, Search
+from cosim.design.search import APART, ERROR, Impossible, Outcome, Search
 from cosim.design.sequential import Verdict, share_interval
 
 #: A limit is active where the design comes this near to it.
@@ -99,13 +99,13 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
                      f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * wanted.confidence:.0f} %) |")  # fmt: skip
     share = max(w.share for w in ledger.task.wanted)
     meaning = {
-        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - 0.3:.2f} or less, this would "
-                          f"happen in at most {100 * ERROR:.0f} % of checks",
+        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - APART:.2f} or less, it "
+                          f"would happen in at most {100 * ERROR:.0f} % of checks",
         Verdict.REJECTED: f"rejected: were the share {share:.2f} or more, this would happen in at most "
                           f"{100 * ERROR:.0f} % of checks",
         Verdict.OPEN: "open: more fresh starts are needed (`runs.full`)",
     }[outcome.verdict]  # fmt: skip
-    return [*lines, "", f"Sequential test of {share:.2f} against {share - 0.3:.2f}: {meaning}."]
+    return [*lines, "", f"Sequential test of {share:.2f} against {share - APART:.2f}: {meaning}."]
 
 
 def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> list[str]:
@@ -119,8 +119,10 @@ def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> li
         lines.append(f"- {len(reference.rows)} rows with a programme of the same kind: {spent:.1f} J; this is "
                      f"{100 * winner.energy(rig) / spent:.0f} % of it")  # fmt: skip
     steady = sum(r.power(r.holding_voltage(winner.hot)) * winner.deadline for r in rig.rows)
-    lines.append(f"- all {len(rig.rows)} rows from 0 s on at the voltage that settles at {winner.hot - 273.15:.3g} degC: "
-                 f"{steady:.1f} J; this is {100 * winner.energy(rig) / steady:.0f} % of it")  # fmt: skip
+    share = 100 * winner.energy(rig) / steady
+    settled = f"{winner.hot - 273.15:.3g} degC"
+    lines.append(f"- all {len(rig.rows)} rows from 0 s on, at the voltage that settles at {settled}: {steady:.1f} J; "
+                 f"this is {share:.0f} % of it")  # fmt: skip
     return lines
 
 
@@ -133,15 +135,12 @@ def _limits(search: Search, winner: Candidate) -> list[str]:
     lines = []
     power = len(winner.rows) * row.power(winner.voltage)
     spent = len(winner.rows) * row.heating_energy(winner.voltage, winner.hot)
-    for name, value, limit, exponent in (
-        ("voltage", winner.voltage, search.voltage, 1.0),
-        ("power", power, search.power, 0.5),
-    ):
+    limits = (("voltage", "V", winner.voltage, search.voltage, 1.0), ("power", "W", power, search.power, 0.5))
+    for name, unit, value, limit, exponent in limits:
         if value > (1.0 - NEAR) * limit:
             more = len(winner.rows) * row.heating_energy(winner.voltage * 1.1**exponent, winner.hot)
-            unit = "V" if name == "voltage" else "W"
-            lines.append(f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {spent - more:.2g} J of "
-                         f"{spent:.3g} J of heating")  # fmt: skip
+            lines.append(f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {spent - more:.2g} J "
+                         f"of {spent:.3g} J of heating")  # fmt: skip
     return lines or ["no limit of voltage or power is active"]
 
 
@@ -159,8 +158,9 @@ def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:
 
 def impossible(ledger: Ledger, why: Impossible) -> str:
     """The report of a request that cannot be met."""
-    lines = [f"# {ledger.task.title}", "", "**Not possible.**", "", f"- limit: {why.limit}", f"- nearest: {why.nearest}",
-             "", "## Effort", "", *_effort(ledger, Outcome())]  # fmt: skip
+    told = [f"- limit: {why.limit}", f"- nearest: {why.nearest}"]
+    lines = [f"# {ledger.task.title}", "", "**Not possible.**", "", *told, "", "## Effort", ""]
+    lines += _effort(ledger, Outcome())
     return "\n".join(lines) + "\n"
 
 

@@ -131,8 +131,10 @@ class Search:
                 f"and does not reach {hot} by {time:g} s",
                 f"a row reaches it by then from {needed:.3g} V on",
             )
-        raise Impossible(f"the power: one row needs {power:.3g} W to reach {hot} by {time:g} s, more than {self.power:.3g} W",
-                         f"from {power:.3g} W on one row can be heated in time")  # fmt: skip
+        raise Impossible(
+            f"the power: one row needs {power:.3g} W to reach {hot} by {time:g} s, more than {self.power:.3g} W",
+            f"from {power:.3g} W on one row can be heated in time",
+        )
 
     def _feasible(self, outcome: Outcome) -> Iterator[Candidate]:
         rig, free = self._rig, self._rig.free
@@ -142,10 +144,14 @@ class Search:
             yield cold.candidate
             return
         patterns = self._patterns()
-        first = next((c for c in (self.candidate(p) for p in patterns) if c is not None), None)
+        tried = (self.candidate(p, lead=lead) for lead in LEADS for p in patterns)
+        first = next((c for c in tried if c is not None), None)
         if first is None:
-            outcome.notes.append("no pattern can be heated in time and in one go")
-            return
+            raise Impossible(
+                "voltage, power and time together: no pattern of `rows_heated` can be heated, all its rows at once, by "
+                f"{self.deadline - min(LEADS):g} s",
+                "give patterns with fewer rows; one row alone can be heated in time",
+            )
         outcome.reference = first
         self.tell(f"{len(first.rows)} rows hot")
         hot = self.ledger.coarse(first, 1)
@@ -212,14 +218,15 @@ class Search:
                 yield from (p for p in ranked[:SCREENED] if p != pattern and chain.sag(p) < 0.9 * chain.sag(pattern))
 
     def _accepted(self) -> list[Candidate]:
-        """Candidates all of whose runs met the request, on two starts at least."""
+        """Candidates all of whose runs met the request; a coarse run that was made again does not count."""
         runs: dict[Candidate, list[Entry]] = {}
         for entry in self.ledger.entries:
             runs.setdefault(entry.candidate, []).append(entry)
-        judged = {
-            c: [e for e in es if not (e.fidelity == "coarse" and self._was_repeated(e, es))] for c, es in runs.items()
-        }
-        good = [c for c, es in judged.items() if es and all(e.is_met for e in es)]
+        good = []
+        for candidate, own in runs.items():
+            judged = [e for e in own if not (e.fidelity == "coarse" and self._was_repeated(e, own))]
+            if judged and all(e.is_met for e in judged):
+                good.append(candidate)
         return good
 
     @staticmethod
@@ -263,8 +270,10 @@ class Search:
         unit = self.ledger.units[worst]
         wanted = self.ledger.task.wanted[worst]
         tried = len({e.candidate for e in self.ledger.entries})
+        most = max((e.candidate for e in complete), key=lambda c: len(c.rows))
+        hottest = f", of which one heats rows {', '.join(map(str, most.rows))}" if most.rows else ""
         return Impossible(
-            f"{wanted.text()}: none of {tried} designs reached it, the stiffest that closed forms allow among them",
+            f"{wanted.text()}: no run of {tried} designs reached it{hottest}",
             f"the nearest was {PhysicalValue(float(f'{best.values[worst]:.4g}'), unit)} with {best.candidate.text()}",
         )
 
