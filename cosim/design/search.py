@@ -129,11 +129,11 @@ class Search:
             raise Impossible(
                 f"the voltage: at {self.voltage:.4g} V a row settles at {row.limit(self.voltage) - 273.15:.3g} degC "
                 f"and does not reach {hot} by {time:g} s",
-                f"a row reaches it by then from {needed:.3g} V on",
+                f"a row reaches it by then from {_upwards(needed)} V on",
             )
         raise Impossible(
-            f"the power: one row needs {power:.3g} W to reach {hot} by {time:g} s, more than {self.power:.3g} W",
-            f"from {power:.3g} W on one row can be heated in time",
+            f"the power: one row needs {_upwards(power)} W to reach {hot} by {time:g} s, more than {self.power:.3g} W",
+            f"from {_upwards(power)} W on one row can be heated in time",
         )
 
     def _feasible(self, outcome: Outcome) -> Iterator[Candidate]:
@@ -301,3 +301,13 @@ class Search:
         values = resolve(fabric.parameter_set, fabric.parameters, self._rig.scenario.path or Path("scenario")).values
         bar = values.get("bar_diameter")
         return 2.49 * (bar.to("m") if isinstance(bar, PhysicalValue) else 8.35e-3)
+
+
+def _upwards(value: float) -> str:
+    """Three digits, rounded upwards: what is told to suffice must suffice.
+
+    >>> _upwards(5.391), _upwards(2.2)
+    ('5.4', '2.2')
+    """
+    grain = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{grain * math.ceil(value / grain - 1e-9):.3g}"

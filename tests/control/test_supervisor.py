@@ -1,7 +1,7 @@
 """The supervisor over 200 drawn coils and laws that ask for too much, some with a failed thermometer.
 
-The model is the FMU `thermal_stiffness` with 200 coils, each with a law, a thermometer and a convection of its own, driven
-by power: one co-simulation of 20 s holds all cases.
+The model is the FMU `thermal_stiffness` with 200 coils, each with a law, a thermometer and a convection of its own,
+driven by power: one co-simulation of 20 s holds all cases.
 """
 
 from __future__ import annotations

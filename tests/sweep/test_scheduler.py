@@ -39,7 +39,12 @@ def _begin(folder: Path, *arguments: str) -> subprocess.Popen[bytes]:
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "log.txt").open("wb") as log:
         return subprocess.Popen(
-            [sys.executable, "-m", *arguments], env=ENVIRONMENT, cwd=folder, stdout=log, stderr=log, start_new_session=True
+            [sys.executable, "-m", *arguments],
+            env=ENVIRONMENT,
+            cwd=folder,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
         )
 
 
