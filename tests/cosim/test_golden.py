@@ -55,7 +55,7 @@ LUMPS = {
     # trace: selection, times
     "closed_loop_coil": (
         dict.fromkeys(("actuator.temperature", "actuator.stiffness"),
-                      Tolerance(0.0, 1e-3, "a reading that rounds the other way on another CPU moves the loop a little")),
+                      Tolerance(0.0, 1e-3, "a reading that rounds the other way moves the loop a little")),
         every(2.0, 0.0, 30.0),
     ),
     "tclab": ({"heaters.temperature": SMOOTH, "heaters.convected_energy": SMOOTH}, every(60.0, 0.0, 600.0)),

@@ -128,8 +128,8 @@ def test_intervals_of_shares_cover_them():
 
 
 IMPOSSIBLE = {
-    "voltage": (("0 V to 12 V", "0 V to 5 V"), "the voltage: at 5 V a row settles at", "from 5.4 V on"),
-    "power": (("below: 20 W", "below: 2 W"), "the power: one row needs 2.21", "from 2.21 W on one row can be heated"),
+    "voltage": (("0 V to 12 V", "0 V to 5 V"), "the voltage: at 5 V a row settles at", "from 5.41 V on"),
+    "power": (("below: 20 W", "below: 2 W"), "the power: one row needs 2.22", "from 2.22 W on one row can be heated"),
     "time": (("at: 15 s", "at: 1.1 s"), "the voltage: at 12 V", "V on"),
 }
 
