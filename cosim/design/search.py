@@ -89,8 +89,8 @@ class Search:
         if not rows:
             return Candidate((), 0.0, hot, HOLD, end, end, self.deadline + 1.0, self.deadline)
         row = self._rig.rows[rows[0] - 1]
-        # A part in a million below the limit: the limit itself would be a matter of rounding.
-        voltage = float(f"{greatest_voltage(row, len(rows), self.voltage, self.power * (1.0 - 1e-6)):.6g}")
+        # Rounded downwards: at the limit itself, rounding would decide whether it is kept.
+        voltage = math.floor(1e4 * greatest_voltage(row, len(rows), self.voltage, self.power) * (1.0 - 1e-9)) / 1e4
         heating = row.heating_time(voltage, hot)
         if not math.isfinite(heating):
             return None
@@ -139,8 +139,8 @@ class Search:
     def _feasible(self, outcome: Outcome) -> Iterator[Candidate]:
         rig, free = self._rig, self._rig.free
         self.tell("all rows cold")
-        cold = self.ledger.coarse(self._need(()), 1)
-        if cold.is_met and self.ledger.coarse(cold.candidate, 2).is_met:
+        (cold,) = self.ledger.coarse(self._need(()), (1,))
+        if cold.is_met and self.ledger.coarse(cold.candidate, (2,))[0].is_met:
             yield cold.candidate
             return
         patterns = self._patterns()
@@ -154,9 +154,9 @@ class Search:
             )
         outcome.reference = first
         self.tell(f"{len(first.rows)} rows hot")
-        hot = self.ledger.coarse(first, 1)
+        (hot,) = self.ledger.coarse(first, (1,))
         if not hot.is_met:
-            hot = self.ledger.coarse(first, 2)
+            (hot,) = self.ledger.coarse(first, (2,))
         if not hot.is_met:
             return
         yield first
@@ -194,8 +194,8 @@ class Search:
                 yield made
 
     def _holds(self, candidate: Candidate) -> bool:
-        """On two starts; the second is made only where the first meets the request."""
-        return all(self.ledger.coarse(candidate, start).is_met for start in (1, 2))
+        """On two starts."""
+        return all(e.is_met for e in self.ledger.coarse(candidate, (1, 2)))
 
     def _patterns(self) -> list[tuple[int, ...]]:
         """Patterns with most rows first; those at the root before others."""
