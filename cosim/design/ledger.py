@@ -41,7 +41,7 @@ class Entry:
         start: Number of the start.
         values: Of every requirement, in the unit of its quantity; empty where the run failed.
         distances: How far each is on the right side of its bound; the same.
-        overlap: Largest overlap of two links in the run [m].
+        overlap: Largest overlap of two links from the first switch on [m].
         energy: Electrical energy [J].
         failure: Why it stopped; empty where it did not.
         seconds: Wall time.
@@ -114,7 +114,11 @@ class Ledger:
         self, candidates: Sequence[Candidate], starts: Sequence[int], fidelity: str, solver: Mapping[str, object] | None
     ) -> list[Entry]:
         outputs = {f"wanted{i}": w.output() for i, w in enumerate(self.task.wanted)}
-        outputs[OVERLAP] = Output(quantity=f"{self.rig.fabric}.max_penetration", over="max")
+        # From the first switch on: while it falls into its drape, every coarse fabric overlaps for a moment.
+        since = str(PhysicalValue(min(c.begin for c in candidates), "s"))
+        outputs[OVERLAP] = Output.model_validate(
+            {"quantity": f"{self.rig.fabric}.max_penetration", "over": "max", "from": since}
+        )
         outputs[SPENT] = Output(quantity="energy")
         packer = Packer()
         texts = [packed_text(scenario_for(c, self.rig, solver, s), packer) for c, s in zip(candidates, starts)]
