@@ -25,6 +25,7 @@ from cosim.components import (
     CircuitElement,
     Component,
     ContactElement,
+    ControllerComponent,
     DropElement,
     FabricComponent,
     FmuComponent,
@@ -33,11 +34,13 @@ from cosim.components import (
     PendulumComponent,
     ProgrammeComponent,
     ProgrammeOutput,
+    SensorComponent,
     SlowSourceElement,
     SourceResistanceElement,
     nanoseconds,
 )
 from cosim.connection import Connection, ConnectionFault, Element
+from cosim.control_assembly import build_control
 from cosim.errors import InputError
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
@@ -156,6 +159,8 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
             return build_fabric(name, component, parameters)
         if isinstance(component, PendulumComponent):
             return build_pendulum(name, component, parameters)
+        if isinstance(component, SensorComponent | ControllerComponent):
+            return build_control(name, component, source)
         return _fmu(name, component, parameters, scenario, source)
     except InputError as error:
         raise error.within(name, source) from error

@@ -13,9 +13,11 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.design import design
 from cosim.commands.example import example
 from cosim.commands.group import Commands
 from cosim.commands.play import play
+from cosim.commands.sweep import sweep
 from cosim.commands.track import track
 from cosim.errors import InputError
 from cosim.loading import load_scenario
@@ -47,6 +49,8 @@ app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(play)
 app.command()(example)
+app.command()(sweep)
+app.command()(design)
 app.command()(record)
 app.command()(track)
 app.command()(diagnose)

@@ -292,6 +292,10 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
         if fmu.endswith(".fmu") and scenario.path is not None:
             beside = scenario.path.parent / fmu
             update["fmu"] = str((beside if os.path.isfile(beside) else Path(fmu)).resolve())
+        law = getattr(component, "law", None)
+        if getattr(law, "kind", "") == "python" and scenario.path is not None:
+            beside = (scenario.path.parent / law.file).resolve()  # type: ignore[union-attr]
+            update["law"] = law.model_copy(update={"file": str(beside)})  # type: ignore[union-attr]
         components[name] = component.model_copy(update=update)
     return scenario.model_copy(update={"components": components})
 

@@ -17,11 +17,13 @@ from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
 
 from cosim.components import (
     Component,
+    ControllerComponent,
     Count,
     Duration,
     FabricComponent,
     PendulumComponent,
     ProgrammeComponent,
+    SensorComponent,
     Strict,
     Time,
     nanoseconds,
@@ -186,6 +188,9 @@ class Scenario(Strict):
                 if macro % nanoseconds(micro):
                     raise ValueError(f"components.{name}.{key} ({micro}) must divide time.macro_step "
                                      f"({self.time.macro_step}) into a whole number of steps")  # fmt: skip
+            if isinstance(component, SensorComponent | ControllerComponent) and nanoseconds(component.sample) % macro:
+                raise ValueError(f"components.{name}.sample ({component.sample}) must be a multiple of time.macro_step "
+                                 f"({self.time.macro_step})")  # fmt: skip
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():
                     late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]

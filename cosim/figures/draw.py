@@ -9,7 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from cosim.errors import InputError
-from cosim.figures import currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from cosim.figures import closed_loop, currents, curvature, lengths, side_view, stiffness_loops, temperatures
 from cosim.paper.measures import one_start, switches
 from cosim.run_folder import RunFolder, writing
 
@@ -75,4 +75,6 @@ def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callab
         found["stiffness_loops"] = partial(stiffness_loops.draw, run=single)
     if "circuit.current" in first:
         found["currents"] = partial(currents.draw, run=single, marks=marks)
+    for name in closed_loop.controllers(single):
+        found[f"closed_loop_{name}"] = partial(closed_loop.draw, run=single, controller=name)
     return found

@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.components import FabricComponent
+from cosim.compute.batch import Batches
 from cosim.errors import InputError
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.bank.places import Place
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.compute.batch import Batches
 from diagnosis.fabric.bins import Binning
 from diagnosis.fabric.laws import fabric_laws
 from diagnosis.fabric.mechanical import MechanicalModel

@@ -11,12 +11,12 @@ import numpy as np
 
 from cosim.assemble import assemble
 from cosim.components import CircuitComponent, FabricComponent, nanoseconds
+from cosim.compute.batch import Batches
+from cosim.compute.result import Task
 from cosim.quantity import PhysicalValue
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.result import Task
 from diagnosis.fabric.bullet_run import Courses, FabricSetting, simulate_fabric
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cosim.compute.cache import Cache
 from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario, scenario_folder
 from diagnosis.candidates.registry import catalogue
 from diagnosis.command import diagnose
-from diagnosis.compute.cache import Cache
 from diagnosis.fabric.model import FabricModel
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording

@@ -13,7 +13,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TypeVar
 
-from diagnosis.compute.progress import duration
+from cosim.compute.progress import duration
 
 T = TypeVar("T")
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from typing import Any, Protocol
 
+from cosim.compute.result import Result, Task, Work
 from cosim.errors import InputError
-from diagnosis.compute.result import Result, Task, Work
 
 #: Time in which a cluster must answer [s].
 CONNECT_TIME = 30.0
@@ -49,18 +49,19 @@ class Here:
 
 
 class DaskPlace:
-    """A Dask cluster; it is opened with the first batch, since a diagnosis may need none.
+    """A Dask cluster; it is opened with the first batch, since one may need none.
 
     Workers live as long as this object: modules, unpacked FMUs and what tasks share are loaded once in each.
 
     Args:
         jobs: Processes of a cluster on this machine; not used where an address is given.
         address: Of the scheduler of a running cluster, for example `tcp://10.0.0.1:8786`. Its workers need the same
-            version of this program, and the scenario's files at the same paths.
+            version of this program; the diagnosis needs the scenario's files at the same paths, too.
+        goes_on: Whether a simulation that kills its process is a failure of its own, and the others go on.
     """
 
-    def __init__(self, jobs: int, address: str | None = None) -> None:
-        self._jobs, self._address = jobs, address
+    def __init__(self, jobs: int, address: str | None = None, goes_on: bool = False) -> None:
+        self._jobs, self._address, self._goes_on = jobs, address, goes_on
         self._client: Any = None
         self._open = ExitStack()
         self._shared: tuple[Any, Any] | None = None
@@ -80,9 +81,19 @@ class DaskPlace:
             client.submit(work, self._shared[1], task.given, key=f"simulation-{task.key}", pure=False): number
             for number, task in enumerate(tasks)
         }
+        lost = []
         try:
             for future in dask.as_completed(list(futures)):
-                yield futures[future], future.result()
+                try:
+                    result = future.result()
+                except dask.KilledWorker:
+                    if not self._goes_on:
+                        raise
+                    lost.append(futures[future])
+                    continue
+                yield futures[future], result
+            for number in lost:
+                yield number, self._again(client, work, tasks[number])
         except (dask.KilledWorker, dask.client.FutureCancelledError) as error:
             raise InputError(
                 self._address or "local cluster", "", f"a process died while it simulated: {error}",
@@ -90,6 +101,16 @@ class DaskPlace:
             ) from error  # fmt: skip
         finally:
             client.cancel(list(futures), force=True)
+
+    def _again(self, client: Any, work: Work, task: Task) -> Result:
+        """A simulation whose process died, once more and alone: it may have shared the process with another."""
+        future = client.submit(work, self._shared[1] if self._shared else None, task.given, pure=False)
+        try:
+            return future.result()  # type: ignore[no-any-return]
+        except _distributed().KilledWorker:
+            return Result((), "its process died again and again; `isolation: process` of its FMUs finds the one")
+        finally:
+            client.cancel([future], force=True)
 
     def _connected(self) -> Any:
         if self._client is None:
@@ -130,18 +151,19 @@ def _same(shared: Any) -> Any:
 
 
 def _distributed() -> Any:
-    """Dask's package, late: it takes half a second, which a diagnosis in one process need not spend."""
+    """Dask's package, late: it takes half a second, which one process need not spend."""
     return importlib.import_module("distributed")
 
 
-def choose_place(jobs: int | None = None, address: str | None = None) -> Place:
+def choose_place(jobs: int | None = None, address: str | None = None, goes_on: bool = False) -> Place:
     """Where simulations are made.
 
     Args:
         jobs: Processes on this machine; None: as many as there are cores. One needs no cluster.
         address: Of a Dask scheduler; comes before `jobs`.
+        goes_on: As of `DaskPlace`.
     """
     count = jobs or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()) or 1
     if address is None and count == 1:
         return Here()
-    return DaskPlace(count, address)
+    return DaskPlace(count, address, goes_on)

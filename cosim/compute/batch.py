@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Any
 
-from diagnosis.compute.cache import Cache
-from diagnosis.compute.cluster import Here, Place
-from diagnosis.compute.progress import Progress
-from diagnosis.compute.result import Result, Task, Work
-from diagnosis.compute.steps import share
+from cosim.compute.cache import Cache
+from cosim.compute.cluster import Here, Place
+from cosim.compute.progress import Progress
+from cosim.compute.result import Result, Task, Work
+from cosim.compute.steps import share
 
 
 class Batches:

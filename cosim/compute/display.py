@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from rich.console import Console
 
-from diagnosis.compute.progress import Progress
+from cosim.compute.progress import Progress
 
 #: Interval of lines where standard error is no terminal [s].
 INTERVAL = 10.0

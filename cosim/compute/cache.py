@@ -1,4 +1,4 @@
-"""Finished simulations on disk, so that a diagnosis that was stopped goes on without making them again."""
+"""Finished simulations on disk, so that what was stopped goes on without making them again."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from cosim.compute.result import Result
 from cosim.errors import InputError
-from diagnosis.compute.result import Result
 
 #: First characters of a key name a folder: a folder of ten thousand files is slow on many file systems.
 _PREFIX = 2
@@ -38,7 +38,7 @@ class Cache:
             with np.load(io.BytesIO(self.file(key).read_bytes()), allow_pickle=False) as content:
                 about = json.loads(str(content["about"]))
                 arrays = tuple(np.asarray(content[f"a{i}"]) for i in range(int(about["arrays"])))
-            return Result(arrays, str(about["failure"]), float(about["seconds"]))
+            return Result(arrays, str(about["failure"]), float(about["seconds"]), tuple(about.get("text", ())))
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
             return None
 
@@ -48,12 +48,17 @@ class Cache:
         Raises:
             InputError: The folder cannot be written.
         """
-        about = {"arrays": len(result.arrays), "failure": result.failure, "seconds": result.seconds}
+        about = {
+            "arrays": len(result.arrays),
+            "failure": result.failure,
+            "seconds": result.seconds,
+            "text": result.text,
+        }
         buffer = io.BytesIO()
         named = {f"a{i}": array for i, array in enumerate(result.arrays)}
         np.savez_compressed(buffer, allow_pickle=False, about=np.array(json.dumps(about)), **named)
         file = self.file(key)
-        # Two diagnoses may write into one folder: each has a name of its own until the file is whole.
+        # Two programs may write into one folder: each has a name of its own until the file is whole.
         partial = file.with_name(f"{file.name}.{os.getpid()}.part")
         try:
             file.parent.mkdir(parents=True, exist_ok=True)

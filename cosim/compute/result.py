@@ -17,11 +17,13 @@ class Result:
         arrays: What it gives, in the order that its maker states; empty where it failed.
         failure: Why it stopped early; empty where it did not.
         seconds: Wall time that it took.
+        text: What it gives beside numbers: units.
     """
 
     arrays: tuple[Array, ...]
     failure: str = ""
     seconds: float = 0.0
+    text: tuple[str, ...] = ()
 
     @property
     def is_complete(self) -> bool:

@@ -1,4 +1,4 @@
-"""How far a diagnosis is: simulations made, simulations expected, and the time that the rest will take."""
+"""How far a batch is: simulations made, simulations expected, and the time that the rest will take."""
 
 from __future__ import annotations
 
