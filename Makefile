@@ -17,8 +17,9 @@ export OMP_NUM_THREADS := 1
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
+STARTS ?= 1
 run: plan setup fmus  ## the paper's experiment: all runs, figures and the scorecard, in runs/reproduce
-	@$(BIN)/cosim reproduce --out runs/reproduce
+	@$(BIN)/cosim reproduce --out runs/reproduce --starts $(STARTS)
 
 plan:
 	@echo "make run does, in this order:"

@@ -11,10 +11,21 @@ from benchmarks import (
     loop,
     macro_step,
     quarter_truck,
+    run_costs,
     two_mass,
     units,
     whole_run,
 )
 
-for measurement in (whole_run, units, loop, two_mass, quarter_truck, isolation, macro_step, bullet_convergence):
+for measurement in (
+    whole_run,
+    units,
+    loop,
+    run_costs,
+    two_mass,
+    quarter_truck,
+    isolation,
+    macro_step,
+    bullet_convergence,
+):
     measurement.main([])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +25,7 @@ from cosim.components import (
     CircuitElement,
     Component,
     ContactElement,
+    ControllerComponent,
     DropElement,
     FabricComponent,
     FmuComponent,
@@ -33,11 +34,13 @@ from cosim.components import (
     PendulumComponent,
     ProgrammeComponent,
     ProgrammeOutput,
+    SensorComponent,
     SlowSourceElement,
     SourceResistanceElement,
     nanoseconds,
 )
 from cosim.connection import Connection, ConnectionFault, Element
+from cosim.control_assembly import build_control
 from cosim.errors import InputError
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
@@ -156,6 +159,8 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
             return build_fabric(name, component, parameters)
         if isinstance(component, PendulumComponent):
             return build_pendulum(name, component, parameters)
+        if isinstance(component, SensorComponent | ControllerComponent):
+            return build_control(name, component, source)
         return _fmu(name, component, parameters, scenario, source)
     except InputError as error:
         raise error.within(name, source) from error
@@ -237,16 +242,25 @@ def _connection(given: str | ScaledConnection, index: int, units: Mapping[str, U
         elements.append(element)
         found.append(variables.get(name))
     factor, offset = 1.0, 0.0
-    if found[0] is not None and found[1] is not None and scaled.convert_units:
+    # Only floating-point numbers have units in FMI: a Boolean or an integer gives its number to whatever it leads to.
+    if found[0] is not None and found[1] is not None and found[0].type.is_float and scaled.convert_units:
         try:
-            factor, offset = conversion(found[0].unit, found[1].unit)
+            factor, offset = conversion(found[0].unit, found[1].unit) if found[1].type.is_float else (1.0, 0.0)
         except ValueError as error:
             raise InputError(
-                source, f"connections[{index}]", f"{scaled.connect}: {error}",
-                "connect variables that measure the same thing",
-            ) from error  # fmt: skip
+                source, f"connections[{index}]", f"{scaled.connect}: {error}", _unit_remedy(scaled, found)
+            ) from error
     factor, offset = scaled.factor * factor, scaled.factor * offset + scaled.offset
     return Connection(ends[0], ends[1], factor, offset, elements[0], elements[1])
+
+
+def _unit_remedy(given: ScaledConnection, ends: Sequence[Variable | None]) -> str:
+    """What to write where the units of a connection do not convert: take the numbers as they are, if that is meant."""
+    bare = [end for end in ends if end is not None and end.unit == "1"]
+    plain = f"`{{connect: {' '.join(given.connect.split())}, convert_units: false}}` takes the number as it is"
+    if len(bare) == 1:
+        return f"{bare[0].name} has no unit; if it is meant in the unit of the other, {plain}"
+    return f"connect variables that measure the same thing, or, if the units are declared wrongly, {plain}"
 
 
 def _element(text: str, variables: Mapping[str, Variable]) -> tuple[str, Element | None]:

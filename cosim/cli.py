@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from rich.console import Console
@@ -13,19 +13,24 @@ from rich.table import Table
 
 from cosim.commands import fmu
 from cosim.commands.compare import compare
+from cosim.commands.design import design
 from cosim.commands.example import example
 from cosim.commands.group import Commands
 from cosim.commands.play import play
+from cosim.commands.sweep import sweep
 from cosim.commands.track import track
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
-from cosim.scenario import Scenario, json_schema, load_scenario, shipped_scenarios
 from cosim.ssp import command as ssp
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
 from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
+
+if TYPE_CHECKING:
+    from cosim.scenario import Scenario
 
 #: Exit codes: 1 a unit failed, 2 wrong input, 130 interrupted (as shells do).
 FAILED, WRONG_INPUT, INTERRUPTED = 1, 2, 130
@@ -44,6 +49,8 @@ app.add_typer(recording.app, name="recording")
 app.command()(compare)
 app.command()(play)
 app.command()(example)
+app.command()(sweep)
+app.command()(design)
 app.command()(record)
 app.command()(track)
 app.command()(diagnose)
@@ -62,6 +69,8 @@ def _common(
 @app.command("list")
 def list_scenarios() -> None:
     """List the shipped scenarios."""
+    from cosim.scenario import shipped_scenarios
+
     table = Table("scenario", "what it does", box=None)
     for name, path in shipped_scenarios().items():
         table.add_row(name, load_scenario(path).title)
@@ -87,6 +96,8 @@ def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of scenario files, for editors."""
+    from cosim.scenario import json_schema
+
     print(json.dumps(json_schema(), indent=2))
 
 
@@ -108,6 +119,11 @@ def run(
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the run that the folder holds, once this one has begun.")
     ] = False,
+    starts: Annotated[
+        int | None,
+        typer.Option(min=1, help="Run a fabric from so many starts: the result has medians and bands."),
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Starts at the same time.")] = 2,
 ) -> None:
     """Run a scenario and write a run folder.
 
@@ -119,10 +135,42 @@ def run(
     formats = formats_of(figures)
     folder = _folder(scenario, out, resume, overwrite)
     loaded = _loaded(scenario, folder, resume, changes or [])
-    run_into(loaded, folder, resume, csv)
+    if starts is not None or (resume and is_ensemble(folder.path)):
+        _run_starts(loaded, folder, starts, resume, jobs, csv, formats if plots else [])
+    else:
+        run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder, formats)
     print(f"{folder.path}: {loaded.title}")
+
+
+def is_ensemble(folder: Path) -> bool:
+    """Whether a folder holds an ensemble."""
+    return RunFolder(folder).ensemble.is_file()
+
+
+def _run_starts(
+    scenario: Scenario, target: RunFolder, starts: int | None, resume: bool, jobs: int, csv: bool, formats: list[str]
+) -> None:  # fmt: skip
+    """Run or resume an ensemble; where a start stopped, the program ends with the exit code of a failure."""
+    from cosim.ensemble.folder import EnsembleFolder
+    from cosim.ensemble.run import run_ensemble
+
+    folder = EnsembleFolder(target.path, target.overwrites)
+    count = folder.starts() if starts is None else starts
+    outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
+    if outcome.is_interrupted:
+        print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
+        print(f"  go on with: cosim run {folder.path} --resume", file=sys.stderr)
+        raise typer.Exit(INTERRUPTED)
+    for start, reason in sorted(outcome.failures.items()):
+        print(f"stopped: start {start}: {reason}", file=sys.stderr)
+    if outcome.failures:
+        if outcome.complete:
+            if formats:
+                _draw(folder.run, formats)
+            print(f"  kept: {folder.run.results}, {len(outcome.complete)} of {count} starts", file=sys.stderr)
+        raise typer.Exit(FAILED)
 
 
 def _loaded(scenario: str, folder: RunFolder, resume: bool, changes: list[str]) -> Scenario:
@@ -147,12 +195,11 @@ def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> R
 def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
     from cosim.progress import progress_bar
-    from cosim.run import RunStopped
-    from cosim.run import run as run_scenario
+    from cosim.run import RunStopped, record
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            run_scenario(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
+            record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
     except RunStopped as stopped:
         print(f"stopped: {stopped.reason}", file=sys.stderr)
         if folder.summary.is_file():
@@ -187,11 +234,14 @@ def reproduce(
         "runs/reproduce"
     ),
     jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
+    starts: Annotated[
+        int, typer.Option(min=1, help="Starts of every fabric; with several the scorecard has medians and bands.")
+    ] = 1,
 ) -> None:
     """Run the paper's experiments and compare every published number with ours."""
     from cosim.reproduce.command import reproduce as reproduce_paper
 
-    raise typer.Exit(reproduce_paper(out, jobs))
+    raise typer.Exit(reproduce_paper(out, jobs, starts))
 
 
 def main() -> NoReturn:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, StrictStr, model_validator
 
@@ -230,10 +230,15 @@ class Tether(Strict):
 
 
 class Solver(Strict):
-    """Bullet's solver."""
+    """Numerical settings of the engine."""
 
     micro_step: Duration = PhysicalValue(0.5, "ms")
-    iterations: Count = 200
+    iterations: Count = Field(
+        default=200, description="bullet: of every micro-step; mujoco: the most of them, fewer where it converges."
+    )
+    friction_model: Literal["cone", "pyramid"] = Field(
+        default="cone", description="bullet: pyramid takes about 0.6 of the time (docs/engines.md)."
+    )
     springs: Literal["force", "motor"] = Field(
         default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
     )
@@ -241,16 +246,29 @@ class Solver(Strict):
 
 
 class FabricComponent(Strict):
-    """Interlocked links as rigid bodies in Bullet."""
+    """Interlocked links as rigid bodies, in Bullet unless another engine is named."""
 
     kind: Literal["bullet_fabric"]
+    engine: Literal["bullet", "mujoco"] = Field(
+        default="bullet", description="bullet reproduces the paper; mujoco is faster (docs/engines.md)."
+    )
     rows: Annotated[StrictInt, Field(ge=2)]
     columns: Count
     tether: Tether
-    solver: Solver = Solver()
+    solver: Solver = Field(default=Solver(), description="micro_step: 0.5 ms by default, 0.25 ms with mujoco.")
     parameter_set: str | None = None
     parameters: dict[str, NumberValue] = {}
     start: dict[str, AnyQuantity] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _micro_step_of_the_engine(cls, given: Any) -> Any:
+        """MuJoCo's stops and contacts need a shorter step: at 0.5 ms some starts tear (docs/engines.md)."""
+        if isinstance(given, dict) and given.get("engine") == "mujoco":
+            solver = given.get("solver", {})
+            if isinstance(solver, dict):
+                given = {**given, "solver": {"micro_step": "0.25 ms", **solver}}
+        return given
 
 
 class HangingMassComponent(Strict):
@@ -272,6 +290,135 @@ class PendulumComponent(Strict):
     start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
 
 
+NotNegativeTime = Annotated[PhysicalValue, In("s", minimum=0.0)]
+
+
+class SensorFault(Strict):
+    """A sensor that fails at an instant."""
+
+    element: Count = 1
+    instant: Time
+    reads: AnyQuantity | None = Field(
+        default=None, description="What it measures from then on; default: its reading stays what it was."
+    )
+
+
+class SensorComponent(Strict):
+    """Thermometers or a camera: from a quantity to readings, with the laws and names of `cosim record`."""
+
+    kind: Literal["sensor"]
+    unit: str = Field(description="Unit of quantity and reading, for example K.")
+    elements: Count = Field(default=1, description="Sensors; each reads one element of what is connected.")
+    dim: str = Field(default="coil", description="Dimension of the elements in the results.")
+    sample: Duration = Field(description="Interval between readings; a multiple of the macro-step.")
+    lag: NotNegativeTime = Field(default=PhysicalValue(0.0, "s"), description="Time constant, of a thermocouple.")
+    exposure: NotNegativeTime = Field(
+        default=PhysicalValue(0.0, "s"), description="Time over which a reading is averaged, of a camera."
+    )
+    delay: NotNegativeTime = Field(
+        default=PhysicalValue(0.0, "s"), description="From the instant of a reading until it is given out."
+    )
+    gain: float | list[float] = 1.0
+    bias: AnyQuantity | list[AnyQuantity] | None = None
+    drift: AnyQuantity | None = Field(default=None, description="Added per second, for example 0.01 K/s.")
+    noise: AnyQuantity | None = Field(default=None, description="Standard deviation of white noise.")
+    minimum: AnyQuantity | None = Field(default=None, description="Smallest reading.")
+    maximum: AnyQuantity | None = Field(default=None, description="Largest reading.")
+    quantum: AnyQuantity | None = Field(default=None, description="Step of the reading.")
+    seed: Annotated[StrictInt, Field(ge=0)] = 0
+    faults: list[SensorFault] = []
+    start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
+
+
+class OnOffLaw(Strict):
+    """Full drive below a band around the setpoint, none above it."""
+
+    kind: Literal["on_off"]
+    band: AnyQuantity = Field(description="Width of the band.")
+
+
+class PiLaw(Strict):
+    """Proportional-integral control with anti-windup."""
+
+    kind: Literal["pi"]
+    gain: AnyQuantity = Field(description="Demand per unit of the measured value, for example 0.2 V^2/K.")
+    integral_time: Duration
+    feedforward: AnyQuantity | None = Field(
+        default=None, description="Demand that holds one unit above `ambient`, for example 0.019 V^2/K."
+    )
+    ambient: AnyQuantity | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> PiLaw:
+        if (self.feedforward is None) != (self.ambient is None):
+            raise ValueError("`feedforward` and `ambient` belong together")
+        return self
+
+
+class HoldLaw(Strict):
+    """Heat to the setpoint, then hold on the cooling branch of the hysteresis."""
+
+    kind: Literal["hold"]
+    hold_at: AnyQuantity
+    reheat_below: AnyQuantity
+    inner: Annotated[PiLaw | OnOffLaw, Field(discriminator="kind")]
+
+
+class PythonLaw(Strict):
+    """A law of a user's own (docs/control.md)."""
+
+    kind: Literal["python"]
+    file: StrictStr = Field(description="A .py file beside the scenario, with `command(sample, memory, ...)`.")
+    parameters: dict[str, AnyQuantity] = {}
+
+
+class SupervisorSettings(Strict):
+    """What keeps a temperature below its limit, whatever the law asks for (docs/control.md)."""
+
+    limit: AnyQuantity
+    margin: AnyQuantity = Field(description="Largest error of a right thermometer.")
+    fastest_rise: AnyQuantity = Field(description="Rise at the highest command of the coil that heats fastest.")
+    slowest_rise: AnyQuantity | None = Field(default=None, description="The same of the slowest; default: no check.")
+    cooling_time: Duration | None = Field(default=None, description="Shortest time constant of cooling.")
+    ambient: AnyQuantity | None = Field(default=None, description="Lowest temperature of the surroundings.")
+    tolerance: AnyQuantity | None = Field(default=None, description="Lack of response that is a failure.")
+    delay: NotNegativeTime = PhysicalValue(0.0, "s")
+    lag: NotNegativeTime = PhysicalValue(0.0, "s")
+    lowest: AnyQuantity | None = Field(default=None, description="At or below this a reading is a failure.")
+    highest: AnyQuantity | None = Field(default=None, description="At or above this a reading is a failure.")
+    frozen_after: Duration | None = Field(default=None, description="An unchanged reading is a failure after this.")
+
+    @model_validator(mode="after")
+    def _check(self) -> SupervisorSettings:
+        together = ("slowest_rise", "cooling_time", "ambient", "tolerance")
+        given = [n for n in together if getattr(self, n) is not None]
+        if given and len(given) < len(together):
+            missing = next(n for n in together if n not in given)
+            raise ValueError(f"`{missing}` is missing: {', '.join(together)} belong together")
+        return self
+
+
+class ControllerComponent(Strict):
+    """From measured values to what drives: one command for all, or one per string."""
+
+    kind: Literal["controller"]
+    groups: list[Count] = Field(min_length=1, description="Measured elements of every string.")
+    supply: Literal["common", "per_string"] = "per_string"
+    measured_unit: str = "K"
+    command_unit: str = "V"
+    sample: Duration = Field(description="Interval between samples; a multiple of the macro-step.")
+    lowest: AnyQuantity = Field(description="Lowest command.")
+    highest: AnyQuantity = Field(description="Highest command.")
+    drive: Literal["linear", "squared"] = Field(
+        default="linear", description="squared: the law's demand is the square of the command, as heat is of a voltage."
+    )
+    combine: Literal["mean", "max", "min"] = "mean"
+    setpoint: AnyQuantity | list[AnyQuantity] = Field(description="Where nothing is connected to `setpoint`.")
+    law: Annotated[OnOffLaw | PiLaw | HoldLaw | PythonLaw, Field(discriminator="kind")]
+    supervisor: SupervisorSettings | None = None
+    start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
+
+
 Component = Annotated[
     ProgrammeComponent
     | CircuitComponent
@@ -279,6 +426,8 @@ Component = Annotated[
     | ActuatorComponent
     | FabricComponent
     | HangingMassComponent
-    | PendulumComponent,
+    | PendulumComponent
+    | SensorComponent
+    | ControllerComponent,
     Field(discriminator="kind"),
 ]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Unit, UnitError, Variable
+from cosim.unit import AnyArray, Unit, UnitError, Variable, VariableType
 
 #: Zero-based index of one element of an array.
 Element = tuple[int, ...]
@@ -69,6 +69,8 @@ class Part:
         value = self.source.get(self._name)
         if self._from is not None:
             value = value[self._from]
+        elif value.dtype == object and not value.shape:
+            value = value.item()  # numpy would keep the array itself in an array of objects
         connection = self.connection
         if connection.is_scaled:
             value = connection.factor * value + connection.offset
@@ -89,6 +91,11 @@ class Transfer:
         self.buffer: AnyArray = np.empty(variable.shape, variable.type.dtype)
         if variable.start is not None:
             self.buffer[...] = variable.start
+
+    @property
+    def is_clock(self) -> bool:
+        """Whether it hands over ticks: each time that it is carried out while its source ticks, the target ticks."""
+        return self.variable.type is VariableType.CLOCK
 
     @property
     def end(self) -> tuple[str, str]:

@@ -41,7 +41,9 @@ def build_fmu(
     Raises:
         InputError: There is no such FMU, it cannot be loaded, or a parameter or start value does not fit.
     """
-    archive = open_fmu(find_fmu(component, source))
+    isolation = Isolation() if component.isolation == "process" else component.isolation
+    # A process of its own has files of its own: it may be killed at any moment.
+    archive = open_fmu(find_fmu(component, source), is_shared=isinstance(isolation, str))
     try:
         tolerance = component.tolerance.to("1") if component.tolerance is not None else None
         settings = FmuSettings(
@@ -50,7 +52,6 @@ def build_fmu(
         )  # fmt: skip
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         build = partial(kind, name, archive, settings)
-        isolation = Isolation() if component.isolation == "process" else component.isolation
         if not isinstance(isolation, str):
             limits = Limits(isolation.step_limit.to("s"), round(isolation.memory_limit.to("byte")))
             return IsolatedUnit(name, build, limits, archive)

@@ -25,6 +25,11 @@ class Loop(Protocol):
     language: str
 
     @property
+    def native_share(self) -> float:
+        """Part of what a macro-step does that needs no Python, in [0, 1]."""
+        ...
+
+    @property
     def index(self) -> int:
         """Macro-steps completed; after an error, those completed before it."""
         ...
@@ -67,6 +72,7 @@ class PythonLoop(Loop):
     """
 
     language = "Python"
+    native_share = 0.0
 
     def __init__(self, watched: Watched, algorithm: Algorithm) -> None:
         self._watched, self._algorithm = watched, algorithm
@@ -123,6 +129,11 @@ class NativeLoop(Loop):
             meter.note_largest if meter.units else None,
         )
         self._plan = native_plan(watched.system, kind, watched.grid, watch)  # type: ignore[arg-type]
+
+    @property
+    def native_share(self) -> float:
+        """Part of what a macro-step does that needs no Python; 1: nothing is called back."""
+        return self._plan.native_share
 
     @property
     def index(self) -> int:

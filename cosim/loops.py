@@ -11,14 +11,16 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 from scipy.optimize import anderson, root
 
-from cosim.connection import ConnectionFault, Transfer
+from cosim.connection import Transfer
 from cosim.ordering import in_order
-from cosim.unit import Array, Unit, UnitError, VariableType
+from cosim.unit import AnyArray, Array, Unit, UnitError
 
 #: Largest difference of a loop's inputs, relative to 1 + their size, at which the loop counts as closed.
 TOLERANCE = 1e-10
 #: Repetitions of setting the inputs to what follows from them; enough where the ring is none element by element.
 REPETITIONS = 3
+#: Rounds in which discrete values of a ring must settle; each passes a value on by one connection at least.
+ROUNDS = 100
 #: Up to this many unknowns a Jacobian is made by differences; beyond, Anderson mixing needs none.
 MOST_UNKNOWNS_WITH_JACOBIAN = 64
 
@@ -29,24 +31,22 @@ Feedthrough = Callable[[Unit], Mapping[str, frozenset[str]]]
 class AlgebraicLoop:
     """Inputs that depend on each other at one instant: u = g(u).
 
+    Where one of them is no floating-point number (a message of a bus, a switch), there is no equation to be solved:
+    values are passed round until none changes, as discrete states settle inside an FMU.
+
     Args:
         transfers: The inputs of the loop.
         units: The units that have them.
-
-    Raises:
-        ConnectionFault: One of them is no floating-point number.
     """
 
     def __init__(self, transfers: Sequence[Transfer], units: Sequence[Unit]) -> None:
         self.transfers, self.units = list(transfers), list(units)
         self.size = sum(t.variable.size for t in transfers)
-        for transfer in transfers:
-            if not transfer.variable.type.is_float:
-                raise ConnectionFault(f"{self}: {'.'.join(transfer.end)} is {transfer.variable.type.value}; "
-                                      "only floating-point numbers can be solved for")  # fmt: skip
+        self.is_discrete = any(not t.variable.type.is_float for t in transfers)
 
     def __str__(self) -> str:
-        return "algebraic loop " + ", ".join(str(p.connection) for t in self.transfers for p in t.parts)
+        what = "ring of discrete values " if self.is_discrete else "algebraic loop "
+        return what + ", ".join(str(p.connection) for t in self.transfers for p in t.parts)
 
     def _inputs(self) -> Array:
         return np.concatenate([np.ravel(t.buffer) for t in self.transfers]).astype(np.float64)
@@ -75,6 +75,9 @@ class AlgebraicLoop:
         Raises:
             UnitError: There are none, or they were not found.
         """
+        if self.is_discrete:
+            self._settle()
+            return
         for transfer in self.transfers:
             for part in transfer.parts:
                 part.copy()
@@ -89,6 +92,30 @@ class AlgebraicLoop:
         if not _agree(following, unknowns):
             worst = float(np.max(np.abs(following - unknowns)))
             raise self._unsolved(f"inputs and outputs differ by {worst:g}")
+
+    def _settle(self) -> None:
+        """Pass values round until none changes."""
+        for _ in range(ROUNDS):
+            before = [t.buffer.copy() for t in self.transfers]
+            for transfer in self.transfers:
+                for part in transfer.parts:
+                    part.copy()
+            for transfer in self.transfers:
+                transfer.write()
+            for unit in self.units:
+                unit.refresh()
+            if all(_are_same(t.buffer, old) for t, old in zip(self.transfers, before)) and self._is_closed():
+                return
+        raise UnitError(self.units[0].name, f"{self}: its values do not settle in {ROUNDS} rounds",
+                        remedy="break the ring with an output that depends on no input")  # fmt: skip
+
+    def _is_closed(self) -> bool:
+        """Whether the outputs that follow from the inputs give the same inputs again."""
+        before = [t.buffer.copy() for t in self.transfers]
+        for transfer in self.transfers:
+            for part in transfer.parts:
+                part.copy()
+        return all(_are_same(t.buffer, old) for t, old in zip(self.transfers, before))
 
     def _root(self, unknowns: Array) -> Array:
         def residual(u: Array) -> Array:
@@ -106,6 +133,12 @@ class AlgebraicLoop:
         return UnitError(self.units[0].name, what, remedy="give start values near a solution, or break the loop")
 
 
+def _are_same(one: AnyArray, other: AnyArray) -> bool:
+    if one.dtype.kind == "f":
+        return bool(np.all(np.abs(one - other) <= TOLERANCE * (1.0 + np.abs(other))))
+    return bool(np.all(one == other))
+
+
 def _agree(one: Array, other: Array) -> bool:
     return bool(np.all(np.abs(one - other) <= TOLERANCE * (1.0 + np.abs(other))))
 
@@ -118,9 +151,6 @@ class Propagation:
         transfers: Name of a unit to the transfers into it.
         feedthrough: Which dependences count: `Unit.feedthrough` or `Unit.initial_feedthrough`.
         is_complete: Carry out every transfer, not only those into inputs with direct feedthrough.
-
-    Raises:
-        ConnectionFault: An algebraic loop of values that are no floating-point numbers.
     """
 
     def __init__(
@@ -129,7 +159,10 @@ class Propagation:
     ) -> None:  # fmt: skip
         through = {n: feedthrough(u) for n, u in units.items()}
         direct = {(n, i) for n, depends in through.items() for inputs in depends.values() for i in inputs}
-        self._nodes = [t for into in transfers.values() for t in into if is_complete or t.end in direct]
+        # A tick must arrive once, while this is carried out again and again: algorithms hand it over before a step.
+        self._nodes = [
+            t for into in transfers.values() for t in into if not t.is_clock and (is_complete or t.end in direct)
+        ]
         self._direct = direct
         self.loops: list[AlgebraicLoop] = []
         #: What `carry_out` does, in order: methods of transfers, of algebraic loops, and of units.
@@ -142,19 +175,20 @@ class Propagation:
 
     @property
     def settled(self) -> list[Transfer]:
-        """Transfers that would bring nothing if they were carried out again: what they read has not changed since.
-
-        A clock ticks each time it is set, so transfers into clocks are left out.
-        """
-        found: list[Transfer] = []
+        """Transfers that would bring nothing if they were carried out again: what they read has not changed since."""
+        found: dict[int, Transfer] = {}
+        readers: dict[int, list[int]] = {}  # a unit to the transfers that read it
         for action in self.actions:
             owner = getattr(action, "__self__", None)
             if isinstance(owner, Transfer):
-                found += [owner] if owner.variable.type is not VariableType.CLOCK else []
+                found[id(owner)] = owner
+                for part in owner.parts:
+                    readers.setdefault(id(part.source), []).append(id(owner))
                 continue
-            changed = owner.units if isinstance(owner, AlgebraicLoop) else [owner]
-            found = [t for t in found if not any(p.source is unit for p in t.parts for unit in changed)]
-        return found
+            for unit in owner.units if isinstance(owner, AlgebraicLoop) else [owner]:
+                for reader in readers.pop(id(unit), ()):
+                    found.pop(reader, None)
+        return list(found.values())
 
     def _edges(self, through: Mapping[str, Mapping[str, frozenset[str]]]) -> list[tuple[int, int]]:
         """(before, after): input `after` is fed by an output that depends directly on input `before`."""

@@ -6,11 +6,13 @@ from dataclasses import fields
 from typing import Any
 
 from cosim.components import FabricComponent, ParameterValue, PendulumComponent
+from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
 from cosim.quantity import PhysicalValue
 from mechanics.added import AddedEffects, tilted
 from mechanics.fabric import FabricDesign
+from mechanics.mujoco_world import MujocoMissing
 from mechanics.pendulum import PendulumDesign, PendulumUnit
 from mechanics.solver import SolverSettings
 from mechanics.unit import FabricUnit
@@ -74,7 +76,7 @@ PENDULUM_UNITS = {
 
 
 def build_fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
-    """A fabric; raises ValueError for a parameter that does not fit."""
+    """A fabric; raises ValueError for a parameter that does not fit, InputError where its engine is not installed."""
     numbers: dict[str, Any] = {}
     for key, value in parameters.values.items():
         if key == "gravity":
@@ -104,8 +106,16 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
         iterations=component.solver.iterations,
         penetration_limit=component.solver.penetration_limit.to("m"),
         springs=component.solver.springs,
+        engine=component.engine,
+        friction_model=component.solver.friction_model,
     )
-    return FabricUnit(name, design, solver)
+    try:
+        return FabricUnit(name, design, solver)
+    except MujocoMissing as error:
+        raise InputError(
+            "scenario", f"{name}.engine", "the package mujoco is not installed",
+            'install it with `pip install "active-chainmail[mujoco]"`, or write `engine: bullet`',
+        ) from error  # fmt: skip
 
 
 def build_pendulum(name: str, component: PendulumComponent, parameters: Resolved) -> PendulumUnit:

@@ -37,14 +37,40 @@ def parse_unit(text: str) -> pint.Unit:
 
 
 @functools.cache
+def turns(source: str, target: str) -> float:
+    """What pint leaves out between cycles and angles: 2 pi from Hz to rad/s, its inverse back, else 1.
+
+    Hz counts cycles, and a cycle is a turn of 2 pi rad; to pint hertz and rad/s are both 1/s. Only where exactly one
+    of two units is written with hertz and the other with an angle in its place is the factor certain; 1/s stays 1/s.
+    Decision record 0016.
+
+    >>> turns("Hz", "rad/s"), turns("rpm", "Hz"), turns("1/s", "Hz"), turns("N*m", "N*m/rad")
+    (6.283185307179586, 0.15915494309189535, 1.0, 1.0)
+    """
+    first, second = (cycles_and_angles(text) for text in (source, target))
+    cycles, angles = first[0] - second[0], second[1] - first[1]
+    return float((2.0 * math.pi) ** cycles) if cycles and cycles == angles else 1.0
+
+
+@functools.cache
+def cycles_and_angles(text: str) -> tuple[float, float]:
+    """Powers of hertz as written, and of radian in base units; raises ValueError for an unknown unit."""
+    unit = parse_unit(text)
+    written: dict[str, Any] = dict(unit._units)
+    cycles = sum(float(power) for name, power in written.items() if name.endswith("hertz"))
+    base: dict[str, Any] = dict(registry().get_root_units(unit)[1]._units)
+    return cycles, float(base.get("radian", 0.0))
+
+
+@functools.cache
 def conversion(source: str, target: str) -> tuple[float, float]:
     """(factor, offset) with target value = factor * source value + offset.
 
     Raises:
         ValueError: The units measure different things.
 
-    >>> conversion("mm", "m")
-    (0.001, 0.0)
+    >>> conversion("mm", "m"), conversion("Hz", "rad/s")
+    ((0.001, 0.0), (6.28318530717959, 0.0))
     """
     if source == target:
         return 1.0, 0.0
@@ -53,7 +79,7 @@ def conversion(source: str, target: str) -> tuple[float, float]:
         raise ValueError(f"{source} cannot be converted to {target}")
     offset = float(registry().Quantity(0.0, first).to(second).magnitude)
     factor = float(registry().Quantity(1.0, first).to(second).magnitude) - offset
-    return float(f"{factor:.15g}"), float(f"{offset:.15g}")
+    return float(f"{factor * turns(source, target):.15g}"), float(f"{offset:.15g}")
 
 
 @dataclass(frozen=True)
@@ -110,10 +136,11 @@ class PhysicalValue:
             wanted = registry().Quantity(self.number, given).to(asked)
         except (pint.PintError, ArithmeticError) as error:
             raise ValueError(f"`{self}` is no quantity in {unit}") from error
-        if not math.isfinite(wanted.magnitude):
+        number = float(wanted.magnitude) * turns(self.unit, unit)
+        if not math.isfinite(number):
             raise ValueError(f"`{self}` is too large for a number in {unit}")
         # Through a decimal of 15 digits, so that 22 degC is 295.15 K and 0.1 ms is 1e-4 s, without binary debris.
-        return float(f"{float(wanted.magnitude):.15g}")
+        return float(f"{number:.15g}")
 
     def __str__(self) -> str:
         short = f"{self.number:.15g}"

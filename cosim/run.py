@@ -7,6 +7,7 @@ import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import chdir
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -62,13 +63,37 @@ class RunStopped(Exception):
 
     Args:
         reason: What, where and when.
-        dataset: Values recorded so far.
+        recorded: What was recorded so far.
         is_interrupt: Whether the user interrupted it.
     """
 
-    def __init__(self, reason: str, dataset: xr.Dataset, is_interrupt: bool) -> None:
+    def __init__(self, reason: str, recorded: Recorded, is_interrupt: bool) -> None:
         super().__init__(reason)
-        self.reason, self.dataset, self.is_interrupt = reason, dataset, is_interrupt
+        self.reason, self.is_interrupt, self._recorded = reason, is_interrupt, recorded
+
+    @cached_property
+    def dataset(self) -> xr.Dataset:
+        """Values recorded so far."""
+        return self._recorded.dataset()
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What a run has recorded.
+
+    Args:
+        trace: Values and times.
+        attributes: Title, status, wall times, energy balance.
+    """
+
+    trace: Trace
+    attributes: Mapping[str, Any]
+
+    def dataset(self) -> xr.Dataset:
+        """As `run` returns it."""
+        dataset = self.trace.dataset()
+        dataset.attrs.update(self.attributes)
+        return dataset
 
 
 @dataclass
@@ -85,6 +110,9 @@ class _Clockwork:
     index: int = 0
     written: int = 0
     is_resumed: bool = False
+    #: Wall time of the checkpoints, and how many [s].
+    checkpoint_time: float = 0.0
+    checkpoint_count: int = 0
     begin: float = field(default_factory=clock.perf_counter)
     first_index: int = 0
 
@@ -124,17 +152,36 @@ def run(
         RunStopped: A unit failed, the disk is full or the user interrupted; the values so far are in it and, where
             they could be written, in the folder.
     """
+    return record(scenario, out, resume, on_progress, csv, overwrite).dataset()
+
+
+def record(
+    scenario: Scenario,
+    out: Path | None = None,
+    resume: bool = False,
+    on_progress: Callable[[Progress], None] | None = None,
+    csv: bool = False,
+    overwrite: bool = False,
+) -> Recorded:
+    """Run a scenario as `run` does; the values are not put together to a dataset, which takes time and memory.
+
+    A long run with a folder keeps its values in a file there while it goes on, not in memory.
+
+    Raises:
+        InputError, RunStopped: As `run`.
+    """
     if out is None:
         return _run(scenario, None, resume, on_progress)
     # An FMU may change the working folder: files are found all the same, and who called is where he was.
     folder = RunFolder(out.absolute(), csv, overwrite)
+    folder.prepare_writing()
     with chdir(Path.cwd()), alone(folder.path, "run"):
         return _run(scenario, folder, resume, on_progress)
 
 
 def _run(
     scenario: Scenario, folder: RunFolder | None, resume: bool, on_progress: Callable[[Progress], None] | None
-) -> xr.Dataset:  # fmt: skip
+) -> Recorded:  # fmt: skip
     if resume:
         _check_resumable(folder)
     elif folder is not None:
@@ -143,7 +190,7 @@ def _run(
     try:
         if folder is not None and resume:
             folder.refuse_other(assembly.scenario, assembly.parameters)
-        state = _begin(scenario, assembly, folder if resume else None)
+        state = _begin(scenario, assembly, folder, resume)
         # Files are written once all units are initialised: a run that cannot begin leaves none behind.
         if folder is not None and not resume:
             folder.create(assembly.scenario, assembly.parameters, assembly.versions)
@@ -160,16 +207,17 @@ def _check_resumable(folder: RunFolder | None) -> None:
         raise InputError(folder.path, "", "this run is complete", "look at it with `cosim plot`")
 
 
-def _begin(scenario: Scenario, assembly: Assembly, resumed: RunFolder | None) -> _Clockwork:
+def _begin(scenario: Scenario, assembly: Assembly, folder: RunFolder | None, resume: bool) -> _Clockwork:
     start, stop = nanoseconds(scenario.time.start), nanoseconds(scenario.time.stop)
     output = nanoseconds(scenario.time.output_step)
     macro = nanoseconds(scenario.time.macro_step)
-    trace, meter = _trace(scenario, assembly.system, range(start, stop + 1, output)), EnergyMeter(assembly.system)
+    trace = _trace(scenario, assembly.system, range(start, stop + 1, output), folder)
+    meter = EnergyMeter(assembly.system)
     if assembly.algorithm.divides_steps:
         meter.units = []
     watched = Watched(assembly.system, trace, meter, Grid(start, macro, output // macro))
     # A run that was interrupted before its first checkpoint starts once more.
-    files = resumed.checkpoints() if resumed is not None else []
+    files = folder.checkpoints() if folder is not None and resume else []
     if not files:
         _initialise(assembly, start, scenario.path or "scenario")
         trace.record(start)
@@ -191,13 +239,14 @@ def _initialise(assembly: Assembly, start: int, source: object) -> None:
         raise InputError(source, f"components.{error.unit}", f"it cannot begin: {error.what}", remedy) from error
 
 
-def _trace(scenario: Scenario, system: System, times: range) -> Trace:
+def _trace(scenario: Scenario, system: System, times: range, folder: RunFolder | None) -> Trace:
     try:
-        return Trace(system, times)
-    except MemoryError as error:
+        return Trace(system, times, None if folder is None else folder.path)
+    except (MemoryError, OSError, OverflowError, ValueError) as error:
+        where = "memory" if folder is None or isinstance(error, MemoryError) else str(folder.path)
         raise InputError(
-            scenario.path or "scenario", "time.output_step", f"{len(times)} outputs do not fit into memory",
-            "take a longer output_step or a nearer stop",
+            scenario.path or "scenario", "time.output_step", f"{len(times)} outputs do not fit into {where}",
+            "take a longer output_step or a nearer stop" + ("" if where == "memory" else ", or make room"),
         ) from error  # fmt: skip
 
 
@@ -256,7 +305,7 @@ def _checkpoint(state: _Clockwork, folder: RunFolder | None) -> None:
 
 def _run_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None
-) -> xr.Dataset:
+) -> Recorded:
     reason, is_interrupt = "", False
     try:
         # Every value is checked for being finite, so numpy's warnings of overflow and NaN would only repeat the error.
@@ -269,15 +318,15 @@ def _run_to_end(
         reason = f"at t = {seconds(state.now):.6g} s: {error}"
     except KeyboardInterrupt:
         reason, is_interrupt = f"interrupted at t = {seconds(state.now):.6g} s", True
-    dataset = _finish(state, reason)
+    recorded = Recorded(state.trace, _attributes(state, reason))
     if folder is not None:
         try:
-            folder.write_results(state.trace, dataset, _summary(state, reason))
+            folder.write_results(state.trace, recorded.attributes, _summary(state, reason))
         except InputError as error:
             reason, is_interrupt = reason or f"at t = {seconds(state.now):.6g} s: {error}", False
     if reason:
-        raise RunStopped(reason, dataset, is_interrupt)
-    return dataset
+        raise RunStopped(reason, recorded, is_interrupt)
+    return recorded
 
 
 def _step_to_end(
@@ -296,7 +345,11 @@ def _step_to_end(
                             "cannot repeat a step", outcome.time,
                             "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
         if state.index == due < state.total and has_checkpoints:
+            begin = clock.perf_counter()
             _checkpoint(state, folder)
+            state.checkpoint_time += clock.perf_counter() - begin
+            state.checkpoint_count += 1
+        state.trace.release()
         if on_progress is not None:
             elapsed = clock.perf_counter() - state.begin
             simulated = seconds((state.index - state.first_index) * state.macro)
@@ -317,18 +370,17 @@ def _can_checkpoint(state: _Clockwork) -> bool:
     return not unable
 
 
-def _finish(state: _Clockwork, reason: str) -> xr.Dataset:
-    dataset = state.trace.dataset()
-    dataset.attrs["title"] = state.scenario.title
-    dataset.attrs["status"] = reason or "complete"
-    dataset.attrs["algorithm"] = state.scenario.algorithm.kind
-    dataset.attrs["macro_step_s"] = seconds(state.macro)
-    dataset.attrs.update({f"wall_time_{name}_s": s for name, s in state.assembly.system.wall_time.items()})
+def _attributes(state: _Clockwork, reason: str) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "title": state.scenario.title, "status": reason or "complete", "algorithm": state.scenario.algorithm.kind,
+        "macro_step_s": seconds(state.macro),
+        **{f"wall_time_{name}_s": s for name, s in state.assembly.system.wall_time.items()},
+    }  # fmt: skip
     balance = None if reason else state.meter.balance()
     if balance is not None:
-        dataset.attrs.update(energy_electrical_J=balance.electrical, energy_stored_J=balance.stored,
-                             energy_convected_J=balance.convected, energy_residual=balance.residual)  # fmt: skip
-    return dataset
+        found |= {"energy_electrical_J": balance.electrical, "energy_stored_J": balance.stored,
+                  "energy_convected_J": balance.convected, "energy_residual": balance.residual}  # fmt: skip
+    return found
 
 
 def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
@@ -341,8 +393,13 @@ def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
         "macro_steps": state.index,
         "algorithm": {"kind": state.scenario.algorithm.kind, **state.assembly.algorithm.counts()},
         "loop": state.loop.language,
+        "loop_without_python": state.loop.native_share,
         "resumed": state.is_resumed,
-        "wall_time_s": {"since_start_or_resumption": clock.perf_counter() - state.begin, "units": units},
+        "checkpoints": state.checkpoint_count,
+        "wall_time_s": {
+            "since_start_or_resumption": clock.perf_counter() - state.begin,
+            "checkpoints": state.checkpoint_time, "units": units,
+        },
         "energy_J": None if balance is None else {
             "electrical": balance.electrical, "stored": balance.stored, "convected": balance.convected,
             "relative_residual": balance.residual,

@@ -14,12 +14,12 @@ from __future__ import annotations
 
 import csv
 import errno
+import importlib
 import importlib.metadata
 import itertools
 import json
 import os
 import platform
-import re
 import subprocess
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -27,20 +27,29 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import xarray as xr
-
 from cosim.errors import InputError
-from cosim.parameters import Resolved
-from cosim.scenario import Scenario
-from cosim.yaml_file import read_text
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # `cosim --help` needs none of them
+    import numpy as np
+
     from cosim.observers.trace import Trace
+    from cosim.parameters import Resolved
+    from cosim.scenario import Scenario
 
-_PACKAGES = ("numpy", "scipy", "fmpy", "pybullet", "scikit-sundae", "PySpice", "xarray", "netCDF4", "pydantic", "pint")
+_PACKAGES = (
+    "numpy",
+    "scipy",
+    "fmpy",
+    "pybullet",
+    "mujoco",
+    "scikit-sundae",
+    "PySpice",
+    "xarray",
+    "netCDF4",
+    "pydantic",
+    "pint",
+)
 
-_NOT_NETCDF = re.compile(r"[\x00-\x1f\x7f/]| $")
 _MAKE_ROOM = "free some room, then go on with `--resume`"
 
 
@@ -76,6 +85,17 @@ class RunFolder:
         """Status, timings and energies."""
         return self.path / "summary.json"
 
+    @property
+    def ensemble(self) -> Path:
+        """How many starts there are, where the folder holds an ensemble (`cosim.ensemble`)."""
+        return self.path / "ensemble.json"
+
+    @staticmethod
+    def prepare_writing() -> None:
+        """Load what `write_results` needs: a run must not find out at its end that something is not installed."""
+        for module in ("cosim.native.trace_csv", "cosim.results_file"):
+            importlib.import_module(module)
+
     def refuse_existing(self) -> None:
         """Raise InputError where the folder already holds a run that must not be overwritten."""
         if not self.overwrites and self._holds_run():
@@ -87,13 +107,21 @@ class RunFolder:
     def _holds_run(self) -> bool:
         return bool(self.checkpoints()) or any(p.exists() for p in (self.scenario, self.results, self.summary))
 
-    def _remove_run(self) -> None:
-        """Remove the files of a run and nothing else; what says how it ended goes first."""
+    def remove_run(self) -> None:
+        """Remove the files of a run or an ensemble and nothing else; what says how it ended goes first."""
         names = ("summary.json", "results.nc", "results.csv", "series.csv", "versions.json", "parameters.csv")
         figures = (self.path / "figures").glob("*") if self._holds_run() else ()
-        for file in (*(self.path / name for name in names), *self.checkpoints(), *figures, self.scenario):
+        for file in (*(self.path / name for name in names), *self.checkpoints(), *figures):
             if file.is_file():
                 file.unlink()
+        if self.ensemble.is_file():
+            for start in (self.path / "starts").glob("*"):
+                RunFolder(start).remove_run()
+                _remove_empty(start / "checkpoints", start / "figures", start)
+            _remove_empty(self.path / "starts")
+            self.ensemble.unlink()
+        if self.scenario.is_file():
+            self.scenario.unlink()
 
     def create(self, scenario: Scenario, parameters: Mapping[str, Resolved], engines: Mapping[str, str]) -> None:
         """Make the folder of a new run.
@@ -109,7 +137,7 @@ class RunFolder:
         self.refuse_existing()
         with writing(self.path):
             if self.overwrites:
-                self._remove_run()
+                self.remove_run()
             (self.path / "checkpoints").mkdir(parents=True, exist_ok=True)
             write_atomically(self.scenario, resolved_scenario(scenario, parameters).to_yaml(True).encode())
             self._write_parameters(parameters)
@@ -126,6 +154,8 @@ class RunFolder:
 
     def refuse_other(self, scenario: Scenario, parameters: Mapping[str, Resolved]) -> None:
         """Raise InputError where the folder holds the run of another scenario, with the first line that differs."""
+        from cosim.yaml_file import read_text
+
         stored = read_text(self.scenario).splitlines()
         asked = resolved_scenario(scenario, parameters).to_yaml(True).splitlines()
         for here, there in itertools.zip_longest(asked, stored, fillvalue="nothing"):
@@ -152,6 +182,8 @@ class RunFolder:
 
     def write_checkpoint(self, index: int, content: Mapping[str, np.ndarray[Any, Any]]) -> None:
         """Write checkpoint `index` as a whole or not at all."""
+        import numpy as np
+
         with writing(self.path):
             target = self.path / "checkpoints" / f"{index:06d}.npz"
             with replacing(target) as partial, partial.open("wb") as file:
@@ -166,52 +198,41 @@ class RunFolder:
         with writing(self.path), replacing(self.results_csv) as partial:
             write_trace(partial, trace)
 
-    def write_results(self, trace: Trace, dataset: xr.Dataset, summary: Mapping[str, Any]) -> None:
+    def write_results(self, trace: Trace, attributes: Mapping[str, Any], summary: Mapping[str, Any]) -> None:
         """Write results, main series and, last, the summary that says how the run ended.
 
         Args:
             trace: What was recorded.
-            dataset: The same with attributes.
+            attributes: Of the NetCDF file.
             summary: Status, timings and energies.
 
         Raises:
             InputError: One of the files cannot be written.
         """
+        from cosim.native.trace_csv import write_series  # late, as above
+        from cosim.results_file import write_results
+
         with writing(self.path):
-            stored = with_netcdf_names(dataset)
-            numbers = [name for name, values in stored.data_vars.items() if values.dtype.kind in "biuf"]
-            encoding = {name: {"zlib": True, "complevel": 4} for name in numbers}
             with replacing(self.results) as partial:
-                stored.to_netcdf(partial, engine="netcdf4", encoding=encoding)
-            write_series(self.path / "series.csv", dataset)
+                write_results(partial, trace, attributes)
+            with replacing(self.path / "series.csv") as partial:
+                write_series(partial, trace)
             if self.has_csv or self.results_csv.exists():  # a resumed run leaves no half of a file behind
                 self.write_csv(trace)
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
 
 
-def with_netcdf_names(dataset: xr.Dataset) -> xr.Dataset:
-    """The dataset with names that NetCDF allows; a variable that had to be renamed has its own as attribute `name`.
-
-    Not allowed are control characters, `/` and a blank at the end (NetCDF Users Guide, names); they are written as in
-    addresses, with `%` and two hexadecimal digits, and so is `%` itself in such a name.
-    """
-    names = {n: _netcdf_name(str(n)) for n in (*dataset.variables, *dataset.dims)}
-    changed = {old: new for old, new in names.items() if old != new}
-    stored = dataset.rename(changed)
-    for old, new in changed.items():
-        if new in stored.variables:
-            stored[new].attrs = {**stored[new].attrs, "name": str(old)}
-    return stored
-
-
-def _netcdf_name(name: str) -> str:
-    if not _NOT_NETCDF.search(name):
-        return name
-    return _NOT_NETCDF.sub(lambda found: f"%{ord(found[0]):02X}", name.replace("%", "%25"))
+def _remove_empty(*folders: Path) -> None:
+    """Remove folders that are empty, and leave the others."""
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def read_checkpoint(file: Path) -> dict[str, np.ndarray[Any, Any]]:
     """Content of a checkpoint; raises InputError if it cannot be read."""
+    import numpy as np
+
     try:
         with file.open("rb") as stream, np.load(stream) as content:
             return dict(content)
@@ -260,28 +281,6 @@ def write_atomically(path: Path, data: bytes) -> None:
         partial.write_bytes(data)
 
 
-def write_series(path: Path, dataset: xr.Dataset) -> None:
-    """Main series: scalars and string quantities against time, and mean, lowest and highest value over the coils."""
-    columns: dict[str, np.ndarray[Any, Any]] = {"time [s]": dataset["time"].values}
-    for name, values in dataset.data_vars.items():
-        if values.dtype.kind not in "biuf":  # text is in the NetCDF file
-            continue
-        unit = f" [{values.attrs['units']}]" if "units" in values.attrs else ""
-        if values.ndim == 1:
-            columns[f"{name}{unit}"] = values.values
-        elif values.dims[1:] == ("string",):
-            for i in range(values.sizes["string"]):
-                columns[f"{name}[{i + 1}]{unit}"] = values.values[:, i]
-        elif values.ndim == 2 and values.shape[1]:
-            for kind in ("mean", "min", "max"):
-                columns[f"{kind} {name}{unit}"] = getattr(np, kind)(values.values, axis=1)
-    rows = zip(*columns.values(), strict=True)
-    with replacing(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        writer.writerows([f"{value:.9g}" for value in row] for row in rows)
-
-
 def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) -> Scenario:
     """The scenario with all parameter sets inlined, so that it stands alone."""
     components = {}
@@ -293,6 +292,10 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
         if fmu.endswith(".fmu") and scenario.path is not None:
             beside = scenario.path.parent / fmu
             update["fmu"] = str((beside if os.path.isfile(beside) else Path(fmu)).resolve())
+        law = getattr(component, "law", None)
+        if getattr(law, "kind", "") == "python" and scenario.path is not None:
+            beside = (scenario.path.parent / law.file).resolve()  # type: ignore[union-attr]
+            update["law"] = law.model_copy(update={"file": str(beside)})  # type: ignore[union-attr]
         components[name] = component.model_copy(update=update)
     return scenario.model_copy(update={"components": components})
 

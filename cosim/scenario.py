@@ -17,11 +17,13 @@ from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
 
 from cosim.components import (
     Component,
+    ControllerComponent,
     Count,
     Duration,
     FabricComponent,
     PendulumComponent,
     ProgrammeComponent,
+    SensorComponent,
     Strict,
     Time,
     nanoseconds,
@@ -38,6 +40,23 @@ _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
 CONNECTION = r"^\s*(\w+)\.(\S+)\s*->\s*(\w+)\.(\S+)\s*$"
 
 
+#: Checkpoints of a run whose scenario does not say when: at most so many, because each costs a file that is synced.
+MOST_CHECKPOINTS = 100
+_SHORTEST_CHECKPOINT_STEP = 2_000_000_000
+
+
+def default_checkpoint_step(duration: int, output_step: int) -> int:
+    """2 s or a hundredth of the run, whichever is longer, in whole output steps [ns].
+
+    >>> default_checkpoint_step(36_000_000_000, 300_000_000)
+    2100000000
+    >>> default_checkpoint_step(1_000_000_000_000_000, 1_000_000_000)
+    10000000000000
+    """
+    wanted = max(_SHORTEST_CHECKPOINT_STEP, -(-duration // MOST_CHECKPOINTS))
+    return -(-wanted // output_step) * output_step
+
+
 class TimeSettings(Strict):
     """Start, end and steps of a run."""
 
@@ -47,18 +66,19 @@ class TimeSettings(Strict):
     output_step: Duration = Field(description="Interval between recorded values; a multiple of the macro-step.")
     checkpoint_step: Duration = Field(
         default=PhysicalValue(2.0, "s"),
-        description="Interval between checkpoints; default: 2 s, or the next longer multiple of the output step.",
+        description="Interval between checkpoints; default: 2 s or a hundredth of the run, whichever is longer, in "
+        "whole output steps.",
     )
 
     @model_validator(mode="after")
     def _check(self) -> TimeSettings:
         start, stop, macro = nanoseconds(self.start), nanoseconds(self.stop), nanoseconds(self.macro_step)
         output, checkpoint = nanoseconds(self.output_step), nanoseconds(self.checkpoint_step)
-        if "checkpoint_step" not in self.model_fields_set and checkpoint % output:
-            checkpoint = -(-checkpoint // output) * output
-            self.__dict__["checkpoint_step"] = PhysicalValue(checkpoint / 1e9, "s")
         if stop <= start:
             raise ValueError(f"stop ({self.stop}) must come after start ({self.start})")
+        if "checkpoint_step" not in self.model_fields_set:
+            checkpoint = default_checkpoint_step(stop - start, output)
+            self.__dict__["checkpoint_step"] = PhysicalValue(checkpoint / 1e9, "s")
         for name, value, divisor, of in (
             ("output_step", output, macro, "macro_step"),
             ("checkpoint_step", checkpoint, output, "output_step"),
@@ -168,6 +188,9 @@ class Scenario(Strict):
                 if macro % nanoseconds(micro):
                     raise ValueError(f"components.{name}.{key} ({micro}) must divide time.macro_step "
                                      f"({self.time.macro_step}) into a whole number of steps")  # fmt: skip
+            if isinstance(component, SensorComponent | ControllerComponent) and nanoseconds(component.sample) % macro:
+                raise ValueError(f"components.{name}.sample ({component.sample}) must be a multiple of time.macro_step "
+                                 f"({self.time.macro_step})")  # fmt: skip
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():
                     late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]

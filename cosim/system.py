@@ -12,7 +12,17 @@ import numpy as np
 from cosim.connection import Connection, ConnectionFault, Element, Transfer
 from cosim.loops import AlgebraicLoop, Propagation
 from cosim.nearest import did_you_mean
-from cosim.unit import AnyArray, Causality, ParallelUnit, StepOutcome, StepStatus, Unit, UnitError, Variable
+from cosim.unit import (
+    AnyArray,
+    Causality,
+    ParallelUnit,
+    StepOutcome,
+    StepStatus,
+    Unit,
+    UnitError,
+    Variable,
+    VariableType,
+)
 
 __all__ = ["Connection", "ConnectionFault", "System"]
 
@@ -27,8 +37,8 @@ class System:
         sources: Names of units that are functions of time alone; they are sampled before any other unit steps.
 
     Raises:
-        ConnectionFault: An unknown name, a wrong causality, type or shape, two connections into one input, an input
-            that is neither connected nor has a start value, or an algebraic loop of values that are no numbers.
+        ConnectionFault: An unknown name, a wrong causality, type or shape, two connections into one input, or an input
+            that is neither connected nor has a start value.
     """
 
     units: Mapping[str, Unit]
@@ -91,9 +101,12 @@ class System:
         if shapes[0] != shapes[1] and shapes[0] != ():
             raise ConnectionFault(f"{connection}: shape {shapes[0]} does not fit shape {shapes[1]}")
         if not target.type.accepts(source.type):
-            raise ConnectionFault(f"{connection}: {source.type.value} does not fit {target.type.value} without loss")
-        if connection.is_scaled and not (target.type.is_number and source.type.is_number):
-            raise ConnectionFault(f"{connection}: a value of type {source.type.value} cannot be scaled")
+            raise ConnectionFault(f"{connection}: {source.type.value} does not fit {target.type.value} without loss; "
+                                  f"{_remedy(source.type, target.type)}")  # fmt: skip
+        can_scale = source.type.is_number or source.type is VariableType.BOOLEAN
+        if connection.is_scaled and not (target.type.is_number and can_scale):
+            raise ConnectionFault(f"{connection}: a value of type {source.type.value} cannot be scaled; "
+                                  "connect it without factor and offset")  # fmt: skip
 
     def _check_inputs(self) -> None:
         for name, unit in self.units.items():
@@ -157,10 +170,15 @@ class System:
             transfer.carry_out()
 
     def exchange_all(self) -> None:
-        """Carry out every connection, those with direct feedthrough in the order in which outputs follow."""
+        """Carry out every connection, those with direct feedthrough in the order in which outputs follow.
+
+        Clocks are left out: a tick is handed over once, in the step that follows it.
+        """
         self.propagation.carry_out()
         for name in self.units:
-            self.exchange(name)
+            for transfer in self.transfers[name]:
+                if not transfer.is_clock:
+                    transfer.carry_out()
 
     def propagate(self) -> None:
         """Let every output that depends directly on an input follow the outputs of this instant."""
@@ -239,6 +257,15 @@ class System:
         """Terminate every unit."""
         for unit in self.units.values():
             unit.terminate()
+
+
+def _remedy(source: VariableType, target: VariableType) -> str:
+    """What to do where a value of one type cannot go to another."""
+    if source.is_number and target.is_number:
+        return f"connect an output of type {target.value}, or round it in an FMU between them"
+    if source.is_number and target is VariableType.BOOLEAN:
+        return "put an FMU between them that says from which value on it is true"
+    return f"connect an output of type {target.value}"
 
 
 def _shape(variable: Variable, element: Element | None, connection: Connection) -> tuple[int, ...]:

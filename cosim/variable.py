@@ -61,10 +61,13 @@ class VariableType(Enum):
     def accepts(self, source: VariableType) -> bool:
         """Whether a value of type `source` can be connected to an input of this type without loss.
 
-        The same type, or a number type whose every value this one holds (Int32 to Float64, not Float64 to Int32).
+        The same type, a number type whose every value this one holds (Int32 to Float64, not Float64 to Int32), or a
+        Boolean to any number, as 0 or 1.
         """
         if source is self:
             return True
+        if source is VariableType.BOOLEAN:
+            return self.is_number
         return self.is_number and source.is_number and bool(np.can_cast(source.dtype, self.dtype, "safe"))
 
 

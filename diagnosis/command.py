@@ -12,8 +12,8 @@ from rich.console import Console
 
 from cosim.alone import alone
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.run_folder import writing
-from cosim.scenario import load_scenario
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,11 +67,11 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
-    from diagnosis.compute.batch import Batches
-    from diagnosis.compute.cache import Cache
-    from diagnosis.compute.cluster import choose_place
-    from diagnosis.compute.display import Display
-    from diagnosis.compute.steps import Steps, watched
+    from cosim.compute.batch import Batches
+    from cosim.compute.cache import Cache
+    from cosim.compute.cluster import choose_place
+    from cosim.compute.display import Display
+    from cosim.compute.steps import Steps, watched
     from diagnosis.diagnose import Means
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits

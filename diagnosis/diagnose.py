@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cosim.compute.batch import Batches
 from cosim.errors import InputError
 from cosim.scenario import Scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.check import check_recordings
-from diagnosis.compute.batch import Batches
 from diagnosis.experiment.design import next_experiment
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.search import search_fabric

@@ -9,8 +9,8 @@ from functools import partial, reduce
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from cosim.unit import Array
-from diagnosis.compute.steps import counted
 from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished

@@ -8,7 +8,6 @@ docs/decisions/0004-bullet-settings.md.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring
+from mechanics.world import Contacts
 
 pybullet = load()
 
@@ -35,21 +35,6 @@ _PER_UNIT = 1.0 / SCALE
 _TORQUE, _MOTOR = pybullet.TORQUE_CONTROL, pybullet.VELOCITY_CONTROL
 #: Bullet's limit of joint and body speed, set out of reach [cm/s, rad/s].
 _NO_LIMIT = 1e6
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """Contacts between links.
-
-    Args:
-        count: Number of contact points.
-        penetration: Deepest overlap [m], 0 if none.
-        links: The two links of the deepest overlap.
-    """
-
-    count: int
-    penetration: float
-    links: tuple[int, int]
 
 
 def _share(steps: float) -> float:
@@ -73,6 +58,8 @@ class World:
         solver: Numerical settings.
         motion: Where the links start.
     """
+
+    engine = "Bullet"
 
     def __init__(self, design: FabricDesign, layout: Layout, solver: SolverSettings, motion: Motion) -> None:
         self.design, self.layout, self.solver = design, layout, solver
@@ -107,6 +94,7 @@ class World:
             useSplitImpulse=0,
             solverResidualThreshold=0,
             deterministicOverlappingPairs=1,
+            enableConeFriction=int(self.solver.friction_model == "cone"),
             erp=_share(self.solver.micro_step / STOP_CORRECTION_TIME),
             contactERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
             physicsClientId=self._client,

@@ -217,12 +217,9 @@ def layout(design: FabricDesign) -> Layout:
     back[:, 1], back[:, 2] = y[chain], z[chain]
     tethered = row < design.tether_rows
     cantilever = design.tether_kind == "cantilever"
-    hooked = [
-        (i, j)
-        for i in range(links)
-        for j in range(links)
-        if is_b[i] and not is_b[j] and abs(place[i] - place[j]) == 1 and row[j] - row[i] in (0, 1)
-    ]
+    # Each B link (first index) is hooked into the A links beside it, of its own row and of the next.
+    beside, ahead = np.abs(place[:, None] - place) == 1, row - row[:, None]
+    hooked = np.argwhere(is_b[:, None] & ~is_b & beside & ((ahead == 0) | (ahead == 1)))
     return Layout(
         row=row,
         link_in_row=place,
@@ -232,7 +229,7 @@ def layout(design: FabricDesign) -> Layout:
         bar_distance=distance[chain],
         is_fixed=tethered & (cantilever | ~is_b),
         is_locked=tethered & cantilever,
-        hooked=np.array(hooked, dtype=np.int64).reshape(-1, 2),
+        hooked=hooked,
     )
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -26,11 +26,10 @@ from mechanics.fabric import FabricDesign, layout
 from mechanics.half import half
 from mechanics.linking import is_hooked
 from mechanics.motion import SCALE, Motion, rotation, woven
+from mechanics.mujoco_world import MujocoWorld, check_design, load_mujoco
 from mechanics.solver import SolverSettings
 from mechanics.springs import SteelSpring, coil_tension, spring_energy
-
-if TYPE_CHECKING:
-    from mechanics.bullet import World
+from mechanics.world import Divergence, World
 
 
 def fabric_variables(design: FabricDesign) -> dict[str, Variable]:
@@ -76,8 +75,19 @@ def fabric_coordinates(design: FabricDesign) -> dict[str, Coordinate]:
     }
 
 
+def _engine(design: FabricDesign, solver: SolverSettings) -> Callable[..., World]:
+    """What makes the worlds of a fabric; an engine that is not asked for need not be installed."""
+    if solver.engine == "mujoco":
+        check_design(design, solver)
+        load_mujoco()
+        return MujocoWorld
+    from mechanics.bullet import World as BulletWorld  # late: it loads pybullet
+
+    return BulletWorld
+
+
 class FabricUnit(Unit):
-    """A fabric of interlocked links in Bullet.
+    """A fabric of interlocked links, in the engine that the settings name.
 
     Args:
         name: Name of the unit.
@@ -85,7 +95,8 @@ class FabricUnit(Unit):
         solver: Numerical settings.
 
     Raises:
-        ValueError: The micro-step is no whole number of nanoseconds.
+        ValueError: The micro-step is no whole number of nanoseconds, or the engine lacks what the design needs.
+        MujocoMissing: The engine is MuJoCo, and its package is not installed.
     """
 
     def __init__(self, name: str, design: FabricDesign, solver: SolverSettings) -> None:
@@ -99,10 +110,10 @@ class FabricUnit(Unit):
         self._layout = layout(design)
         self._half = half(design)
         self._steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
-        from mechanics.bullet import World  # late: where pybullet is missing, everything else works
-
-        self._make_world = World
+        self._make_world = _engine(design, solver)
         self._world: World | None = None
+        #: MuJoCo's states are exact; Bullet's are not (docs/decisions/0004-bullet-settings.md).
+        self.can_restore = solver.engine == "mujoco"
 
     def set(self, name: str, value: Array) -> None:
         """Copy an input; raises UnitError if it is not finite."""
@@ -142,8 +153,8 @@ class FabricUnit(Unit):
         """Micro-steps with constant spring constants.
 
         Raises:
-            UnitError: A pose that is not finite, links overlap beyond the limit, a link torn free, or a macro-step
-                that the micro-step does not divide.
+            UnitError: The engine diverged, a pose that is not finite, links overlap beyond the limit, a link torn free,
+                or a macro-step that the micro-step does not divide.
         """
         assert self._world is not None, "initialise first"
         steps, rest = divmod(size, self._micro)
@@ -154,12 +165,15 @@ class FabricUnit(Unit):
                 time, "change solver.micro_step or time.macro_step",
             )  # fmt: skip
         self._check_inputs(time)
-        self._world.advance(steps, self._store.get("stiffness"), self._store.get("rest_length"))
+        try:
+            self._world.advance(steps, self._store.get("stiffness"), self._store.get("rest_length"))
+        except Divergence as error:
+            raise UnitError(self.name, str(error), time + size, "take a smaller solver.micro_step") from error
         self._measure(time + size)
         return StepOutcome(StepStatus.OK, time + size)
 
     def checkpoint(self) -> dict[str, npt.NDArray[np.generic]]:
-        """State of all links; Bullet's world is rebuilt from it here, as `resume` will."""
+        """State of all links; the engine's world is rebuilt from it here, as `resume` will."""
         assert self._world is not None, "initialise first"
         motion = self._world.motion().copy()
         self._seat(motion)
@@ -175,8 +189,26 @@ class FabricUnit(Unit):
         for name in self.variables:
             self._store.arrays[name][...] = state[f"value.{name}"]
 
+    def save(self) -> Any:
+        """State of MuJoCo's world and all values; Bullet cannot return to a state.
+
+        Raises:
+            UnitError: The engine is Bullet.
+        """
+        if not isinstance(self._world, MujocoWorld):
+            raise UnitError(self.name, "Bullet cannot return to a saved state", None, "use `engine: mujoco`")
+        return self._world.save(), {name: self._store.get(name).copy() for name in self.variables}
+
+    def restore(self, saved: Any, time: int) -> None:
+        """Return to what `save` gave."""
+        assert isinstance(self._world, MujocoWorld), "nothing was saved"
+        state, values = saved
+        self._world.restore(state)
+        for name in self.variables:
+            self._store.arrays[name][...] = values[name]
+
     def terminate(self) -> None:
-        """Free Bullet's world."""
+        """Free the engine's world."""
         if self._world is not None:
             self._world.close()
             self._world = None
@@ -248,7 +280,7 @@ class FabricUnit(Unit):
             if bad.size:
                 raise UnitError(
                     self.name, f"{what} of {self._describe(int(bad[0]))} is not finite", time,
-                    "Bullet diverged: take a smaller solver.micro_step",
+                    f"{'MuJoCo' if self.can_restore else 'Bullet'} diverged: take a smaller solver.micro_step",
                 )  # fmt: skip
 
     def _check_hooks(self, back: Array, axes: Array, bar_distance: Array, time: int) -> None:

@@ -121,11 +121,12 @@ class Iterated(Algorithm):
         outcome = system.step(name, *when)
         unit = system.units[name]
         if self._is_mean and unit.feedthrough and outcome.status is StepStatus.OK:
-            for transfer in system.transfers[name]:
+            continuous = [t for t in system.transfers[name] if not t.is_clock]  # a tick is handed over once
+            for transfer in continuous:
                 transfer.buffer[...] = values[1][transfer.end]
                 transfer.write()
             unit.refresh()
-            self._apply(system.transfers[name], *values)
+            self._apply(continuous, *values)
         return outcome
 
     def _apply(self, transfers: Sequence[Transfer], begin: Values, end: Values) -> None:

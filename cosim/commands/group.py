@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import ValidationError
 from typer.core import TyperGroup
-
-from cosim.faults import words
 
 
 class Commands(TyperGroup):
@@ -18,7 +15,15 @@ class Commands(TyperGroup):
         try:
             return super().invoke(ctx)
         except Exception as error:
-            cause = error.__cause__
-            if isinstance(cause, ValidationError) and hasattr(error, "message"):
-                error.message = words(cause.errors()[0])
+            if error.__cause__ is not None and hasattr(error, "message"):
+                _reword(error, error.__cause__)
             raise
+
+
+def _reword(error: Any, cause: BaseException) -> None:
+    from pydantic import ValidationError  # late: a command that goes well does without
+
+    from cosim.faults import words
+
+    if isinstance(cause, ValidationError):
+        error.message = words(cause.errors()[0])

@@ -10,8 +10,17 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from cosim.figures.style import SWITCH, WITH_MODEL, WITHOUT_MODEL, draw_noisy, figure, label_of, mark_switches
-from cosim.paper.measures import half_way_delay, plateau
+from cosim.figures.style import (
+    SWITCH,
+    WITH_MODEL,
+    WITHOUT_MODEL,
+    draw_band,
+    draw_noisy,
+    figure,
+    label_of,
+    mark_switches,
+)
+from cosim.paper.measures import band, half_way_delay, plateau
 
 #: How the titles of the paper's runs end.
 PAPER = "(paper, Figure 3)"
@@ -22,7 +31,8 @@ _LEVEL = 1.0
 def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     """Draw `fabric.max_curvature` [1/cm] of each run from t = 0 (or from its start) on.
 
-    Thin: as simulated. Thick: its mean over 0.2 s. Of the paper's own experiment what its text states is marked.
+    Thin: as simulated. Thick: its mean over 0.2 s. Of an ensemble: the median as it is, and the band over the starts.
+    Of the paper's own experiment what its text states is marked.
     """
     is_paper = label_of(runs[0]).endswith(PAPER)
     title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
@@ -30,8 +40,13 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     with figure(path, height=4.2, title=title, run=named) as (axes,):
         for run, colour in zip(runs, (WITH_MODEL, WITHOUT_MODEL, "0.3", "0.6"), strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
-            shown = run["fabric.max_curvature"].sel(time=slice(begin, None))
-            draw_noisy(axes, shown["time"].values, shown.values / 100.0, colour, label_of(run).split(" (")[0])
+            shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
+            label = label_of(run).split(" (")[0]
+            if "start" in shown.dims:
+                label += f": median and 5 to 95 % of {run.sizes['start']} starts"
+                draw_band(axes, shown, colour, label)
+            else:
+                draw_noisy(axes, shown["time"].values, shown.values, colour, label)
         mark_switches(axes, marks)
         axes.set_xlabel("time [s]")
         axes.set_ylabel(r"maximum curvature $\kappa_{max}$ [1/cm]")
@@ -46,6 +61,8 @@ def _mark_text(axes: Axes, run: xr.Dataset, marks: list[float]) -> None:
     """What section 3 of the paper says in words, at the place of this run where it shows."""
     on, off = marks
     series = run["fabric.max_curvature"] / 100.0
+    if "start" in series.dims:
+        series = band(series)[1]
     end = float(run["time"][-1])
     levels = [plateau(series, t - _LEVEL, t) for t in (on, off, end)]
     top = float(axes.get_ylim()[1])

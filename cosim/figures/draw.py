@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from cosim.errors import InputError
-from cosim.figures import currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from cosim.figures import closed_loop, currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from cosim.paper.measures import one_start, switches
 from cosim.run_folder import RunFolder, writing
 
 
@@ -30,15 +30,6 @@ def open_run(folder: Path) -> xr.Dataset:
         raise InputError(path, "", f"it cannot be read: {error}", "run the scenario again") from error
 
 
-def switches(run: xr.Dataset) -> list[float]:
-    """Times [s] at which a supply voltage changes."""
-    if "supply.voltage" not in run:
-        return []
-    values = run["supply.voltage"].values.reshape(run.sizes["time"], -1)
-    changed = np.flatnonzero(np.any(np.diff(values, axis=0) != 0, axis=1))
-    return [float(run["time"].values[i]) for i in changed]
-
-
 def draw_run(folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Draw every figure that the results of one run allow."""
     return draw_runs([folder], formats)
@@ -46,6 +37,9 @@ def draw_run(folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
 
 def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> list[Path]:
     """Draw the figures of the first run; that of the curvature holds all of them.
+
+    Of an ensemble the curvature and the lengths show median and band over its starts; the other figures show the start
+    whose curvature is nearest to the median; the side view names it.
 
     Args:
         folders: Run folders.
@@ -69,16 +63,18 @@ def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> lis
 
 def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callable[[Path], Path]]:
     """Name to what draws it, for what the first run has recorded."""
-    first = runs[0]
+    first, single = runs[0], one_start(runs[0])
     found: dict[str, Callable[[Path], Path]] = {}
     if "fabric.max_curvature" in first:
         with_curvature = [r for r in runs if "fabric.max_curvature" in r]
         found["curvature"] = partial(curvature.draw, runs=with_curvature, marks=marks)
         found["lengths"] = partial(lengths.draw, run=first, marks=marks)
-        found["side_view"] = partial(side_view.draw, run=first, marks=marks)
+        found["side_view"] = partial(side_view.draw, run=single, marks=marks)
     if "actuator.temperature" in first:
-        found["temperatures"] = partial(temperatures.draw, run=first, marks=marks)
-        found["stiffness_loops"] = partial(stiffness_loops.draw, run=first)
+        found["temperatures"] = partial(temperatures.draw, run=single, marks=marks)
+        found["stiffness_loops"] = partial(stiffness_loops.draw, run=single)
     if "circuit.current" in first:
-        found["currents"] = partial(currents.draw, run=first, marks=marks)
+        found["currents"] = partial(currents.draw, run=single, marks=marks)
+    for name in closed_loop.controllers(single):
+        found[f"closed_loop_{name}"] = partial(closed_loop.draw, run=single, controller=name)
     return found

@@ -26,6 +26,9 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
             _outline(axes, now["fabric.marker_position"].values, now["fabric.row_centre"].values, colour,
                      f"{label}, t = {float(now['time']):.2f} s")  # fmt: skip
         axes.set_aspect("equal")
+        if "start" in run.coords:
+            label = f"start {int(run['start'])}, the nearest to the median"
+            axes.annotate(label, (0.01, 0.01), xycoords="axes fraction", fontsize=7, color="0.4")
         axes.set_xlabel("y, away from the tether [cm]")
         axes.set_ylabel("z, up [cm]")
         axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)

@@ -17,6 +17,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cosim.paper.measures import band
 from cosim.unit import Array
 
 #: Colours of Figure 3 of the paper, and of cold, hot and re-cooled.
@@ -100,6 +101,20 @@ def draw_noisy(axes: Axes, times: Array, values: Array, colour: str, label: str)
     mean = smoothed(times, values)
     axes.plot(times, values, color=colour, lw=0.5, alpha=0.35)
     axes.plot(times, mean, color=colour, lw=1.4, label=label)
+
+
+def draw_band(axes: Axes, values: xr.DataArray, colour: str, label: str) -> None:
+    """The median over the starts of an ensemble, and the band from 5 to 95 %; neither is smoothed.
+
+    Args:
+        axes: Where to draw.
+        values: Dimensions `time`, `start`.
+        colour: Of both.
+        label: Of the median.
+    """
+    low, middle, high = band(values)
+    axes.fill_between(values["time"], low, high, color=colour, alpha=0.2, lw=0)
+    axes.plot(values["time"], middle, color=colour, lw=1.4, label=label)
 
 
 def below(axes: Sequence[Axes]) -> None:

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray
+from cosim.unit import AnyArray, UnitError
 
 #: Called with the name of a function and a status that is neither OK nor Warning; raises UnitError.
 StatusCheck = Callable[[str, int], None]
@@ -34,18 +35,19 @@ class Access:
         values: The unit's own array, of the type's dtype.
         buffer: What the C function sees: `values` itself, or an array of C's type with the same number of elements.
         check: Raises UnitError for a bad status.
+        unit: Name of the component, for errors.
     """
 
     is_direct = True
 
     def __init__(
         self, function: str, component: int, call: Callable[..., int], variable: FmuVariable, references: Any,
-        values: AnyArray, buffer: AnyArray, check: StatusCheck,
+        values: AnyArray, buffer: AnyArray, check: StatusCheck, unit: str,
     ) -> None:  # fmt: skip
         if not buffer.flags["C_CONTIGUOUS"]:
             raise ValueError("a buffer must be contiguous: its address is kept")
         self.function, self.variable, self.references = function, variable, references
-        self.values, self.buffer = values, buffer
+        self.values, self.buffer, self.unit = values, buffer, unit
         #: The C function and what it is called with; the component comes first.
         self.call, self._check = call, check
         self.arguments: tuple[Any, ...] = component, ctypes.addressof(references), len(references), buffer.ctypes.data
@@ -130,7 +132,16 @@ class BinaryReader(_Binary):
     """Gets binary data."""
 
     def __call__(self) -> None:
-        """Get, then copy at once: the FMU may free its data at the next call."""
+        """Get, then copy at once: the FMU may free its data at the next call.
+
+        Raises:
+            UnitError: The FMU refuses, or says that there is more than anybody could hold.
+        """
         super().__call__()
+        if self.sizes.size and self.sizes.max() > MOST_BYTES:
+            what = (
+                f"{self.function}({self.variable.variable.name}) gives {self.sizes.max()} bytes, more than {MOST_BYTES}"
+            )
+            raise UnitError(self.unit, what, remedy="correct the FMU, or do not connect and record this variable")
         for i, address in enumerate(self.buffer.flat):
             self.values.flat[i] = ctypes.string_at(int(address), int(self.sizes[i])) if address else b""

@@ -27,6 +27,7 @@ from cosim.fmu.access import (
     TextWriter,
 )
 from cosim.fmu.archive import FmuArchive
+from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
 from cosim.unit import AnyArray, UnitError, VariableType
@@ -55,6 +56,24 @@ class StepResult(NamedTuple):
     early: bool = False
     discarded: bool = False
     terminate: bool = False
+
+
+_SPOKEN: dict[Interface, str] = {"co_simulation": "Co-Simulation", "model_exchange": "Model Exchange"}
+
+
+def _other_interface(archive: FmuArchive) -> str:
+    """What to do where an FMU lacks the interface that was asked for."""
+    description = archive.description
+    if description.coSimulation is not None:
+        return "it has Co-Simulation: write `integrator: internal`"
+    if description.modelExchange is not None:
+        return "it has Model Exchange: write `integrator: cvode`"
+    only = (
+        "it has Scheduled Execution alone, which is not supported; "
+        if description.scheduledExecution is not None
+        else ""
+    )
+    return f"{only}export it for Co-Simulation or Model Exchange"
 
 
 @dataclass(frozen=True)
@@ -90,6 +109,8 @@ class Binding(ABC):
 
     #: Begin of the names of all functions, `fmi2` or `fmi3`.
     prefix: str
+    #: Rest of the names of the functions that give the size of a serialised state, and the state.
+    _state_names: tuple[str, str]
     c_types: dict[VariableType, CType]
     #: fmi2DoStep or fmi3DoStep, with the argument types of C; of Co-Simulation alone.
     step_function: Callable[..., int]
@@ -104,10 +125,12 @@ class Binding(ABC):
         description = archive.description
         kind = description.coSimulation if interface == "co_simulation" else description.modelExchange
         if kind is None:
-            other = "model_exchange" if interface == "co_simulation" else "co_simulation"
             raise InputError(
-                archive.path, "modelDescription.xml", f"it has no {interface} interface", f"it offers {other}: use that"
-            )
+                archive.path,
+                "modelDescription.xml",
+                f"it has no {_SPOKEN[interface]} interface",
+                _other_interface(archive),
+            )  # fmt: skip
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
         self.uses_event_mode = interface == "model_exchange"
@@ -210,7 +233,8 @@ class Binding(ABC):
         buffer = values if kind is plain else np.zeros(values.shape, dtype=c_type.dtype)
         call = self.function(name, *argtypes)
         return kind(
-            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check
+            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check,
+            self.name,
         )  # fmt: skip
 
     def writer(self, variable: FmuVariable, values: AnyArray) -> Access:
@@ -268,13 +292,28 @@ class Binding(ABC):
         self.call(self.fmu.freeFMUState, state)
 
     def serialise(self) -> np.ndarray[Any, np.dtype[np.uint8]]:
-        """State as bytes, shape (size,)."""
+        """State as bytes, shape (size,).
+
+        Raises:
+            UnitError: The FMU refuses, or its state is too large to be kept.
+        """
         state = self.save()
         try:
-            data = self.call(self.fmu.serializeFMUState, state)
+            size = ctypes.c_size_t()
+            self.checked(self._state_names[0], ctypes.c_void_p, ctypes.c_void_p)(state, ctypes.addressof(size))
+            if size.value > MOST_BYTES:
+                raise UnitError(
+                    self.name,
+                    f"{self.prefix}{self._state_names[0]} says that its state has {size.value} bytes, more than "
+                    f"{MOST_BYTES}, so it is not saved",
+                    remedy="give a `checkpoint_step` as long as the run, which then cannot be resumed",
+                )
+            data = np.zeros(size.value, dtype=np.uint8)
+            write = self.checked(self._state_names[1], ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
+            write(state, data.ctypes.data, data.size)
         finally:
             self.free_state(state)
-        return np.frombuffer(data, dtype=np.uint8).copy()
+        return data
 
     def deserialise(self, data: np.ndarray[Any, Any]) -> None:
         """Restore a serialised state."""

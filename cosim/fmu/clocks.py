@@ -112,8 +112,8 @@ class Clocks:
         return min((c.next_tick for c in self.timed if c.next_tick is not None), default=None)
 
     def silence(self) -> None:
-        """A new step begins: nothing has ticked yet."""
-        for name in (*self._outputs, *self._inputs):
+        """A new step begins: no output clock has ticked in it yet. Input clocks that were set tick in it."""
+        for name in self._outputs:
             self._values[name][...] = False
 
     def activate(self, now: float, instant: float, write: Callable[[str], None]) -> None:

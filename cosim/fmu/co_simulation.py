@@ -139,10 +139,10 @@ class CoSimulationUnit(FmuUnit):
         if begin != self._now and abs(self._now - begin) * NANOSECONDS <= 1.0:
             begin, length = self._now, end - self._now
         try:
+            self._now = begin
+            self.clocks.silence()  # before the events at the begin: what ticks in them is a tick of this step
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
-            self._now = begin
-            self.clocks.silence()
             self.added.write_inputs(begin)
             self.added.time = end
             status = self._advance(begin, end, length)

@@ -10,6 +10,7 @@ import numpy as np
 
 from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.binding import DISCARD, WARNING, Binding
+from cosim.fmu.sizes import MOST_STATES
 from cosim.unit import Array, UnitError
 
 #: Evaluations without a finite value between two events before the FMU is given up; CVODE's step is tiny by then.
@@ -35,6 +36,12 @@ class ContinuousModel:
         if is_fmi3:
             self.states = int(binding.call(binding.fmu.getNumberOfContinuousStates))
             self.indicators = int(binding.call(binding.fmu.getNumberOfEventIndicators))
+        if max(self.states, self.indicators) > MOST_STATES:
+            raise UnitError(
+                self.name, f"the FMU says that it has {self.states} continuous states and {self.indicators} event "
+                f"indicators; more than {MOST_STATES} are not integrated",
+                remedy="use its Co-Simulation interface, if it has one",
+            )  # fmt: skip
         #: States that terms of the master add; they come last.
         self.own = 0 if self._added is None else self._added.own_count
         array = ctypes.c_void_p, ctypes.c_size_t

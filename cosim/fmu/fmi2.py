@@ -40,15 +40,13 @@ class Fmi2Binding(Binding):
     """FMI 2.0."""
 
     prefix = "fmi2"
+    _state_names = "SerializedFMUstateSize", "SerializeFMUstate"
     c_types = FMI2
     _update: Callable[..., None] | None = None
 
     def _load(self, identifier: str) -> Any:
         kind = fmi2.FMU2Slave if self.interface == "co_simulation" else fmi2.FMU2Model
-        fmu = kind(
-            guid=self.archive.description.guid, modelIdentifier=identifier,
-            unzipDirectory=str(self.archive.directory), instanceName=self.name,
-        )  # fmt: skip
+        fmu = self.archive.load(kind, identifier, guid=self.archive.description.guid, instanceName=self.name)
         number = next(_NUMBERS)
         _INSTANCES[number] = self
         callbacks = fmi2.fmi2CallbackFunctions()

@@ -32,23 +32,24 @@ class Fmi3Binding(Binding):
     """FMI 3.0."""
 
     prefix = "fmi3"
+    _state_names = "SerializedFMUStateSize", "SerializeFMUState"
     c_types = FMI3
     _update: Callable[..., None] | None = None
 
     def _load(self, identifier: str) -> Any:
-        common = {
-            "guid": self.archive.description.instantiationToken, "modelIdentifier": identifier,
-            "unzipDirectory": str(self.archive.directory), "instanceName": self.name,
-        }  # fmt: skip
+        token = self.archive.description.instantiationToken
+        is_model = self.interface == "model_exchange"
+        kind = fmi3.FMU3Model if is_model else fmi3.FMU3Slave
+        loaded = self.archive.load(kind, identifier, guid=token, instanceName=self.name)
 
         def log(_environment: Any, _status: int, _category: bytes, message: bytes) -> None:
             self._log(message)
 
-        if self.interface == "model_exchange":
-            model = fmi3.FMU3Model(**common)
+        if is_model:
+            model = loaded
             model.instantiate(loggingOn=True, logMessage=log)
             return model
-        slave = fmi3.FMU3Slave(**common)
+        slave = loaded
         self._instantiate(slave, log)
         self._event, self._terminate, self._early = (ctypes.c_bool() for _ in range(3))
         self._reached = ctypes.c_double()

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import itertools
+import math
 import re
 from collections.abc import Mapping
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
+from cosim.fmu.sizes import MOST_DIMENSIONS, StructureFault
 from cosim.fmu.units import UnitNames
-from cosim.fmu.variables import FmuVariable, StructureFault, declared_array, sizes, variable_of
+from cosim.fmu.variables import FmuVariable, declared_array, sizes, variable_of
 from cosim.unit import Causality
 
-_ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d+(\s*,\s*\d+)*)\]$")
+_ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d{1,9}(\s*,\s*\d{1,9})*)\]$", re.ASCII)
 
 Index = tuple[int, ...]
 
@@ -63,8 +64,10 @@ def _first_index(members: Mapping[Index, ModelVariable]) -> int | None:
         return None
     first = min(i for index in members for i in index)
     last = [max(column) for column in zip(*members)]
-    box = itertools.product(*(range(first, end + 1) for end in last))
-    return first if first in (0, 1) and set(box) == set(members) else None
+    # Indices lie in the box and differ, so as many as it has elements fill it; it is never written out, because the
+    # largest index alone decides how large it is.
+    is_full = math.prod(end - first + 1 for end in last) == len(members)
+    return first if first in (0, 1) and is_full and len(last) <= MOST_DIMENSIONS else None
 
 
 def _are_alike(members: Mapping[Index, ModelVariable], units: UnitNames) -> bool:

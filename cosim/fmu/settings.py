@@ -13,9 +13,10 @@ from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding
 from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.sizes import StructureFault, check_total
 from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
-from cosim.fmu.variables import FmuVariable, Sizes, StructureFault, declared_array, start_value
+from cosim.fmu.variables import FmuVariable, Sizes, declared_array, start_value
 from cosim.quantity import PhysicalValue
 from cosim.unit import AnyArray, Causality, UnitError
 
@@ -98,7 +99,7 @@ class Table:
         try:
             self.all = fmu_variables(archive.description, settings.structure, self.units)
         except StructureFault as error:
-            raise InputError(archive.path, f"{name}.structure", str(error)) from error
+            raise InputError(archive.path, f"{name}.structure", str(error), error.remedy) from error
         self._given: dict[str, tuple[FmuVariable, AnyArray]] = {}
         recorded = {self._recorded(n) for n in settings.record}
         self.exposed = {
@@ -106,6 +107,10 @@ class Table:
             for n, v in self.all.items()
             if v.variable.causality in (Causality.INPUT, Causality.OUTPUT) or n in recorded
         }
+        try:
+            check_total(self.exposed.values())
+        except StructureFault as error:
+            raise InputError(archive.path, name, str(error), error.remedy) from error
 
     def _recorded(self, name: str) -> str:
         if name not in self.all:

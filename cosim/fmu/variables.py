@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from fmpy.model_description import ModelDescription, ModelVariable
 
+from cosim.fmu.sizes import StructureFault, check_shape
 from cosim.fmu.types import TYPES
 from cosim.fmu.units import UnitNames
 from cosim.unit import AnyArray, Causality, Variable, VariableType
@@ -71,10 +72,6 @@ class FmuVariable:
         return {} if kind is None else {i.name: int(i.value) for i in kind.items if i.value is not None}
 
 
-class StructureFault(ValueError):
-    """A structural parameter does not exist or does not fit; the text says what."""
-
-
 @dataclass(frozen=True)
 class Sizes:
     """Values and names of the structural parameters and constants that dimensions refer to, by value reference."""
@@ -110,9 +107,11 @@ def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVaria
     """A variable as it is declared, with the shape that the structural parameters give.
 
     Raises:
-        StructureFault: A dimension refers to something that is neither a structural parameter nor a constant.
+        StructureFault: A dimension refers to something that is neither a structural parameter nor a constant, or there
+            are too many elements.
     """
     shape: list[int] = []
+    sizes: list[str] = []
     dims: list[str] = []
     for position, dimension in enumerate(v.dimensions):
         reference = dimension.valueReference
@@ -122,11 +121,13 @@ def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVaria
         elif reference in given.values:
             shape.append(given.values[reference])
             dims.append(given.names[reference].removesuffix("s"))
+            sizes.append(given.names[reference])
         else:
             raise StructureFault(
                 f"dimension {position + 1} of {v.name} is given by value reference {reference}, which is neither a "
                 "structural parameter nor a constant"
             )
+    check_shape(v.name, shape, sizes)
     dims = [d if dims.count(d) == 1 else f"{d}_{i + 1}" for i, d in enumerate(dims)]  # a square matrix
     variable = variable_of(v.name, [v], tuple(shape), tuple(dims), units)
     return FmuVariable(variable, (v.valueReference,), (v,))

@@ -12,8 +12,10 @@ from rich.console import Console
 from rich.table import Table
 
 from cosim.actuator.interface import PORTS, faults
+from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.sizes import StructureFault
 from cosim.fmu.units import UnitNames
 from cosim.fmu.variables import FmuVariable
 from cosim.unit import Causality, Variable
@@ -55,6 +57,8 @@ def read_info(path: Path) -> FmuInfo:
     try:
         variables = fmu_variables(archive.description, {}, UnitNames(archive.description))
         general = _general(archive, variables)
+    except StructureFault as error:
+        raise InputError(path, "modelDescription.xml", str(error), error.remedy or "correct its description") from error
     finally:
         archive.remove()
     rows = [_row(name, v) for name, v in variables.items()]
@@ -71,7 +75,10 @@ def _general(archive: FmuArchive, variables: dict[str, FmuVariable]) -> dict[str
     d = archive.description
     found = {"model": d.modelName or "", "FMI version": d.fmiVersion, "description": d.description or "",
              "made by": d.generationTool or "", "token": getattr(d, "instantiationToken", None) or d.guid}  # fmt: skip
-    for kind, declared in (("Co-Simulation", d.coSimulation), ("Model Exchange", d.modelExchange)):
+    for kind, declared in (
+        ("Co-Simulation", d.coSimulation), ("Model Exchange", d.modelExchange),
+        ("Scheduled Execution", d.scheduledExecution),
+    ):  # fmt: skip
         if declared is not None:
             able = [c for c in _CAPABILITIES if getattr(declared, c, False)]
             found[kind] = ", ".join(able) or "no capabilities"

@@ -31,13 +31,13 @@ class CsvColumn:
 
     Args:
         name: `component.variable`.
-        unit: Unit of its values.
+        unit: Unit of its values; None: none is written.
         values: Shape (rows, ...); may be longer than what is written.
         first_index: Number of the first element in the header.
     """
 
     name: str
-    unit: str
+    unit: str | None
     values: AnyArray
     first_index: int = 1
 
@@ -46,7 +46,8 @@ class CsvColumn:
         """Heading of every element, last index fastest: `fabric.position[1,3] [m]`."""
         shape = self.values.shape[1:]
         indices = [",".join(str(i + self.first_index) for i in index) for index in np.ndindex(shape)]
-        return [f"{self.name}{f'[{index}]' if shape else ''} [{self.unit}]" for index in indices]
+        unit = "" if self.unit is None else f" [{self.unit}]"
+        return [f"{self.name}{f'[{index}]' if shape else ''}{unit}" for index in indices]
 
 
 class CsvWriter:

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from cosim.observers.storage import Storage
 from cosim.system import System
 from cosim.unit import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
 
+#: Times are converted to seconds in pieces of so many.
+_TIMES_AT_ONCE = 1 << 16
 _RECORDED = {Causality.OUTPUT, Causality.LOCAL}
 #: Bytes as text: NetCDF has no bytes of variable length, and scenarios give them so too.
 _HEXADECIMAL = np.frompyfunc(bytes.hex, 1, 1)
@@ -44,24 +48,47 @@ class Trace:
     Args:
         system: The system to watch.
         times: Integer output times [ns] of the whole run, the start included.
+        folder: Where a long run may keep its values in a file; None: in memory.
 
     Raises:
         MemoryError: The values of the whole run do not fit into memory.
+        OSError: They do not fit into the folder.
     """
 
-    def __init__(self, system: System, times: Sequence[int]) -> None:
+    def __init__(self, system: System, times: Sequence[int], folder: Path | None = None) -> None:
         self.system = system
         self.times = times
         self.channels = _channels(system)
         self.count = 0
         #: Name of a channel to its values, shape (output times, ...); the first `count` rows are recorded.
-        self.rows: dict[str, AnyArray] = {
-            c.name: np.empty((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels
-        }
+        shapes = [((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels]
+        self._storage = Storage([((len(times),), np.dtype(np.float64)), *shapes], folder)
+        self._moments, *arrays = self._storage.arrays
+        self._known_moments = 0
+        self.rows: dict[str, AnyArray] = dict(zip((c.name for c in self.channels), arrays, strict=True))
         units = system.units
         bound = [(self.rows[c.name], units[c.unit].get, c.variable) for c in self.channels]
         self._numbers = [(rows, get, v.name) for rows, get, v in bound if rows.dtype != object]
         self._texts = [b for b in bound if b[0].dtype == object]
+
+    @property
+    def is_file(self) -> bool:
+        """Whether the values lie in a file because they are many."""
+        return self._storage.is_file
+
+    def release(self) -> None:
+        """Give back the memory of values that lie in a file."""
+        self._storage.release()
+
+    @property
+    def moments(self) -> AnyArray:
+        """Times recorded so far [s], shape (output times,)."""
+        for begin in range(self._known_moments, self.count, _TIMES_AT_ONCE):
+            end = min(begin + _TIMES_AT_ONCE, self.count)
+            self._moments[begin:end] = [seconds(t) for t in self.times[begin:end]]
+            self.release()
+        self._known_moments = self.count
+        return self._moments[: self.count]
 
     def record(self, time: int) -> None:
         """Keep the present outputs under the next output time, which must be `time`."""
@@ -90,17 +117,32 @@ class Trace:
         """All values recorded so far; dimension `time` in seconds."""
         variables: dict[str, Any] = {}
         for channel in self.channels:
-            attributes = {"long_name": channel.variable.description or channel.name}
-            if channel.variable.type.is_number:  # text, switches and enumerations have no unit
-                attributes["units"] = channel.variable.unit
-            if channel.variable.type is VariableType.BINARY:
-                attributes["comment"] = "bytes in hexadecimal"
             values = self.rows[channel.name][: self.count]
-            variables[channel.name] = (("time", *channel.dims), values, attributes)
-        moments = np.array([seconds(t) for t in self.times[: self.count]])
-        coordinates: dict[str, Any] = {"time": ("time", moments, {"units": "s", "long_name": "simulated time"})}
-        coordinates.update(_coordinates(self.system, self.channels))
-        return xr.Dataset(variables, coordinates)
+            variables[channel.name] = (("time", *channel.dims), values, self.attributes(channel))
+        return xr.Dataset(variables, dict(self.coordinates()))
+
+    def attributes(self, channel: Channel) -> dict[str, str]:
+        """What a file says of a channel: long_name, units, comment."""
+        attributes = {"long_name": channel.variable.description or channel.name}
+        if channel.variable.type.is_number:  # text, switches and enumerations have no unit
+            attributes["units"] = channel.variable.unit
+        if channel.variable.type is VariableType.BINARY:
+            attributes["comment"] = "bytes in hexadecimal"
+        return attributes
+
+    def coordinates(self) -> dict[str, tuple[tuple[str, ...], AnyArray, dict[str, str]]]:
+        """Time [s] and labels of the other dimensions: name to dimensions, values, attributes."""
+        found: dict[str, tuple[tuple[str, ...], AnyArray, dict[str, str]]] = {}
+        found["time"] = (("time",), self.moments, {"units": "s", "long_name": "simulated time"})
+        for name, (dim, values, about) in _coordinates(self.system, self.channels).items():
+            found[name] = ((dim,), values, about)
+        return found
+
+    def sizes(self) -> dict[str, int]:
+        """Length of every dimension."""
+        shapes = [s for c in self.channels for s in zip(c.dims, c.variable.shape, strict=True)]
+        labels = {dims[0]: len(values) for dims, values, _ in self.coordinates().values()}
+        return {"time": self.count} | labels | dict(shapes)
 
 
 def keep(rows: AnyArray, row: int, variable: Variable, value: AnyArray) -> None:

@@ -11,6 +11,38 @@ from scipy.optimize import least_squares
 from cosim.paper.laws import Gompertz
 from cosim.unit import Array
 
+#: Bounds of the band that is drawn and told beside a median.
+LOW, HIGH = 0.05, 0.95
+
+
+def band(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """5 per cent, median and 95 per cent over the dimension `start`, interpolated between the ordered values."""
+    low, middle, high = (values.quantile(q, "start").drop_vars("quantile") for q in (LOW, 0.5, HIGH))
+    return low, middle, high
+
+
+def one_start(run: xr.Dataset) -> xr.Dataset:
+    """Of an ensemble the start whose curvature is nearest to the median, over all times; any other run as it is.
+
+    Where the starts differ in no curvature, or several fabrics have one, the first start or fabric counts.
+    """
+    if "start" not in run.dims:
+        return run
+    curved = [v for n, v in run.data_vars.items() if str(n).endswith(".max_curvature") and "start" in v.dims]
+    if not curved:
+        return run.isel(start=0)
+    distance = ((curved[0] - band(curved[0])[1]) ** 2).mean("time")
+    return run.isel(start=int(distance.argmin("start")))
+
+
+def switches(run: xr.Dataset) -> list[float]:
+    """Times [s] at which a supply voltage changes."""
+    if "supply.voltage" not in run:
+        return []
+    values = run["supply.voltage"].values.reshape(run.sizes["time"], -1)
+    changed = np.flatnonzero(np.any(np.diff(values, axis=0) != 0, axis=1))
+    return [float(run["time"].values[i]) for i in changed]
+
 
 def plateau(values: xr.DataArray, begin: float, end: float) -> float:
     """Mean of a scalar series over a window [s]."""

@@ -10,6 +10,7 @@ import numpy.typing as npt
 import xarray as xr
 
 from cosim.errors import InputError
+from cosim.paper.measures import one_start
 from cosim.play.film import Curve, Fabric, Field, Shape
 from cosim.unit import Array
 
@@ -37,13 +38,14 @@ def fabric_of(results: xr.Dataset, source: object, frames: int = FRAMES) -> Fabr
     """The fabric of a run.
 
     Args:
-        results: As `cosim.run.run` returns and results.nc holds.
+        results: As `cosim.run.run` returns and results.nc holds; of an ensemble one start is shown, with a note.
         source: Named in errors.
         frames: At most this many (and one) frames are kept, evenly spaced; the last output is always among them.
 
     Raises:
         InputError: There is no fabric, no frame, or a pose is not finite.
     """
+    starts, results = results.sizes.get("start", 1), one_start(results)
     names = _fabrics(results)
     if not names:
         raise InputError(
@@ -77,7 +79,7 @@ def fabric_of(results: xr.Dataset, source: object, frames: int = FRAMES) -> Fabr
         is_held=(moved == 0.0) & (count > 1),
         fields=tuple(q for q in fields if np.isfinite(q.values).all()),
         curves=tuple(c for c in curves if _is_finite(c)),
-        notes=(*_notes(results, names, kept), *_left_out(fields, curves)),
+        notes=(*_notes(results, names, kept, starts), *_left_out(fields, curves)),
     )
 
 
@@ -199,10 +201,12 @@ def _driven(shown: xr.Dataset) -> str | None:
     return None
 
 
-def _notes(results: xr.Dataset, names: list[str], kept: Integers) -> Iterator[str]:
+def _notes(results: xr.Dataset, names: list[str], kept: Integers, starts: int) -> Iterator[str]:
     status = str(results.attrs.get("status", "complete"))
     if status != "complete":
         yield f"the run did not reach its end: {status}"
+    if starts > 1:
+        yield f"of {starts} starts start {int(results['start'])} is shown, the nearest to the median curvature"
     if len(names) > 1:
         yield f"of {len(names)} fabrics only `{names[0]}` is shown"
     if len(kept) < results.sizes["time"]:

@@ -6,12 +6,15 @@ import multiprocessing
 import sys
 from collections.abc import Mapping
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from dataclasses import replace
 from pathlib import Path
 
 import xarray as xr
 from rich.console import Console
 
-from cosim.components import FmuComponent
+from cosim.components import FabricComponent, FmuComponent
+from cosim.ensemble.folder import EnsembleFolder
+from cosim.ensemble.run import run_ensemble
 from cosim.errors import InputError
 from cosim.figures.draw import draw_runs, open_run
 from cosim.progress import Board, report_to, reporter
@@ -19,9 +22,10 @@ from cosim.reproduce.electrical import electrical_rows
 from cosim.reproduce.mechanical import curvature_rows, link_rows
 from cosim.reproduce.row import Row
 from cosim.reproduce.scorecard import as_json, as_markdown, show
+from cosim.reproduce.starts import rows_over_starts
 from cosim.reproduce.stiffness import stiffness_rows
 from cosim.reproduce.thermal import thermal_rows
-from cosim.run import RunStopped, run
+from cosim.run import Progress, RunStopped, record
 from cosim.run_folder import RunFolder, write_atomically, writing
 from cosim.scenario import Scenario, load_scenario
 
@@ -52,41 +56,83 @@ def scenario_of(name: str) -> Scenario:
     return base.model_copy(update={"components": {**base.components, "actuator": changed}, "title": title})
 
 
-def run_one(number: int, out: Path) -> str:
-    """Run or resume one of `RUNS` in a folder of its name; returns an empty text or why it stopped."""
-    name = list(RUNS)[number]
+def run_one(name: str, out: Path, starts: int = 1, line: int = 0) -> str:
+    """Run or resume one scenario in `out/name`, a fabric from several starts.
+
+    Args:
+        name: Of `RUNS`.
+        out: Folder of all of them.
+        starts: Of a fabric.
+        line: Its line on the board, where there is one.
+
+    Returns:
+        An empty text or why it stopped.
+    """
     folder = RunFolder(out / name)
-    if folder.is_complete():
+    if folder.is_complete() and (starts == 1 or not _has_fabric(scenario_of(name)) or _has_starts(folder.path, starts)):
         return ""
     scenario = scenario_of(name)
+    if starts > 1 and _has_fabric(scenario):
+        return _run_starts(name, scenario, folder.path, starts, line)
     is_begun = folder.scenario.exists()
     try:
-        run(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, reporter(number))
+        record(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, reporter(line))
     except (RunStopped, InputError) as error:
         return f"{name}: {error}"
     return ""
 
 
-def reproduce(out: Path, jobs: int) -> int:
+def _has_fabric(scenario: Scenario) -> bool:
+    return any(isinstance(c, FabricComponent) for c in scenario.components.values())
+
+
+def _has_starts(path: Path, starts: int) -> bool:
+    folder = EnsembleFolder(path)
+    return folder.exists() and folder.starts() >= starts
+
+
+def _run_starts(name: str, scenario: Scenario, path: Path, starts: int, line: int) -> str:
+    """An ensemble; starts that stop are left out, and said, as long as one is complete."""
+    folder = EnsembleFolder(path)
+    report = reporter(line)
+
+    def say(text: str) -> None:
+        if not sys.stderr.isatty() or not text.endswith(": complete"):  # a terminal has the board's line for that
+            print(f"{name}: {text}", file=sys.stderr, flush=True)
+
+    def of_all(start: int, p: Progress) -> None:
+        report(replace(p, done=(start - 1) * p.total + p.done, total=starts * p.total))
+
+    try:
+        outcome = run_ensemble(scenario, folder, starts, folder.exists(), 1, say=say, on_progress=of_all)
+    except InputError as error:
+        return f"{name}: {error}"
+    if outcome.is_interrupted:
+        return f"{name}: interrupted"
+    return "" if outcome.complete else f"{name}: no start reached its end: {next(iter(outcome.failures.values()))}"
+
+
+def reproduce(out: Path, jobs: int, starts: int = 1) -> int:
     """Run what is needed, then print and write the scorecard.
 
     Args:
         out: Folder; complete runs in it are used again, begun ones are resumed.
         jobs: Processes.
+        starts: Starts of every scenario with a fabric; with several the scorecard has medians and bands.
 
     Returns:
         Exit code: 0 where the scorecard was made (a line that fails stays visible in it), 1 where a run stopped.
     """
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
-    print(plan(out, jobs), file=sys.stderr, flush=True)
-    problems = _run_all(out, jobs)
+    print(plan(out, jobs, starts), file=sys.stderr, flush=True)
+    problems = _run_all(out, jobs, starts)
     if problems:
         for problem in problems:
             print(f"stopped: {problem}", file=sys.stderr)
         return 1
     runs = {name: open_run(out / name) for name in RUNS}
-    rows = scorecard_rows(runs)
+    rows = rows_over_starts(runs, scorecard_rows)
     for name in RUNS:
         # Figure 3 compares the prototype with and without the heating model.
         compared = ["prototype_cantilever_instant"] if name == "prototype_cantilever" else []
@@ -99,14 +145,16 @@ def reproduce(out: Path, jobs: int) -> int:
     return 0
 
 
-def plan(out: Path, jobs: int) -> str:
+def plan(out: Path, jobs: int, starts: int = 1) -> str:
     """What is going to be done, and about how long it takes."""
     lines, seconds = [], []
     for name, wall in RUNS.items():
         folder = RunFolder(out / name)
-        state = "done" if folder.is_complete() else "to go on" if folder.scenario.exists() else "to run"
-        seconds += [] if state == "done" else [wall]
-        lines.append(f"  {name:<30} {state:<9} {'' if state == 'done' else f'{wall:>4} s'}".rstrip())
+        count = _starts_left(name, folder, starts)
+        state = "done" if not count else "to go on" if folder.scenario.exists() else "to run"
+        seconds += [count * wall] if count else []
+        of = f"  {count} starts" if count > 1 else ""
+        lines.append(f"  {name:<30} {state:<9} {f'{count * wall:>4} s{of}' if count else ''}".rstrip())
     longest = max([sum(seconds) / jobs, *seconds], default=0)
     about = f"about {longest / 60:.0f} min" if longest >= 90 else f"about {longest:.0f} s"
     return "\n".join([
@@ -115,12 +163,22 @@ def plan(out: Path, jobs: int) -> str:
     ])  # fmt: skip
 
 
-def _run_all(out: Path, jobs: int) -> list[str]:
+def _starts_left(name: str, folder: RunFolder, starts: int) -> int:
+    """How many runs of a scenario are still to be made: one, or the starts of its ensemble that are not complete."""
+    if starts == 1 or not _has_fabric(scenario_of(name)):
+        return 0 if folder.is_complete() else 1
+    members = EnsembleFolder(folder.path)
+    return sum(not members.member(s).is_complete() for s in range(1, starts + 1))
+
+
+def _run_all(out: Path, jobs: int, starts: int) -> list[str]:
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
     problems: list[str] = []
     board = Board(list(RUNS), context)
     with board.drawn(), ProcessPoolExecutor(jobs, context, report_to, (board.slots,)) as pool:
-        futures: dict[Future[str], int] = {pool.submit(run_one, number, out): number for number in range(len(RUNS))}
+        futures: dict[Future[str], int] = {
+            pool.submit(run_one, name, out, starts, line): line for line, name in enumerate(RUNS)
+        }
         try:
             for future in as_completed(futures):
                 problem = future.result()

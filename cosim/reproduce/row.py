@@ -22,6 +22,8 @@ class Row:
         reason: Why this tolerance.
         is_met: Whether it passes.
         explanation: Why the two differ, where they do.
+        band: 5 and 95 % over the starts, `ours` being their median; None for a single run.
+        starts: How many starts there are.
     """
 
     section: str
@@ -34,10 +36,15 @@ class Row:
     reason: str
     is_met: bool
     explanation: str = ""
+    band: tuple[float, float] | None = None
+    starts: int = 1
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON; a value that is not finite becomes null."""
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+        found = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+        if self.band is not None:
+            found["band"] = [v if math.isfinite(v) else None for v in self.band]
+        return found
 
 
 def compare(

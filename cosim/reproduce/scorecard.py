@@ -17,9 +17,28 @@ def number(value: float) -> str:
     return f"{value:.5g}"
 
 
+def ours(row: Row) -> str:
+    """Our value; a median with the band of its starts where there are several."""
+    if row.band is None:
+        return number(row.ours)
+    return f"{number(row.ours)} ({number(row.band[0])} to {number(row.band[1])})"
+
+
+def heading(rows: Sequence[Row]) -> str:
+    """What the values are."""
+    starts = max(row.starts for row in rows)
+    if starts == 1:
+        return "Published value, ours, the accepted difference with its reason, and the verdict."
+    return (
+        f"Published value, ours as the median of {starts} starts with 5 and 95 %, the accepted difference with its "
+        "reason, and the verdict: a number passes where the band reaches into the tolerance, a statement where it "
+        "holds in 95 % of the starts."
+    )
+
+
 def as_markdown(rows: Sequence[Row]) -> str:
     """One table a section."""
-    lines = ["# Scorecard", "", "Published value, ours, the accepted difference with its reason, and the verdict.", ""]
+    lines = ["# Scorecard", "", heading(rows), ""]
     for section, group in itertools.groupby(rows, key=lambda r: r.section):
         lines += [f"## {section}", "", "| quantity | published | ours | unit | tolerance | verdict | why |",
                   "|---|---|---|---|---|---|---|"]  # fmt: skip
@@ -27,7 +46,7 @@ def as_markdown(rows: Sequence[Row]) -> str:
             tolerance = "relation" if r.tolerance is None else f"+-{r.tolerance:g}"
             verdict = "pass" if r.is_met else "**FAIL**"
             why = r.reason + (f"; {r.explanation}" if r.explanation else "")
-            cells = (r.quantity, r.published, number(r.ours), r.unit, tolerance, verdict, why)
+            cells = (r.quantity, r.published, ours(r), r.unit, tolerance, verdict, why)
             lines.append(f"| {' | '.join(cells)} |")
         lines.append("")
     met = sum(r.is_met for r in rows)
@@ -50,7 +69,7 @@ def show(rows: Sequence[Row], console: Console) -> None:
         for r in members:
             tolerance = "relation" if r.tolerance is None else f"+-{r.tolerance:g}"
             verdict = "[green]pass[/]" if r.is_met else "[bold red]FAIL[/]"
-            table.add_row(r.quantity, r.published, f"{number(r.ours)} {r.unit}", tolerance, verdict)
+            table.add_row(r.quantity, r.published, f"{ours(r)} {r.unit}", tolerance, verdict)
         console.print(table)
         for r in members:
             if r.explanation and not r.is_met:

@@ -6,18 +6,23 @@ import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from cosim.loading import load_scenario
 from cosim.options import Changes, ScenarioArgument
-from cosim.scenario import Scenario, load_scenario
-from cosim.ssp.import_time import TimeRequest
-from cosim.ssp.namespaces import Version
+
+if TYPE_CHECKING:
+    from cosim.scenario import Scenario
+    from cosim.ssp.namespaces import Version
 
 app = typer.Typer(no_args_is_help=True, help="System Structure and Parameterization (SSP) 1.0 and 2.0.")
 
 FileArgument = Annotated[Path, typer.Argument(help="An .ssp file, or the .ssd file of an unpacked one.")]
+SchemaOption = Annotated[
+    Path | None, typer.Option(help="Folder with the standard's schemas of SSP 2.0, to check against them too.")
+]
 VariantOption = Annotated[str, typer.Option(help="Another .ssd file of the package than SystemStructure.ssd.")]
 
 
@@ -31,11 +36,15 @@ def import_command(
     output_step: Annotated[str | None, typer.Option(help="Interval of recorded values; default: every step.")] = None,
     algorithm: Annotated[str | None, typer.Option(help="jacobi (default), gauss_seidel, iterated, ...")] = None,
     variant: VariantOption = "",
+    schema: SchemaOption = None,
 ) -> None:
     """Import an SSP as a scenario that `cosim run` runs."""
+    from cosim.ssp.import_time import TimeRequest
     from cosim.ssp.importer import import_ssp
+    from cosim.ssp.schemas import named_schemas
 
-    imported = import_ssp(file, out, TimeRequest(start, stop, step, output_step, algorithm), variant)
+    with named_schemas(schema):
+        imported = import_ssp(file, out, TimeRequest(start, stop, step, output_step, algorithm), variant)
     _print_notes(imported.notes)
     for path, name in imported.names.items():
         print(f"{path} is the component {name}")
@@ -61,11 +70,13 @@ def export_command(
 
 
 @app.command("validate")
-def validate_command(file: FileArgument, variant: VariantOption = "") -> None:
-    """Check an SSP against the schemas, and its connections and parameters against its FMUs."""
+def validate_command(file: FileArgument, variant: VariantOption = "", schema: SchemaOption = None) -> None:
+    """Check an SSP against schemas (1.0) or our rules (2.0), and its connections and parameters against its FMUs."""
     from cosim.ssp.importer import check_ssp
+    from cosim.ssp.schemas import named_schemas
 
-    structure, notes = check_ssp(file, variant)
+    with named_schemas(schema):
+        structure, notes = check_ssp(file, variant)
     _print_notes(notes)
     print(f"{file}: valid SSP {structure.version}, `{structure.name}`")
 

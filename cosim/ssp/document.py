@@ -1,8 +1,7 @@
-"""XML files of an SSP: parsed without entities or network, validated against the schema of their version."""
+"""XML files of an SSP: parsed without entities or network, checked as their version asks."""
 
 from __future__ import annotations
 
-import functools
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,8 @@ from lxml import etree
 from cosim.errors import InputError
 from cosim.ssp.model import Place
 from cosim.ssp.namespaces import PREFIXES, SSB, SSD, SSM, SSV, tag
+from cosim.ssp.rules import first_fault
+from cosim.ssp.schemas import schema
 
 #: An XML file larger than this is refused [byte].
 MAXIMUM_SIZE = 64 << 20
@@ -26,13 +27,6 @@ SCHEMAS = {
 }
 _UNDECLARED = re.compile(r"Namespace prefix (\w+) ")
 _ROOT = re.compile(rb"<(?![?!])[^\s/>]+")
-
-
-@functools.cache
-def schema(name: str, version: str) -> Any:
-    """The official schema of one kind of file."""
-    path = Path(__file__).parent / "schema" / version / f"{name}.xsd"
-    return etree.XMLSchema(etree.parse(str(path)))
 
 
 @dataclass
@@ -89,28 +83,33 @@ def _parsed(content: bytes, package: Path, file: str, notes: list[str]) -> Any:
         return etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
         found = _UNDECLARED.search(str(error))
-        if found and found[1] in PREFIXES and f"xmlns:{found[1]}=".encode() not in content:
-            notes.append(
-                f"{file}: it uses prefixes that it does not declare; they were taken for those of the standard"
-            )
-            return _parsed(_declared(content), package, file, notes)
+        if found and f"xmlns:{found[1]}=".encode() not in content:
+            return _parsed(_declared(content, found[1], file, notes), package, file, notes)
         line = error.lineno or 0
         raise Place(package, file, line).error(
             f"this is no XML: {error.msg}", "correct it, or export it again"
         ) from error
 
 
-def _declared(content: bytes) -> bytes:
-    """The text with every prefix of the standard that its root does not declare declared there."""
+def _declared(content: bytes, prefix: str, file: str, notes: list[str]) -> bytes:
+    """The text with a prefix declared at its root: one of the standard, with the others, or one of another author.
+
+    What stands in the namespace of another author is read by nobody here, so any name does.
+    """
     root = _ROOT.search(content)
     assert root is not None  # the parser has met a prefixed element
-    missing = {p: n for p, n in PREFIXES.items() if f"xmlns:{p}=".encode() not in content}
+    if prefix in PREFIXES:
+        missing = {p: n for p, n in PREFIXES.items() if f"xmlns:{p}=".encode() not in content}
+        notes.append(f"{file}: it uses prefixes that it does not declare; they were taken for those of the standard")
+    else:
+        missing = {prefix: f"urn:undeclared:{prefix}"}
+        notes.append(f"{file}: it does not declare the prefix `{prefix}`; what it marks is passed over")
     text = "".join(f' xmlns:{p}="{n}"' for p, n in missing.items())
     return content[: root.end()] + text.encode() + content[root.end() :]
 
 
 def validate(document: Document, element: Any, expected: str) -> str:
-    """Validate an element against the schema of the version that it declares.
+    """Validate an element as the version that it declares asks: by its schema, or by rules of our own.
 
     Args:
         document: Its file.
@@ -133,7 +132,14 @@ def validate(document: Document, element: Any, expected: str) -> str:
     if not re.match(r"[12]\.\d+", written):
         raise place.error(f"its version is `{written}`", "write it as SSP 1.0 or 2.0; drafts are not read")
     checker = schema(SCHEMAS[expected], version)
-    if not checker.validate(element):
+    if version == "2.0":
+        broken = first_fault(element)
+        if broken is not None:
+            raise document.place(broken.element).error(
+                f"{_short(broken.element.tag)} breaks the rules of SSP 2.0: {_short(broken.text)}",
+                "correct the file, or export it again with a tool that writes valid SSP",
+            )
+    if checker is not None and not checker.validate(element):
         fault = checker.error_log[0]
         more = f" (and {len(checker.error_log) - 1} more)" if len(checker.error_log) > 1 else ""
         raise Place(document.package, document.file, fault.line).error(

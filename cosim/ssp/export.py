@@ -149,7 +149,14 @@ def _connections(
 
 
 def _own_component(export: _Export, part: Part, connected: set[str]) -> WrittenComponent:
-    """A component that is no FMU: its YAML is its source."""
+    """A component that is no FMU: its YAML is its source.
+
+    Raises:
+        InputError: It is a controller whose law is a Python file, which no other tool runs.
+    """
+    if getattr(getattr(part.component, "law", None), "kind", "") == "python":
+        raise InputError(export.source, f"components.{part.name}.law", "a law in Python cannot be exported",
+                         "take a built-in law, or write an FMU")  # fmt: skip
     data = part.component.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     data = {"kind": part.component.kind, **data}
     name = data.get("parameter_set")

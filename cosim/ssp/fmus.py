@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fmpy.model_description import ModelDescription, read_model_description
 
-from cosim.errors import InputError
+from cosim.fmu.description import read_packed_description
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
@@ -53,7 +52,8 @@ class Fmu:
     """
 
     def __init__(self, path: Path) -> None:
-        self._description = _description(path)
+        #: A model description alone: an SSP can be read where its FMUs have no binary for this platform.
+        self._description = read_packed_description(path)
         self._units = UnitNames(self._description)
         units = {u.name: _defined(u) for u in self._description.unitDefinitions}
         #: Name, and every alias, to variable.
@@ -98,17 +98,6 @@ class Fmu:
         if name not in table:
             raise ValueError(f"the FMU has no variable `{name}`")
         return array_of(table[name], value, self._units)
-
-
-def _description(path: Path) -> ModelDescription:
-    """Model description alone: an SSP can be read where its FMUs have no binary for this platform."""
-    try:
-        return read_model_description(str(path), validate=True)
-    except Exception as error:  # fmpy raises bare Exception for most defects
-        what = " ".join(str(error).split()[:40]) or type(error).__name__
-        raise InputError(
-            path, "modelDescription.xml", f"it cannot be read: {what}", "check it with `fmpy validate`"
-        ) from error
 
 
 def _defined(unit: Any) -> Unit:

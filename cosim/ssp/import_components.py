@@ -26,7 +26,9 @@ from cosim.yaml_file import parse_yaml, read_text
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
 OWN_KEYS = ("tolerance", "isolation", "structure", "record")
 _EXACT = 2**53
-_WITHOUT_FMU = ("programme", "ngspice", "bullet_fabric", "hanging_mass", "bullet_pendulum")
+_WITHOUT_FMU = (
+    "programme", "ngspice", "bullet_fabric", "hanging_mass", "bullet_pendulum", "sensor", "controller",
+)  # fmt: skip
 
 
 def own_component(component: Component, out: Path) -> dict[str, Any]:
@@ -48,6 +50,8 @@ def own_component(component: Component, out: Path) -> dict[str, Any]:
         ) from error
     if data["kind"] not in _WITHOUT_FMU:
         raise component.place.error(f"`{component.name}` is of kind {data['kind']}", "an FMU is a component of its own")
+    if data.get("law", {}).get("kind") == "python":
+        raise component.place.error(f"the law of `{component.name}` is a Python file", "a package carries no program")
     name = data.get("parameter_set")
     if name is not None:
         source = component.source.parent / Path(name).name
@@ -101,9 +105,6 @@ class FmuImport:
         wanted = component.implementation
         if wanted == "any":
             return "CoSimulation" if "CoSimulation" in fmu.interfaces else "ModelExchange"
-        if wanted not in fmu.interfaces:
-            there = ", ".join(sorted(fmu.interfaces))
-            raise component.place.error(f"the FMU of `{component.name}` has no {wanted}", f"it has: {there}")
         return wanted
 
     def _sorted(self, path: ElementPath, component: Component, fmu: Fmu) -> dict[str, dict[str, Any]]:

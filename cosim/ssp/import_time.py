@@ -7,6 +7,7 @@ from typing import Any
 
 from cosim.components import nanoseconds
 from cosim.quantity import PhysicalValue
+from cosim.scenario import default_checkpoint_step
 from cosim.ssp.model import Structure
 
 
@@ -60,15 +61,14 @@ def times(structure: Structure, request: TimeRequest, can_serialise: bool, notes
 
 
 def _checkpoint_step(time: dict[str, Any], can_serialise: bool, notes: list[str]) -> str:
-    """About 2 s in whole output steps; beyond the end where an FMU cannot write its state."""
+    """The scenario's own default; beyond the end where an FMU cannot write its state."""
     start, stop, output = (
         nanoseconds(PhysicalValue.parse(time.get(k, "0 s"))) for k in ("start", "stop", "output_step")
     )
-    wanted = 2_000_000_000
-    if not can_serialise:
-        wanted = max(stop - start, output)
-        notes.append("no checkpoints: an FMU cannot serialise its state, so an interrupted run begins once more")
-    return f"{max(1, -(-wanted // output)) * output / 1e9!r} s"
+    if can_serialise:
+        return f"{default_checkpoint_step(stop - start, output) / 1e9!r} s"
+    notes.append("no checkpoints: an FMU cannot serialise its state, so an interrupted run begins once more")
+    return f"{-(-max(stop - start, output) // output) * output / 1e9!r} s"
 
 
 def algorithm(structure: Structure, request: TimeRequest, notes: list[str]) -> dict[str, Any]:

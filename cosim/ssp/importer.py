@@ -114,6 +114,7 @@ def _read(path: Path, folder: Path, variant: str) -> _System:
             if source not in known:
                 known[source] = _read_fmu(path, component, source)
             fmus[element] = known[source]
+            _check_interface(component, fmus[element])
             _check_connectors(component, fmus[element])
     if not graph.components:
         raise structure.place.error("there is no component in it", "give a system with components")
@@ -142,10 +143,20 @@ def _checked_source(component: Component) -> Path:
     if component.source is None:
         raise component.place.error(f"`{component.name}` has no source: it is a place for a component yet to come",
                                     "give it an FMU")  # fmt: skip
-    if component.implementation == "ScheduledExecution":
-        raise component.place.error(f"`{component.name}` asks for ScheduledExecution, which is not carried out",
-                                    "ask for CoSimulation or ModelExchange")  # fmt: skip
     return component.source
+
+
+def _check_interface(component: Component, fmu: Fmu) -> None:
+    """What is asked for, or anything that can be carried out, is there."""
+    if component.implementation in ({"any"} if fmu.interfaces else set()) | set(fmu.interfaces):
+        return
+    there = " or ".join(sorted(fmu.interfaces))
+    remedy = f"ask for {there}, which it has" if there else "export the FMU for Co-Simulation or Model Exchange"
+    if component.implementation == "ScheduledExecution" or not there:
+        problem = f"`{component.name}` has ScheduledExecution alone" if not there else (
+            f"`{component.name}` asks for ScheduledExecution")  # fmt: skip
+        raise component.place.error(f"{problem}, which is not carried out", remedy)
+    raise component.place.error(f"the FMU of `{component.name}` has no {component.implementation}", remedy)
 
 
 def _check_connectors(component: Component, fmu: Fmu) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from cosim.quantity import parse_unit, registry
+from cosim.quantity import cycles_and_angles, parse_unit, registry
 from cosim.ssp.model import BASE_UNITS, Unit
 
 _PINT_NAMES = ("kilogram", "meter", "second", "ampere", "kelvin", "mole", "candela", "radian")
@@ -42,6 +43,7 @@ def convert(source: Unit, target: Unit) -> tuple[float, float]:
     """(factor, offset) with value in target = factor * value in source + offset.
 
     Exponents of rad are not compared: rad is 1 (BIPM SI Brochure, 9th edition, table 4); tools differ in writing it.
+    Where one unit is named with Hz and the other has rad in its place, a cycle is 2 pi rad (`cosim.quantity.turns`).
 
     Raises:
         UnitFault: They measure different things.
@@ -50,9 +52,19 @@ def convert(source: Unit, target: Unit) -> tuple[float, float]:
         return 1.0, 0.0
     if source.exponents[:-1] != target.exponents[:-1]:
         raise UnitFault(f"{source.name} cannot be converted to {target.name}")
-    factor = source.factor / target.factor
+    angles = target.exponents[-1] - source.exponents[-1]
+    cycles = _cycles(source.name) - _cycles(target.name)
+    factor = source.factor / target.factor * ((2.0 * math.pi) ** cycles if cycles == angles else 1.0)
     offset = (source.offset - target.offset) / target.factor
     return float(f"{factor:.15g}"), float(f"{offset:.15g}")
+
+
+def _cycles(name: str) -> float:
+    """Power of hertz in a unit's name; 0 where pint does not know it."""
+    try:
+        return cycles_and_angles(name)[0]
+    except ValueError:
+        return 0.0
 
 
 def across(source: Unit | None, target: Unit | None) -> tuple[float, float]:

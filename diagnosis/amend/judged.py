@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit import Array
@@ -16,7 +17,6 @@ from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.amend.free_run import free_run, free_run_of, start_of
-from diagnosis.compute.steps import counted
 from diagnosis.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.diagnosis import Diagnosis

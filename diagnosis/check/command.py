@@ -9,8 +9,8 @@ import typer
 from rich.console import Console
 
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.run_folder import write_atomically, writing
-from cosim.scenario import load_scenario
 
 app = typer.Typer(
     no_args_is_help=True, help="Recordings: begin one from a table or from tracks, and check it against a scenario."

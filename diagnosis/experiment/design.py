@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.compute.steps import counted
 from diagnosis.experiment.bench import Belief, Bench, Conditions, Contrast
 from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner

@@ -56,6 +56,20 @@ class Binning:
         """Bins of simulated values, given by recording and channel, shape (bins,)."""
         return self._averaged([v for own in values for v in own])
 
+    def bin_of(self, channel: int) -> AnyArray:
+        """Bin of every sample of a channel, shape (samples,); of samples that are in none, the first bin.
+
+        Args:
+            channel: Number of the channel, over all recordings.
+        """
+        first = sum(len(own) for own in self._pieces[:channel])
+        place = np.empty_like(self._order)
+        place[self._order] = np.arange(len(self._order))
+        found = np.zeros(len(self._channels[channel].times), dtype=int)
+        for number, piece in enumerate(self._pieces[channel]):
+            found[piece] = place[first + number]
+        return found
+
     def _averaged(self, values: Sequence[Array]) -> Array:
         means = [float(np.mean(v[piece])) for v, own in zip(values, self._pieces) for piece in own]
         return np.array(means)[self._order]

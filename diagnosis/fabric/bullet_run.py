@@ -13,12 +13,12 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import FabricComponent, nanoseconds
+from cosim.compute.result import Result
 from cosim.mechanics_assembly import build_fabric
 from cosim.parameters import resolve
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from cosim.unit import Array, StepStatus, UnitError
-from diagnosis.compute.result import Result
 from diagnosis.recording.quantity import Target
 from diagnosis.search.cosim_run import Changes, predicted, program_hash
 from mechanics.unit import FabricUnit

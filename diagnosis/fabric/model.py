@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.components import FabricComponent
+from cosim.compute.batch import Batches
 from cosim.errors import InputError
 from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.bank.places import Place
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.compute.batch import Batches
 from diagnosis.fabric.bins import Binning
 from diagnosis.fabric.laws import fabric_laws
 from diagnosis.fabric.mechanical import MechanicalModel
@@ -135,6 +135,21 @@ class FabricModel:
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
             found.append(ComparedRun((*banked, *own)))
         return found
+
+    @property
+    def residual_of_reading(self) -> AnyArray:
+        """Residual of the search that each reading is part of, run by run, channel by channel."""
+        found: list[AnyArray] = []
+        banked, channel = 0, 0
+        first = len(self.bank.layout.time) if self.bank else 0
+        for number, recording in enumerate(self.mechanical_recordings):
+            for series in self.bank.runs[number].series if self.bank else ():
+                found.append(banked + np.arange(len(series.samples)))
+                banked += len(series.samples)
+            for _ in recording.channels:
+                found.append(first + self.binning.bin_of(channel))
+                channel += 1
+        return np.concatenate(found)
 
     @property
     def effort(self) -> float:

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from diagnosis.bank.layout import QUANTITIES
 from diagnosis.bank.places import coil_label
-from diagnosis.compute.steps import counted
 from diagnosis.isolability.alike import SHOWS, Alike, Effect, effects, widest
 from diagnosis.isolability.structure import VARIABLES, Analysis, Rig, analyse
 from diagnosis.judge.isolability import ExtraChannel, FaultClass, Isolability

@@ -32,7 +32,7 @@ from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
-from diagnosis.judge.unfitted import raw_residuals
+from diagnosis.judge.unfitted import has_bins, raw_residuals
 from diagnosis.report.display import words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
@@ -375,7 +375,7 @@ def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
     Predictions are compared, not residuals: where the zero of a channel is taken away, a change spreads over all of it.
     """
     point = fit.point
-    if sum(len(s.samples) for run in model.runs for s in run.series) != len(model.layout.time):
+    if has_bins(model):
         return np.asarray(model.residuals([point.without(term)])[0] - fit.residuals)  # bins of a fabric
     inner = untempered(model)
     used = np.concatenate([s.used for run in model.runs for s in run.series])
@@ -515,7 +515,9 @@ def _intervals(model: DiagnosisModel, effect: Array) -> tuple[int, tuple[tuple[f
         chosen = np.ones(len(effect), dtype=bool)
     times, place = np.unique(layout.time[chosen], return_inverse=True)
     strength = np.sqrt(np.bincount(place, effect[chosen] ** 2, minlength=len(times)))
-    kept = times[strength >= SHOWS * max(float(strength.max()), 1e-300)]
+    if not strength.max() > 0.0:  # what changes no reading is in none
+        return first, ()
+    kept = times[strength >= SHOWS * float(strength.max())]
     gap = 0.1 * (times[-1] - times[0])
     cuts = np.flatnonzero(np.diff(kept) > gap)
     begins, ends = np.concatenate([[0], cuts + 1]), np.concatenate([cuts, [len(kept) - 1]])

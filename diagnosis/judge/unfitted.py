@@ -187,10 +187,14 @@ def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
     return _finite(found)
 
 
+def has_bins(model: DiagnosisModel) -> bool:
+    """Whether residuals of the search are means of readings, as those of a fabric, and not readings themselves."""
+    return hasattr(model, "residual_of_reading")
+
+
 def _can_be_moved(model: DiagnosisModel) -> bool:
     """Whether derivatives of its readings are known: not where each simulation takes minutes, or bins are fitted."""
-    count = sum(len(s.samples) for run in model.runs for s in run.series)
-    return bool(getattr(model, "can_be_fitted", True)) and count == len(model.layout.time)
+    return bool(getattr(model, "can_be_fitted", True)) and not has_bins(model)
 
 
 def _tested(model: DiagnosisModel, readings: Readings, kept: AnyArray, may: Freedom, columns: Array) -> Tested:
@@ -354,14 +358,19 @@ class LeftOutReadings:
         if not is_fitted:
             residuals = raw_residuals(self._inner, point)[self.readings.chosen]
             return Predicted(residuals, residuals)
-        found = np.zeros(len(self._model.layout.time))
+        found = np.zeros(len(self._readings_of(self._parts[0])))
         points = []
         for number, part in enumerate(self._parts):
             self._on_progress(f"predicting part {number + 1} of {len(self._parts)} from the others")
             points.append(fit(MaskedModel(self._model, ~part), point, iterations=20).point)
-            found[part] = raw_residuals(self._inner, points[-1])[part]
+            own = self._readings_of(part)
+            found[own] = raw_residuals(self._inner, points[-1])[own]
         residuals = found[self.readings.chosen]
         return Predicted(residuals, residuals, points=tuple(points))
+
+    def _readings_of(self, part: AnyArray) -> AnyArray:
+        """Which readings belong to residuals of the search, shape (readings,)."""
+        return np.asarray(part[self._inner.residual_of_reading] if has_bins(self._inner) else part)  # type: ignore[attr-defined]
 
     def tested(self, point: Point, predicted: Predicted) -> Tested | None:
         """See `Unfitted`; each part by the fit to the others."""

@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from diagnosis.compute.progress import duration
+from cosim.compute.progress import duration
 
 #: Least time between two lines [s].
 PAUSE = 10.0

@@ -5,19 +5,20 @@ from __future__ import annotations
 import sys
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-import xarray as xr
 from rich.console import Console
 
 from cosim.errors import InputError
+from cosim.loading import load_scenario
 from cosim.options import Changes, complete_scenario
 from cosim.run_folder import RunFolder
-from cosim.scenario import Scenario, load_scenario
-from diagnosis.recording.readings import read_results
-from diagnosis.recording.sensor import SensorFile, load_sensors
-from diagnosis.recording.write import Notes, write_recording
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cosim.scenario import Scenario
 
 
 def record(
@@ -48,6 +49,9 @@ def record(
         _render(scenario, out, video, seed, changes or [])
         return
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
+    from diagnosis.recording.readings import read_results
+    from diagnosis.recording.sensor import SensorFile, load_sensors
+    from diagnosis.recording.write import Notes, write_recording
 
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
@@ -92,6 +96,8 @@ def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str
 
 def _results(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:
     """Scenario and results of a finished run, or of one made now."""
+    import xarray as xr  # late: `cosim --help` does without
+
     if not Path(scenario).is_dir():
         return _run(scenario, changes)
     if changes:

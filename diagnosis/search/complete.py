@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from diagnosis.compute.steps import counted
+from cosim.compute.steps import counted
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.focus import focus

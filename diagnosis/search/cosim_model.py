@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import ProgrammeComponent
+from cosim.compute.batch import Batches
+from cosim.compute.result import Task
 from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.result import Task
 from diagnosis.faults.programme import programme_inputs
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels

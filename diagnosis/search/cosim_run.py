@@ -20,6 +20,7 @@ import diagnosis.recording
 import mechanics
 from cosim.assemble import assemble
 from cosim.components import AddedTermEntry, FmuComponent, ProgrammeOutput
+from cosim.compute.result import Result
 from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
 from cosim.quantity import PhysicalValue
@@ -27,7 +28,6 @@ from cosim.run import RunStopped, run
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.compute.result import Result
 from diagnosis.faults.programme import with_gain
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Recording

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import LinAlgError
 
+from cosim.compute.steps import share
 from cosim.unit import AnyArray, Array
-from diagnosis.compute.steps import share
 from diagnosis.search.bounded import bounded_step
 from diagnosis.search.objective import Objective
 from diagnosis.search.posterior import huber_weights

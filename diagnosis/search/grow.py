@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from cosim.unit import Array
-from diagnosis.compute.steps import counted
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at

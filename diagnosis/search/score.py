@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
+from cosim.compute.steps import counted
 from cosim.unit import AnyArray, Array
-from diagnosis.compute.steps import counted
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, limits_of, strength_slopes

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cosim.compute.steps import counted
 from cosim.unit import Array
-from diagnosis.compute.steps import counted
 from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.bank.compiler import CompilerError
-from diagnosis.compute.batch import Batches
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_model import ComponentTerm, CosimModel, free_parameters

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol, runtime_checkable
 
 from cosim.components import CircuitComponent
+from cosim.compute.batch import Batches
 from cosim.errors import InputError
 from cosim.scenario import Scenario
 from cosim.unit import AnyArray, Array
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.compute.batch import Batches
 from diagnosis.fabric.model import FabricModel
 from diagnosis.fabric.runs import fabric_of
 from diagnosis.recording.fits import fitting

@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import AddedTermEntry, nanoseconds
+from cosim.compute.batch import Batches
 from cosim.quantity import PhysicalValue, conversion
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario
 from cosim.unit import Array
-from diagnosis.compute.batch import Batches
 from diagnosis.laws.library import library
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording

@@ -1,1 +1,1 @@
-"""Tests of diagnosis.compute."""
+"""Tests of cosim.compute."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.progress import Progress
+from cosim.compute.result import Task
 from cosim.errors import InputError
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.cache import Cache
-from diagnosis.compute.progress import Progress
-from diagnosis.compute.result import Task
 from tests.compute.work import interrupted_at_three, square
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cosim.compute import cluster
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.cluster import DaskPlace, Here, choose_place
+from cosim.compute.result import Task
 from cosim.errors import InputError
-from diagnosis.compute import cluster
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.cache import Cache
-from diagnosis.compute.cluster import DaskPlace, Here, choose_place
-from diagnosis.compute.result import Task
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.pendulum_terms import pendulum_terms
 from diagnosis.search.problem import Point
@@ -28,10 +28,10 @@ ROOT = Path(__file__).resolve().parents[2]
 INTERRUPTED = """
 import sys
 from pathlib import Path
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.cache import Cache
-from diagnosis.compute.cluster import choose_place
-from diagnosis.compute.result import Task
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.cluster import choose_place
+from cosim.compute.result import Task
 from tests.compute.work import slow
 
 if __name__ == "__main__":

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from cosim.compute import display as shown
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.display import Display
+from cosim.compute.result import Result, Task
 from cosim.errors import InputError
 from diagnosis.command import diagnose
-from diagnosis.compute import display as shown
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.cache import Cache
-from diagnosis.compute.display import Display
-from diagnosis.compute.result import Result, Task
 from tests.compute.work import square
 
 

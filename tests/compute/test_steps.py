@@ -4,9 +4,9 @@ import time
 
 import pytest
 
-from diagnosis.compute.batch import Batches
-from diagnosis.compute.result import Task
-from diagnosis.compute.steps import PAUSE, Steps, counted, share, watched
+from cosim.compute.batch import Batches
+from cosim.compute.result import Task
+from cosim.compute.steps import PAUSE, Steps, counted, share, watched
 from diagnosis.search.explanation import Settings
 from diagnosis.search.search import search
 from tests.compute.work import square

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from diagnosis.compute.result import Result
+from cosim.compute.result import Result
 
 
 def square(shared: float, given: float) -> Result:

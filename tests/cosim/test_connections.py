@@ -75,7 +75,8 @@ def test_types_that_lose_nothing_connect(source, target):
     [
         ("Float64", "Int32"),
         ("Int64", "Float32"),
-        ("Boolean", "Float64"),
+        ("Float64", "Boolean"),
+        ("Boolean", "String"),
         ("Enumeration", "Int64"),
         ("String", "Binary"),
     ],

@@ -53,6 +53,11 @@ ELECTRICAL = {
 
 LUMPS = {
     # trace: selection, times
+    "closed_loop_coil": (
+        dict.fromkeys(("actuator.temperature", "actuator.stiffness"),
+                      Tolerance(0.0, 1e-3, "a reading that rounds the other way moves the loop a little")),
+        every(2.0, 0.0, 30.0),
+    ),
     "tclab": ({"heaters.temperature": SMOOTH, "heaters.convected_energy": SMOOTH}, every(60.0, 0.0, 600.0)),
     "sma_limb": ({"wire.temperature": SMOOTH, "wire.convected_energy": SMOOTH}, every(8.0, 0.0, 208.0)),
     # A swing without friction is regular: Bullet's single precision aside, nothing amplifies a difference.

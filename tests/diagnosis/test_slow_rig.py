@@ -114,7 +114,7 @@ def test_a_full_disk_does_not_cost_the_answer(rig, shipped_fmus, monkeypatch, tm
         if text.startswith("judging"):  # from here on no file may become larger than 100 byte
             resource.setrlimit(resource.RLIMIT_FSIZE, (100, hard))
 
-    monkeypatch.setattr("diagnosis.compute.display.Display.stage", lambda _, text: limited(text))
+    monkeypatch.setattr("cosim.compute.display.Display.stage", lambda _, text: limited(text))
     try:
         with pytest.raises(InputError, match="cannot be written: File too large"):
             answer(rig, tmp_path / "out")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -62,3 +63,23 @@ def test_the_interval_of_checkpoints_follows_the_output_step(
 def test_an_interval_that_was_written_and_does_not_fit_is_refused(mute: Path, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"checkpoint_step \(2 s\) must be a multiple of output_step \(10 s\)"):
         scenario(tmp_path, mute, output_step="10 s", stop="60 s", checkpoint_step="2 s")
+
+
+@pytest.mark.parametrize(
+    ("stop", "output", "wanted"), [("200 s", "1 s", 2.0), ("1e6 s", "1 s", 1e4), ("1e6 s", "30 s", 10020.0)]
+)
+def test_a_long_run_has_at_most_a_hundred_checkpoints(
+    mute: Path, tmp_path: Path, stop: str, output: str, wanted: float
+) -> None:
+    found = scenario(tmp_path, mute, macro_step="1 s", output_step=output, stop=stop.replace("1e6", "999990"))
+    assert found.time.checkpoint_step.to("s") == pytest.approx(wanted)
+
+
+def test_the_summary_says_how_many_checkpoints_were_written_and_how_long_they_took(
+    built: dict[tuple[str, int], Path], tmp_path: Path
+) -> None:
+    run(scenario(tmp_path, built["early", 2], macro_step="1 s", output_step="1 s", stop="1000 s"), tmp_path / "run")
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["checkpoints"] == 99 == len(list((tmp_path / "run" / "checkpoints").iterdir()))
+    assert 0.0 < summary["wall_time_s"]["checkpoints"] < summary["wall_time_s"]["since_start_or_resumption"]
+    assert summary["loop_without_python"] == (1.0 if summary["loop"] == "C" else 0.0)

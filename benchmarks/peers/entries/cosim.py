@@ -1,6 +1,6 @@
 """This project: a scenario of plain FMU components, run as a user runs it.
 
-Recorded results are a run folder with all outputs as NetCDF and as CSV, written at the end.
+Recorded results are a run folder with all outputs as NetCDF and as CSV, written at the end, as `cosim run` writes it.
 """
 
 from __future__ import annotations
@@ -9,8 +9,7 @@ from time import perf_counter
 
 from benchmarks.models import cosim_run
 from benchmarks.peers.job import Answer, Job, answer, written
-from cosim.run import Progress
-from cosim.run import run as run_scenario
+from cosim.run import Progress, record
 
 
 def run(job: Job) -> Answer:
@@ -25,10 +24,10 @@ def run(job: Job) -> Answer:
         begins.append(perf_counter() - progress.elapsed)
         loops.append(progress.elapsed)
 
-    result = run_scenario(scenario, out, on_progress=note)
+    trace = record(scenario, out, on_progress=note).trace
     seconds = perf_counter() - begins[-1] if job.csv else loops[-1]
-    values = [float(result[f"{name}.{variable}"].values[-1]) for name, variable in system.outputs]
-    return Answer(seconds, float(result["time"].values[-1]), values, written(out) if out else 0)
+    values = [float(trace.rows[f"{name}.{variable}"][trace.count - 1]) for name, variable in system.outputs]
+    return Answer(seconds, float(trace.moments[-1]), values, written(out) if out else 0)
 
 
 if __name__ == "__main__":

@@ -96,7 +96,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
 }
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) { memcpy(&((Instance *)c)->state, state, sizeof(State)); return fmi2OK; }
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) { (void)c; free(*state); *state = NULL; return fmi2OK; }
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) { (void)c; (void)state; *size = sizeof(State); return fmi2OK; }
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) { Instance *instance = c; (void)state; *size = model_state_size(&V) ? model_state_size(&V) : sizeof(State); return fmi2OK; }
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte data[], size_t size) { (void)c; memcpy(data, state, size); return fmi2OK; }
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte data[], size_t size, fmi2FMUstate *state) {
     (void)c; if (!*state) *state = malloc(size);

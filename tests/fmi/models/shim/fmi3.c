@@ -195,7 +195,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
 }
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) { memcpy(&((Instance *)c)->state, state, sizeof(State)); return fmi3OK; }
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) { (void)c; free(*state); *state = NULL; return fmi3OK; }
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) { (void)c; (void)state; *size = sizeof(State); return fmi3OK; }
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) { Instance *instance = c; (void)state; *size = model_state_size(&V) ? model_state_size(&V) : sizeof(State); return fmi3OK; }
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte data[], size_t size) { (void)c; memcpy(data, state, size); return fmi3OK; }
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte data[], size_t size, fmi3FMUState *state) {
     (void)c; if (size != sizeof(State)) return fmi3Error;

@@ -20,6 +20,7 @@ typedef struct {
 #define V (instance->state.values)
 
 __attribute__((weak)) void model_setup(Values *v, double stop) { (void)v; (void)stop; }
+__attribute__((weak)) size_t model_state_size(const Values *v) { (void)v; return 0; }
 __attribute__((weak)) bool model_is_readable(unsigned reference) { (void)reference; return true; }
 
 /* Refuse a call that does not belong to the present mode. */

@@ -42,6 +42,7 @@ void model_start(Values *v);
 size_t model_size(const Values *v, unsigned reference); /* number of elements */
 bool model_is_discrete(unsigned reference);             /* may be set in Event Mode, not in Step Mode */
 void model_setup(Values *v, double stop);               /* optional, FMI 2.0: fmi2SetupExperiment; -1: no stop time */
+size_t model_state_size(const Values *v);               /* optional: a size of the serialised state that is not its own */
 bool model_is_readable(unsigned reference);             /* optional: some FMUs refuse to read their inputs */
 void model_outputs(Values *v);                          /* outputs and derivatives */
 void model_indicators(const Values *v, double *z);

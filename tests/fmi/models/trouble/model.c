@@ -1,14 +1,15 @@
 /* Integrates its input exactly, and makes trouble as its parameters say: refuses long steps (all or after half of them),
- * fails, terminates, gives NaN, or returns early without an event. Its input cannot be read. */
+ * fails, terminates, says that its state is of another size, gives NaN, or returns early without an event. Its input cannot be read. */
 #include <math.h>
 #include "plain.h"
 
 const char MODEL_TOKEN[] = "trouble";
 const size_t MODEL_STATES = 1, MODEL_INDICATORS = 0;
-enum { INTEGRAL = 1, RATE = 2, INPUT = 3, LONGEST = 4, IS_PARTIAL = 5, FAILS = 6, TERMINATES = 7, BREAKS = 8, RETURNS = 9, SUM = 10 };
+enum { INTEGRAL = 1, RATE = 2, INPUT = 3, LONGEST = 4, IS_PARTIAL = 5, FAILS = 6, TERMINATES = 7, BREAKS = 8, RETURNS = 9, SUM = 10, STATE_SIZE = 11 };
 const unsigned MODEL_FIRST_STATE = INTEGRAL, MODEL_FIRST_DERIVATIVE = RATE;
 ALL_SCALARS NO_DISCRETE_INPUTS NO_STEP_EVENTS NO_INDICATORS
 
+size_t model_state_size(const Values *v) { return (size_t)v->number[STATE_SIZE][0]; }
 bool model_is_readable(unsigned r) { return r != INPUT; }
 
 void model_start(Values *v) {

@@ -1,0 +1,1 @@
+"""Sensors and controllers: units between what is measured and what drives."""

@@ -1,0 +1,1 @@
+"""Designs: from what is wanted to a scenario that runs."""

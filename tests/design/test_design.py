@@ -1,0 +1,217 @@
+"""Designs: closed forms against the co-simulation, row model, sequential test, impossible and malformed tasks."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.compute.batch import Batches
+from cosim.compute.cluster import Here
+from cosim.design.candidate import rig_of, scenario_for
+from cosim.design.closed_form import Row, greatest_voltage
+from cosim.design.command import design
+from cosim.design.ledger import Entry, Ledger
+from cosim.design.report import front, report, winning_scenario
+from cosim.design.row_model import Chain, fitted
+from cosim.design.search import HOLD, HOT, Impossible, Outcome, Search
+from cosim.design.sequential import SequentialTest, Verdict, share_interval
+from cosim.design.task import load_task
+from cosim.errors import InputError
+from cosim.run import run
+from cosim.scenario import parse_scenario
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples" / "design"
+TASK = (EXAMPLES / "stiff_by_15_s.yaml").read_text()
+ROW = Row(6, 2.2, 90 * 97.85e-6, 6450 * 837 * 7.328e-9, 295.15)
+
+
+def written(folder: Path, *changes: tuple[str, str]) -> Path:
+    """The task of the documents with other text, beside its scenario."""
+    text = TASK
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "eight_rows.yaml").write_text((EXAMPLES / "eight_rows.yaml").read_text())
+    path = folder / "task.yaml"
+    path.write_text(text)
+    return path
+
+
+def searched(path: Path) -> Search:
+    task, scenario = load_task(path)
+    return Search(Ledger(task, rig_of(scenario, path), Batches(Here())))
+
+
+def test_closed_forms_are_those_of_the_co_simulation(tmp_path):
+    """Energy, power and temperature of a design with three rows, against ngspice and the FMU."""
+    search = searched(written(tmp_path))
+    candidate = search.candidate((3, 4, 5), lead=5.0)
+    assert candidate is not None
+    found = run(_electrical(scenario_for(candidate, search.ledger.rig)))
+    assert found.attrs["energy_electrical_J"] == pytest.approx(candidate.energy(search.ledger.rig), rel=1e-6)
+    assert found["circuit.supply_power"].max() < 20.0
+    temperature = found["actuator.temperature"]
+    hot = temperature.sel(time=candidate.end, method="nearest").values
+    # The instant lies on the grid of 10 ms: at most one step hotter than asked for, 24 K/s.
+    assert hot[12:30].min() > HOT - 1e-6
+    assert hot[12:30].max() < HOT + 0.3
+    np.testing.assert_allclose(np.delete(hot, np.s_[12:30]), 295.15)
+    held = temperature.sel(time=slice(candidate.held, None)).values[:, 12:30]
+    assert candidate.held < candidate.deadline
+    np.testing.assert_allclose(held, HOLD, atol=0.2)  # what was too hot by then has cooled in proportion
+
+
+def _electrical(scenario):
+    """Circuit and heat alone: the fabric does not act on this actuator."""
+    components = {n: c for n, c in scenario.components.items() if n != "fabric"}
+    actuator = components["actuator"].model_copy(update={"mechanical": None})
+    order = [n for n in scenario.algorithm.order or [] if n != "fabric"]
+    algorithm = scenario.algorithm.model_copy(update={"order": order})
+    return scenario.model_copy(update={"components": {**components, "actuator": actuator}, "algorithm": algorithm})
+
+
+def test_the_optimum_of_one_row_is_its_closed_form(tmp_path):
+    """Least energy to reach 62 degC, over all voltages allowed: within one per cent, which the grid of 10 ms takes."""
+    search = searched(written(tmp_path))
+    candidate = search.candidate((3,), lead=1.0)
+    assert candidate is not None
+    voltages = np.linspace(6.0, 12.0, 2001)
+    best = min(ROW.heating_energy(v, HOT) for v in voltages if ROW.power(v) <= 20.0)
+    assert candidate.energy(search.ledger.rig) == pytest.approx(best, rel=0.01)
+    assert candidate.voltage == pytest.approx(12.0, abs=2e-4)  # rounded downwards to 0.1 mV
+
+
+def test_closed_forms_agree_with_each_other():
+    voltage = ROW.voltage_for(HOT, 3.0)
+    assert ROW.heating_time(voltage, HOT) == pytest.approx(3.0, rel=1e-12)
+    assert ROW.limit(ROW.holding_voltage(HOT)) == pytest.approx(HOT, rel=1e-12)
+    assert math.isinf(ROW.heating_time(ROW.holding_voltage(HOT), HOT))
+    assert 3 * ROW.power(greatest_voltage(ROW, 3, 100.0, 20.0)) == pytest.approx(20.0)
+    assert greatest_voltage(ROW, 3, 5.0, 20.0) == 5.0
+
+
+def test_the_row_model_has_the_sag_of_both_runs_and_falls_with_every_hot_row():
+    chain = fitted(8, 2, 0.0208, 0.07, 0.004)
+    assert chain.sag(()) == pytest.approx(0.07)
+    assert chain.sag(range(3, 9)) == pytest.approx(0.004)
+    sags = [chain.sag(range(3, 3 + n)) for n in range(7)]
+    assert sags == sorted(sags, reverse=True)
+    # Two rows at the root hold more than the same two at the tip.
+    assert chain.sag((3, 4)) < chain.sag((7, 8))
+    assert Chain(8, 2, 0.02, 10.0, 0.0).sag(()) == pytest.approx(6 * 0.02)  # hangs down at once
+
+
+def test_the_sequential_test_errs_no_more_often_than_stated():
+    test, random = SequentialTest(0.9, 0.6, 0.1), np.random.default_rng(7)
+
+    def accepted(share: float) -> float:
+        wins = 0
+        for _ in range(2000):
+            met = missed = 0
+            while (verdict := test.verdict(met, missed)) is Verdict.OPEN:
+                is_met = random.random() < share
+                met, missed = met + is_met, missed + (not is_met)
+            wins += verdict is Verdict.ACCEPTED
+        return wins / 2000
+
+    # Wald's bounds are a / (1 - b) = 0.111; 0.02 is three deviations of 2000 draws.
+    assert accepted(0.6) < 0.111 + 0.02
+    assert accepted(0.9) > 1.0 - 0.111 - 0.02
+
+
+def test_intervals_of_shares_cover_them():
+    assert share_interval(6, 6, 0.9)[0] == pytest.approx(0.05 ** (1 / 6))
+    assert share_interval(0, 6, 0.9)[1] == pytest.approx(1 - 0.05 ** (1 / 6))
+
+
+IMPOSSIBLE = {
+    "voltage": (("0 V to 12 V", "0 V to 5 V"), "the voltage: at 5 V a row settles at", "from 5.41 V on"),
+    "power": (("below: 20 W", "below: 2 W"), "the power: one row needs 2.22", "from 2.22 W on one row can be heated"),
+    "time": (("at: 15 s", "at: 1.1 s"), "the voltage: at 12 V", "V on"),
+}
+
+
+@pytest.mark.parametrize(("change", "limit", "nearest"), IMPOSSIBLE.values(), ids=IMPOSSIBLE)
+def test_an_impossible_request_names_the_limit_and_the_nearest(tmp_path, capsys, change, limit, nearest):
+    out = tmp_path / "out"
+    assert design(written(tmp_path, change), out, Here(), False, lambda text: None) == 1
+    text = (out / "report.md").read_text()
+    assert limit in text
+    assert nearest in text
+    assert "not possible" in capsys.readouterr().err
+    assert not (out / "scenario.yaml").exists()
+
+
+def test_what_no_run_reached_is_told_with_the_nearest(tmp_path):
+    search = searched(written(tmp_path))
+    cold, hot = search.candidate(()), search.candidate((3, 4))
+    search.ledger.units = ("m", "W")
+    search.ledger.entries = [_entry("coarse", cold, 1, 0.07), _entry("coarse", hot, 1, 0.041)]
+    why = search._unmet()
+    assert isinstance(why, Impossible)
+    assert "no run of 2 designs reached it, of which one heats rows 3, 4" in why.limit
+    assert "0.041 m with rows 3, 4" in why.nearest
+
+
+def _entry(fidelity, candidate, start, sag, power=19.0):
+    return Entry(fidelity, candidate, start, (sag, power), (0.03 - sag, 20.0 - power), 1e-4, 40.0, "", 1.0)
+
+
+def test_a_coarse_run_with_overlap_is_not_judged_and_the_front_holds_no_beaten_design(tmp_path):
+    search = searched(written(tmp_path))
+    three, four, five = (search.candidate(tuple(range(3, n))) for n in (6, 7, 8))
+    ledger = search.ledger
+    ledger.units = ("m", "W")
+    ledger.entries = [
+        _entry("coarse", three, 1, 0.080), _entry("fine", three, 1, 0.020), _entry("coarse", four, 1, 0.040),
+        _entry("coarse", five, 1, 0.025),
+    ]  # fmt: skip
+    # The coarse run of `three` overlapped and was made again; `four` misses; the fine run counts.
+    assert search._accepted() == [three, five]
+    assert front(ledger).count("\n") == 2  # 20 mm beats the others at equal energy
+    outcome = Outcome(three, [_entry("full", three, 1001 + n, 0.02) for n in range(6)], Verdict.ACCEPTED, five)
+    text = report(search, outcome)
+    assert "6 of 6" in text
+    assert "0.61 to 1.00 at 90 %" in text
+    assert "power: 20 of 20 W" in text
+
+
+def test_curvature_is_never_judged_coarse(tmp_path):
+    assert searched(written(tmp_path)).ledger.can_be_coarse()
+    assert not searched(written(tmp_path, ("fabric.tip_sag", "fabric.max_curvature"))).ledger.can_be_coarse()
+
+
+def test_the_scenario_of_a_design_runs_by_itself(tmp_path):
+    search = searched(written(tmp_path))
+    candidate = search.candidate((3, 5))
+    text = winning_scenario(candidate, search.ledger.rig, "t")
+    scenario = parse_scenario(text, tmp_path / "scenario.yaml")
+    assert scenario.time.stop.to("s") == 15.0
+    assert scenario.time.start.to("s") == pytest.approx(candidate.begin - 2.5, abs=0.02)
+    heated = scenario.components["supply"].outputs["voltage"].points[1][1]
+    assert [v.to("V") > 0 for v in heated] == [False, False, True, False, True, False, False, False]
+
+
+WRONG = {
+    "a tethered row": (("rows_heated: any", "rows_heated: [[2, 3]]"), "row 2 is no free row"),
+    "no pattern": (("rows_heated: any", "rows_heated: []"), "there is no pattern"),
+    "no range": (("0 V to 12 V", "12 V"), "is no range"),
+    "an empty range": (("0 V to 12 V", "12 V to 2 V"), "is empty"),
+    "no bound": ((", below: 30 mm", ""), "give either `below` or `above`"),
+    "both bounds": (("below: 30 mm", "below: 30 mm, above: 1 mm"), "give either `below` or `above`"),
+    "unknown aim": (("least: energy", "least: cost"), "energy"),
+    "no scenario": (("scenario: eight_rows.yaml", "scenario: nine_rows.yaml"), "there is no such scenario"),
+    "no fabric": (("scenario: eight_rows.yaml", "scenario: single_coil_heating"), "one circuit, one fabric"),
+    "common supply": (("scenario: eight_rows.yaml", "scenario: prototype_cantilever"), "one per row"),
+    "share of one": (("share: 0.9", "share: 1.0"), "less than 1"),
+}
+
+
+@pytest.mark.parametrize(("change", "what"), WRONG.values(), ids=WRONG)
+def test_a_malformed_task_gets_one_clear_error(tmp_path, change, what):
+    with pytest.raises(InputError, match=what) as refused:
+        design(written(tmp_path, change), tmp_path / "out", Here(), False, lambda text: None)
+    assert refused.value.remedy

@@ -1,0 +1,52 @@
+"""Runs of designs in Bullet itself, on the smallest fabric: nine links, of which three are free."""
+
+from __future__ import annotations
+
+import pytest
+
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.cluster import Here
+from cosim.design import ledger as ledger_module
+from cosim.design.candidate import Candidate, rig_of
+from cosim.design.ledger import BudgetSpent, Ledger
+from cosim.design.task import load_task
+from tests.design.test_design import EXAMPLES, TASK
+
+#: Heated for a fifth of a second only: what is looked at here is the record of runs, not what they say.
+SHORT = Candidate((3,), 10.0, 300.0, 296.0, 2.5, 2.7, 9.0, 2.8)
+
+
+def _ledger(folder, coarse=3):
+    text = (EXAMPLES / "eight_rows.yaml").read_text().replace("rows: 8", "rows: 3")
+    for many, three in (("[6, 6, 6, 6, 6, 6, 6, 6]", "[6, 6, 6]"), (f"[{', '.join(['0 V'] * 8)}]", "[0 V, 0 V, 0 V]")):
+        assert many in text
+        text = text.replace(many, three)
+    (folder / "eight_rows.yaml").write_text(text)
+    path = folder / "task.yaml"
+    path.write_text(TASK.replace("at: 15 s", "at: 2.8 s").replace("coarse: 40, full: 20", f"coarse: {coarse}, full: 1"))
+    task, scenario = load_task(path)
+    return Ledger(task, rig_of(scenario, path), Batches(Here(), Cache(folder / "runs")))
+
+
+@pytest.mark.slow
+def test_a_run_is_on_the_record_and_one_that_overlaps_is_made_again(tmp_path, monkeypatch):
+    ledger = _ledger(tmp_path)
+    (first,) = ledger.coarse(SHORT, (1,))
+    assert first.fidelity == "coarse"
+    assert not first.failure
+    # 10 V on six coils of 2.2 ohm for 0.2 s.
+    assert first.energy == pytest.approx(100.0 / 13.2 * 0.2, rel=1e-6)
+    assert first.values[1] == pytest.approx(100.0 / 13.2, rel=1e-9)
+    assert 0.0 < first.overlap < 1.5e-3
+    assert abs(first.values[0]) < 0.03
+    monkeypatch.setattr(ledger_module, "GATE", 0.0)
+    (again,) = ledger.coarse(SHORT, (1,))
+    assert again.fidelity == "fine"
+    assert [e.fidelity for e in ledger.entries] == ["coarse", "coarse", "fine"]
+    assert ledger.batches.made == 2  # the second coarse run came from the disk
+    assert ledger.table().count("\n") == 4
+    with pytest.raises(BudgetSpent, match="1 full runs"):
+        ledger.full_batch(SHORT, (1001,))
+    with pytest.raises(BudgetSpent, match="3 coarse runs"):
+        ledger.coarse(SHORT, (1, 2))
