@@ -278,7 +278,7 @@ def test_results_that_are_known_are_not_simulated_again(scenario: Scenario, tmp_
 
     recording = load_recording(rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)))
     results = run(scenario_of(scenario, recording))
-    monkeypatch.setattr(beside, "run", None)
+    monkeypatch.setattr(beside, "run_quickly", None)
     assert check_recordings(scenario, [recording], {str(recording.path): results}) == ()
 
 
