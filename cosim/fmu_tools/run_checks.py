@@ -26,7 +26,7 @@ Trace = dict[str, list[AnyArray]]
 
 
 def _unit(path: Path, interface: str | None = None, archive: FmuArchive | None = None) -> FmuUnit:
-    archive = archive or open_fmu(path)
+    archive = archive or open_fmu(path, is_shared=False)
     has_cs = archive.description.coSimulation is not None
     kind = ModelExchangeUnit if interface == "model_exchange" or not has_cs else CoSimulationUnit
     unit = kind(path.stem, archive, FmuSettings())
@@ -73,8 +73,9 @@ def steps(path: Path) -> str:
 
 def repeats(path: Path) -> str:
     """Two instances in one process, stepped in turn, give the same values to the last bit."""
-    archive = open_fmu(path)  # extracted once: the same library is loaded once, with one set of global variables
-    one, other = _unit(path, archive=archive), _unit(path, archive=archive)
+    # Both share the extracted files: the library is loaded once, with one set of global variables. Each unit gives its
+    # own archive up; the library is closed with the last.
+    one, other = (_unit(path, archive=open_fmu(path)) for _ in range(2))
     for unit in (one, other):
         unit.initialise(0)
         unit.exit_initialisation()

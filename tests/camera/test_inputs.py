@@ -50,7 +50,7 @@ def test_a_rig_is_read(tmp_path):
         ({"markers": {**RIG["markers"], "colour": "grue"}}, "markers.colour", "no colour"),
         ({"markers": {**RIG["markers"], "colour": "#808080"}}, "markers.colour", "too grey"),
         ({"markers": {**RIG["markers"], "diameter": "-6 mm"}}, "markers.diameter", "greater than"),
-        ({"markers": {**RIG["markers"], "layout": {"kind": "fabric", "rows": 2}}}, "markers.layout", "greater than"),
+        ({"markers": {**RIG["markers"], "layout": {"kind": "fabric", "rows": 2}}}, "markers.layout", "at least 3"),
         ({"clock": {"rate": "60 Hz"}}, "clock.exposure", "missing"),
         ({"clock": {"rate": "60 Hz", "exposure": "40 ms"}}, "clock", "longer than a frame"),
         ({"clock": {"rate": "60 Hz", "stamps": "t.csv", "exposure": "4 ms"}}, "clock", "not both"),
