@@ -41,8 +41,9 @@ def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
     told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
     onset = next((p for p in finding.parameters if p.name == "instant"), None)
     if onset is not None and finding.intervals:
-        told = f"from {units.estimate(onset)} on"
-    elif not any(p.name in _INSTANTS for p in finding.parameters):
+        where = f" of {clean(finding.recording)}" if finding.recording else ""
+        return f"from {units.estimate(onset)}{where} on"
+    if not any(p.name in _INSTANTS for p in finding.parameters):
         told = f"seen {told}" if finding.intervals else told
     return f"{told} of {clean(finding.recording)}" if finding.recording else told
 

@@ -305,8 +305,8 @@ def test_the_order_of_recordings_must_be_possible(tmp_path):
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        ({"order": 0}, "greater than or equal to 1"),
-        ({"cycles_before": -1}, "greater"),
+        ({"order": 0}, "must be at least 1"),
+        ({"cycles_before": -1}, "must be at least 0"),
         ({"cycles_before": math.inf}, "finite"),
     ],
 )

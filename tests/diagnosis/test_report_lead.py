@@ -101,7 +101,7 @@ def test_isolability_is_a_matrix_that_agrees_with_the_classes() -> None:
 def test_a_law_with_an_instant_acts_from_then_on() -> None:
     onset = Estimate("instant", "s", 33.4, 32.9, 33.9)
     begun = replace(CONTACT, parameters=(*CONTACT.parameters, onset), recording="monday")
-    assert when(begun) == "from 33.4 s (32.9 to 33.9) on of monday"
+    assert when(begun) == "from 33.4 s (32.9 to 33.9) of monday on"
     assert when(CONTACT).startswith("seen 5.00 to 42.5 s")
 
 

@@ -221,7 +221,7 @@ def test_a_law_that_always_acts_is_seen_at_times_and_one_with_an_instant_acts_th
     drag = replace(CONTACT, intervals=((2.02, 9.16),), recording="monday")
     assert when(drag) == "seen 2.02 to 9.16 s of monday"
     broken = replace(drag, intervals=((7.998, 60.0),), parameters=(Estimate("instant", "s", 7.998, 7.98, 8.01),))
-    assert when(broken) == "8.00 to 60.0 s of monday"
+    assert when(broken) == "from 7.998 s (7.980 to 8.010) of monday on"
     off = replace(FAULT, intervals=((35.4, 59.8),), parameters=(Estimate("begin", "s", 35.4, 35.0, 35.6),))
     assert when(off) == "35.4 to 59.8 s"
     assert when(replace(drag, intervals=())) == "– of monday"
