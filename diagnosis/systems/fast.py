@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from cosim.assemble import Assembly, assemble
-from cosim.components import FmuComponent, ProgrammeComponent, nanoseconds
+from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import ConnectionFault, Transfer
 from cosim.errors import InputError
 from cosim.fmu.unit import FmuUnit
+from cosim.fmu.variables import start_value
 from cosim.formula import to_base
 from cosim.programme import Course, ProgrammeUnit
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario
 from cosim.unit import Array, UnitError
 from diagnosis.search.cosim_run import Changes
@@ -55,7 +55,6 @@ class FastSystem:
     Args:
         scenario: Programmes and FMUs, under the conditions of a recording.
         laws: Laws that may be added.
-        also: Further variables to record, (component, variable).
 
     Raises:
         InputError: The scenario is wrong.
@@ -91,7 +90,7 @@ class FastSystem:
             elif not isinstance(unit, ProgrammeUnit):
                 raise NotFast(f"{name} is no FMU")
         self._take_laws(laws)
-        self._order(scenario_kind=self.scenario.algorithm.kind)
+        self._order()
         self._grid()
 
     # laws
@@ -137,7 +136,7 @@ class FastSystem:
 
     # order of a macro-step
 
-    def _order(self, scenario_kind: str) -> None:
+    def _order(self) -> None:
         system = self.assembly.system
         self._numbers = {name: i for i, name in enumerate(self.fmus)}
         self._copies: list[CopyLayout] = []
@@ -152,7 +151,7 @@ class FastSystem:
             else:
                 raise NotFast("something of its order is no transfer")
         operations = list(settle)
-        if scenario_kind == "jacobi":
+        if self.scenario.algorithm.kind == "jacobi":
             for transfer in system.unsettled:
                 operations += self._transfer(transfer)
             operations += [OperationLayout(Code.STEP, self._numbers[n], 0) for n in system.movers]
@@ -305,9 +304,8 @@ class FastSystem:
         for name, fmu in self.fmus.items():
             fmu.unit.begin_again()
             own: dict[str, Any] = {**changes.parameters.get(name, {}), **changes.lists.get(name, {})}
-            before = getattr(fmu, "moved", {})
-            fmu.moved = own  # type: ignore[attr-defined]
-            back = {n: self.parameter(name, n) for n in before if n not in own}
+            back = {n: self.parameter(name, n) for n in fmu.moved if n not in own}
+            fmu.moved = frozenset(own)
             fmu.unit.set_parameters({**back, **own})
         system.initialise(self.start, self.assembly.start)
 
@@ -320,8 +318,6 @@ class FastSystem:
         variable = fmu.table.all[name]
         start = variable.variable.start if variable.variable.start is not None else None
         if start is None:
-            from cosim.fmu.variables import start_value
-
             start = start_value(variable.declared, variable.variable.type, variable.variable.shape)
         return np.asarray(start).tolist()
 
@@ -379,13 +375,3 @@ def samples(course: Course, start: int, size: int, steps: int) -> Array:
 def _to_base(value: float, unit: str) -> float:
     factor, offset = to_base(unit)
     return factor * value + offset
-
-
-def _programmes(scenario: Scenario) -> list[str]:
-    return [n for n, c in scenario.components.items() if isinstance(c, ProgrammeComponent)]
-
-
-def in_unit(value: PhysicalValue, unit: str) -> float:
-    """A quantity as a number in a unit."""
-    factor, offset = conversion(value.unit or "1", unit)
-    return factor * value.number + offset

@@ -70,6 +70,8 @@ class FastFmu:
         #: Name of a continuous state to its place, for scalars and elements of arrays.
         self.states = _state_names(unit) if self.is_model_exchange else {}
         self.state_count = len(self.states)
+        #: Parameters that the last simulation has moved.
+        self.moved: frozenset[str] = frozenset()
         self._build()
 
     def _build(self) -> None:

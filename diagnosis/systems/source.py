@@ -18,7 +18,6 @@ class Compiled:
 
     Args:
         library: The library.
-        count: Laws in it.
     """
 
     library: ctypes.CDLL
