@@ -18,6 +18,8 @@ KINDS = {"null": 0.25, "single": 0.3, "two": 0.1, "hidden": 0.1, "composed": 0.1
 OFF = 0.03
 #: Steps of the truth's integration between two readings.
 INNER = 8
+#: Draws of a case of which the truth may run away.
+TRIES = 10
 RECORDINGS = ("first", "second", "third")
 
 
@@ -91,8 +93,21 @@ def course(rig: Rig, numbers: dict[str, float], inputs: Array, effects: list[Eff
 
 
 def make(folder: Path, kind: str, seed: int, number: int) -> Case:
-    """Write scenario, FMUs and recordings into `task`, the answer into `answer.json`."""
-    rng = np.random.default_rng([seed, number])
+    """Write scenario, FMUs and recordings into `task`, the answer into `answer.json`.
+
+    Raises:
+        RuntimeError: Every truth that was drawn runs away.
+    """
+    for again in range(TRIES):
+        try:
+            return _make(folder, kind, [seed, number, *([again] if again else [])], number)
+        except (OverflowError, FloatingPointError):
+            continue  # a spring that softens may throw the mass out
+    raise RuntimeError(f"case {number + 1}: every truth runs away")
+
+
+def _make(folder: Path, kind: str, seed: list[int], number: int) -> Case:
+    rng = np.random.default_rng(seed)
     rig = RIGS[number % len(RIGS)]
     numbers = {n: v * float(np.exp(OFF * rng.standard_normal())) for n, v in rig.numbers.items()}
     plain = drive(rig, rng)
@@ -115,6 +130,8 @@ def make(folder: Path, kind: str, seed: int, number: int) -> Case:
     for i, name in enumerate(RECORDINGS):
         inputs = plain if i == 0 else drive(rig, rng)
         truth = course(rig, numbers, inputs, effects)
+        if not np.isfinite(truth).all():
+            raise FloatingPointError("the truth runs away")
         _write(task / name, rig, inputs, truth, sizes, rng, kind == "fault" and i == 1)
     case = Case(
         kind, rig.name, [rig.states[e.state] for e in effects], [list(e.answers) for e in effects],
