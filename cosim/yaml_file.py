@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pydantic
 import yaml
@@ -21,6 +21,7 @@ _KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_m
           "contact", "lead", "drop", "source_resistance", "current_limit")  # fmt: skip
 
 
+Model = TypeVar("Model", bound=pydantic.BaseModel)
 #: Levels that a file may have; and marks of a level in the text up to which nothing can be nested too deeply.
 DEEPEST, SAFE = 100, 2000
 _NESTING = ("[", "{", "- ", "? ", ": ")
@@ -71,6 +72,28 @@ def parse_yaml(text: str, source: Path) -> Any:
         raise InputError(source, where, f"not valid YAML: {getattr(error, 'problem', error)}", "correct it") from error
     except RecursionError as error:
         raise InputError(source, "", "not valid YAML: nested too deeply", "correct it") from error
+
+
+def read_model(path: Path, model: type[Model], what: str, remedy: str, without: str = "") -> Model:
+    """A file of one kind, checked.
+
+    Args:
+        path: The file.
+        model: What it is checked against.
+        what: What the file is, in words: "a sweep is a mapping with the keys title, axes".
+        remedy: What to do about a wrong key or value.
+        without: What to do where the file holds no mapping; default: `remedy`.
+
+    Raises:
+        InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
+    """
+    data = parse_yaml(read_text(path), path)
+    if not isinstance(data, dict):
+        raise InputError(path, "", what, without or remedy)
+    try:
+        return model.model_validate(data)
+    except pydantic.ValidationError as error:
+        raise input_error(path, error, remedy, model) from error
 
 
 def _check_depth(text: str, source: Path) -> None:

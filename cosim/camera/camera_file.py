@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import pydantic
 from pydantic import AfterValidator, Field, StrictBool, StrictFloat, StrictInt, model_validator
 
 from cosim.camera.colours import PLAIN, check_colour
 from cosim.components import Strict
-from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import read_model
 
 Number = Annotated[StrictFloat | StrictInt, Field(allow_inf_nan=False)]
 Length = Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)]
@@ -83,11 +81,10 @@ def load_camera(path: Path) -> CameraFile:
     Raises:
         InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "a camera is a mapping with keys such as rate, exposure and scale",
-                         "docs/camera.md lists them; `{}` is a camera without disturbances")  # fmt: skip
-    try:
-        return CameraFile.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, "docs/camera.md lists the keys of a camera") from error
+    return read_model(
+        path,
+        CameraFile,
+        "a camera is a mapping with keys such as rate, exposure and scale",
+        "docs/camera.md lists the keys of a camera",
+        "docs/camera.md lists them; `{}` is a camera without disturbances",
+    )

@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import pydantic
 from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
 
 from cosim.camera.rig import Frequency, LensEntry, NotNegativeTime, PlaneEntry, Seconds
 from cosim.components import Strict
-from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import read_model
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 HERE = "docs/camera.md explains the keys of an import"
@@ -72,10 +70,4 @@ def load_import(path: Path) -> ImportFile:
     Raises:
         InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "an import is a mapping with the keys title, markers, unit", HERE)
-    try:
-        return ImportFile.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, HERE) from error
+    return read_model(path, ImportFile, "an import is a mapping with the keys title, markers, unit", HERE)

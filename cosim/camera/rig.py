@@ -6,14 +6,12 @@ import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import pydantic
 from pydantic import AfterValidator, Field, StrictFloat, StrictInt, model_validator
 
 from cosim.camera.colours import check_colour
 from cosim.components import Strict
-from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import read_model
 
 
 def _finite(value: float) -> float:
@@ -205,10 +203,4 @@ def load_rig(path: Path) -> Rig:
     Raises:
         InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "a rig is a mapping with the keys title, plane, markers, clock", HERE)
-    try:
-        return Rig.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, HERE) from error
+    return read_model(path, Rig, "a rig is a mapping with the keys title, plane, markers, clock", HERE)

@@ -7,7 +7,6 @@ import re
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import pydantic
 from pydantic import BeforeValidator, Field, StrictInt, StrictStr, model_validator
 
 from cosim.components import AnyQuantity, Count, Strict
@@ -15,7 +14,7 @@ from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
 from cosim.scenario import Scenario, find_scenario, scenario_of_data
 from cosim.sweep.file import Output
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import parse_yaml, read_model, read_text
 
 _REMEDY = "docs/design.md explains every key"
 _SPAN = re.compile(r"^\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)\s*$")
@@ -114,13 +113,7 @@ def load_task(path: Path) -> tuple[Task, Scenario]:
     Raises:
         InputError: One of them cannot be read, or a key or value is wrong.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "a task is a mapping with the keys title, scenario, vary, wanted", _REMEDY)
-    try:
-        task = Task.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, _REMEDY) from error
+    task = read_model(path, Task, "a task is a mapping with the keys title, scenario, vary, wanted", _REMEDY)
     beside = path.parent / task.scenario
     try:
         found = beside if os.path.isfile(beside) else find_scenario(task.scenario)

@@ -6,14 +6,13 @@ import os
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import pydantic
 from pydantic import Field, StrictBool, StrictInt, StrictStr, model_validator
 
 from cosim.components import AnyQuantity, Count, Strict, Time
 from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
 from cosim.scenario import find_scenario
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import parse_yaml, read_model, read_text
 
 _REMEDY = "docs/sweeps.md explains every key"
 #: Most points of one axis, and most runs of a sweep: more is a slip of the pen, and would fill a disk.
@@ -189,13 +188,7 @@ def load_sweep(path: Path) -> SweepFile:
     Raises:
         InputError: It cannot be read, or a key or value is wrong.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "a sweep is a mapping with the keys title, scenario, axes, outputs", _REMEDY)
-    try:
-        return SweepFile.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, _REMEDY) from error
+    return read_model(path, SweepFile, "a sweep is a mapping with the keys title, scenario, axes, outputs", _REMEDY)
 
 
 def base_scenario(sweep: SweepFile, path: Path) -> tuple[Any, Path]:

@@ -8,14 +8,12 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import pydantic
 from pydantic import Field, StrictBool, model_validator
 
 from cosim.components import AnyQuantity, Strict, Time
-from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue, conversion
 from cosim.unit import Array
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import read_model
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.series import Series, sample
 
@@ -73,14 +71,13 @@ def load_sensors(path: Path) -> SensorFile:
     Raises:
         InputError: It cannot be read, or a key or value is wrong.
     """
-    data = parse_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, "", "sensors are a mapping with the keys default and channels",
-                         "see docs/recordings.md")  # fmt: skip
-    try:
-        return SensorFile.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(path, error, "docs/recordings.md lists the keys of a sensor", SensorFile) from error
+    return read_model(
+        path,
+        SensorFile,
+        "sensors are a mapping with the keys default and channels",
+        "docs/recordings.md lists the keys of a sensor",
+        "see docs/recordings.md",
+    )
 
 
 @dataclass(frozen=True)

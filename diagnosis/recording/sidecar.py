@@ -6,13 +6,11 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-import pydantic
 from pydantic import AfterValidator, Field, StrictFloat, StrictInt, model_validator
 
 from cosim.components import AnyQuantity, Duration, Strict, Time
-from cosim.errors import InputError
 from cosim.quantity import In, PhysicalValue
-from cosim.yaml_file import input_error, parse_yaml, read_text
+from cosim.yaml_file import read_model
 
 Number = StrictFloat | StrictInt
 
@@ -143,11 +141,10 @@ def load_sidecar(file: Path) -> Sidecar:
     Raises:
         InputError: It cannot be read, or a key or value is wrong; all faults are listed, each with its key.
     """
-    data = parse_yaml(read_text(file), file)
-    if not isinstance(data, dict):
-        raise InputError(file, "", "a recording is a mapping with the keys title, table, channels",
-                         "see docs/recordings.md, or make one with `cosim record`")  # fmt: skip
-    try:
-        return Sidecar.model_validate(data)
-    except pydantic.ValidationError as error:
-        raise input_error(file, error, "docs/recordings.md lists the keys of a recording", Sidecar) from error
+    return read_model(
+        file,
+        Sidecar,
+        "a recording is a mapping with the keys title, table, channels",
+        "docs/recordings.md lists the keys of a recording",
+        "see docs/recordings.md, or make one with `cosim record`",
+    )
