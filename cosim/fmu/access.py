@@ -23,6 +23,13 @@ StatusCheck = Callable[[str, int], None]
 _WARNING = 1
 
 
+def address_of(function: Any) -> int:
+    """Address of a C function, for whoever calls it without Python."""
+    value = ctypes.cast(function, ctypes.c_void_p).value
+    assert value is not None
+    return value
+
+
 class Access:
     """A set or get call with everything bound; `access()` makes it.
 

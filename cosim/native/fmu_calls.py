@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any
 
-from cosim.fmu.access import Access
+from cosim.fmu.access import Access, address_of
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Call
 from cosim.native.layout import ELEMENT_TYPES, Code, Operation
@@ -69,7 +68,7 @@ def step_call(unit: CoSimulationUnit, index: int, due: Array) -> Call:
     operation = Operation(
         code=Code.STEP_FMI3 if is_fmi3 else Code.STEP_FMI2,
         unit=index,
-        function=_address(binding.step_function),
+        function=address_of(binding.step_function),
         component=binding.fmu.component,
         due=due.ctypes.data,
     )
@@ -92,18 +91,12 @@ def _is_fmi3(access: Access) -> bool:
     return access.function.startswith("fmi3")
 
 
-def _address(function: Any) -> int:
-    value = ctypes.cast(function, ctypes.c_void_p).value
-    assert value is not None
-    return value
-
-
 def _access_call(access: Access, code: Code, unit: int) -> Call:
     operation = Operation(
         code=code,
         unit=unit,
         target_type=ELEMENT_TYPES[access.buffer.dtype.name],
-        function=_address(access.call),
+        function=address_of(access.call),
         component=access.arguments[0],
         references=ctypes.addressof(access.references),
         reference_count=len(access.references),

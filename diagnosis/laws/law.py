@@ -45,7 +45,6 @@ class Number:
         most: Largest value, in characteristic sizes.
         least: Smallest value, in characteristic sizes; None: as large as `most`, with the other sign.
         origin: Symbol from whose middle value it is counted (a position), or empty.
-        is_switch: A share that is fitted, of which 1 is the whole.
     """
 
     name: str

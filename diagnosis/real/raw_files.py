@@ -25,14 +25,21 @@ def recordings_folder(given: Path | None = None) -> Path | None:
     return Path(named) if named else None
 
 
-def raw_file(folder: Path, data_set: str, name: str) -> Path:
+def raw_file(folder: Path, data_set: str, name: str, source: str = "") -> Path:
     """A raw file.
+
+    Args:
+        folder: Of all data sets.
+        data_set: Folder of the set.
+        name: Of the file.
+        source: Where it is published; default: that of `SOURCES`.
 
     Raises:
         InputError: It is not there; the error names its public source.
     """
     file = folder / data_set / name
     if not file.is_file():
+        where = source or SOURCES[data_set]
         raise InputError(file, "", "there is no such file",
-                         f"fetch it from {SOURCES[data_set]} and put it into {folder / data_set}")  # fmt: skip
+                         f"fetch it from {where} and put it into {folder / data_set}")  # fmt: skip
     return file

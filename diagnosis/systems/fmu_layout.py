@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.fmu.access import Access
+from cosim.fmu.access import Access, address_of
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuUnit
@@ -93,7 +93,7 @@ class FastFmu:
             self._take_functions()
             self.layout.reports_steps = bool(binding.capabilities.needsCompletedIntegratorStep)
         else:
-            self.layout.do_step = _address(binding.step_function)
+            self.layout.do_step = address_of(binding.step_function)
         self.layout.states, self.layout.indicators = self.state_count, self.indicators
         self._writer_array = (AccessLayout * max(len(self.writers), 1))(*map(_access, self.writers))
         self._reader_array = (AccessLayout * max(len(self.readers), 1))(*map(_access, self.readers))
@@ -147,7 +147,7 @@ class FastFmu:
             "enter_continuous_mode": "EnterContinuousTimeMode",
         }
         for field, name in names.items():
-            setattr(layout, field, _address(binding.function(name)))
+            setattr(layout, field, address_of(binding.function(name)))
 
     def set_added(self, added: Sequence[AddedLayout]) -> None:
         """Laws that act from now on; states of theirs come after those of the FMU."""
@@ -187,15 +187,9 @@ def _state_names(unit: FmuUnit) -> dict[str, int]:
     return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
-def _address(function: Any) -> int:
-    value = ctypes.cast(function, ctypes.c_void_p).value
-    assert value is not None
-    return value
-
-
 def _access(access: Access) -> AccessLayout:
     return AccessLayout(
-        _address(access.call),
+        address_of(access.call),
         ctypes.addressof(access.references),
         len(access.references),
         access.buffer.ctypes.data,

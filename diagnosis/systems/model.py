@@ -76,14 +76,18 @@ class SystemModel(CosimModel):
 
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; laws are added to their FMUs."""
-        plain = Point(point.base, {t: v for t, v in point.terms.items() if t.recording is not None})
-        found = super().changes_at(plain, number)
+        found = self._numbers_at(point, number)
         added: dict[str, list[AddedTermEntry]] = {}
         for term, values in point.terms.items():
             if term in self._found:
                 placed = self._found[term][1].placed
                 added.setdefault(placed.component, []).append(placed.entry(values))
         return replace(found, added={name: tuple(entries) for name, entries in added.items()})
+
+    def _numbers_at(self, point: Point, number: int | None) -> Changes:
+        """What a point changes beside laws."""
+        faults = {t: v for t, v in point.terms.items() if t.recording is not None}
+        return super().changes_at(Point(point.base, faults), number)
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI; None where the simulation stopped."""
@@ -136,8 +140,7 @@ class SystemModel(CosimModel):
         return found
 
     def _prediction(self, point: Point, number: int) -> list[Array] | None:
-        plain = Point(point.base, {t: v for t, v in point.terms.items() if t.recording is not None})
-        changes = super().changes_at(plain, number)
+        changes = self._numbers_at(point, number)
         laws = {self._found[t][0]: v for t, v in point.terms.items() if t in self._found}
         fast = self._fast[number]
         rows = fast.simulate(changes, laws)

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from cosim.fmu.access import address_of
 from diagnosis.bank.compiler import load
 from diagnosis.systems.expression import PREAMBLE, to_c
 from diagnosis.systems.placed import Placed
@@ -24,9 +25,7 @@ class Compiled:
 
     def address(self, name: str) -> int:
         """Of a function."""
-        found = ctypes.cast(getattr(self.library, name), ctypes.c_void_p).value
-        assert found is not None
-        return found
+        return address_of(getattr(self.library, name))
 
 
 def compiled(

@@ -148,8 +148,8 @@ static int write_inputs(const Unit *u, const double *own)
     return DONE;
 }
 
-/* Derivatives of the FMU's states and of those of laws. */
-static int derivatives(Unit *u, double time, double *x, double *rates)
+/* The FMU stands at a point of the integration. */
+static int move_to(Unit *u, double time, double *x)
 {
     if (((SetTime)u->set_time)(u->component, time) > WARNING) {
         return FAILED;
@@ -160,9 +160,18 @@ static int derivatives(Unit *u, double time, double *x, double *rates)
     if (u->added_count) {
         memcpy(u->seen, x, (size_t)u->states * sizeof(double));
         look_around(u, time);
-        if (u->has_inputs_added && write_inputs(u, x + u->states) != DONE) {
-            return FAILED;
+        if (u->has_inputs_added) {
+            return write_inputs(u, x + u->states);
         }
+    }
+    return DONE;
+}
+
+/* Derivatives of the FMU's states and of those of laws. */
+static int derivatives(Unit *u, double time, double *x, double *rates)
+{
+    if (move_to(u, time, x) != DONE) {
+        return FAILED;
     }
     if (u->states && ((Vector)u->get_derivatives)(u->component, rates, (size_t)u->states) > WARNING) {
         return FAILED;
@@ -211,25 +220,6 @@ static int runge_kutta(Unit *u, double time, double step, double *x)
         sum += x[i];
     }
     return isfinite(sum) ? DONE : FAILED;
-}
-
-/* The FMU stands at a point of the integration. */
-static int move_to(Unit *u, double time, double *x)
-{
-    if (((SetTime)u->set_time)(u->component, time) > WARNING) {
-        return FAILED;
-    }
-    if (u->states && ((Vector)u->set_states)(u->component, x, (size_t)u->states) > WARNING) {
-        return FAILED;
-    }
-    if (u->added_count) {
-        memcpy(u->seen, x, (size_t)u->states * sizeof(double));
-        look_around(u, time);
-        if (u->has_inputs_added) {
-            return write_inputs(u, x + u->states);
-        }
-    }
-    return DONE;
 }
 
 /* From Event Mode back to Continuous-Time Mode; the states may be new. */

@@ -55,7 +55,7 @@ def emps(raw: Path, out: Path) -> DataSet:
     Raises:
         InputError: The file is missing.
     """
-    table = pd.read_csv(raw_file(raw, "emps", "slide.csv"))
+    table = pd.read_csv(raw_file(raw, "emps", "slide.csv", SOURCE))
     time, force, position = (table[c].to_numpy() for c in ("time_s", "motor_force_N", "position_m"))
     step = float(np.median(np.diff(time)))
     speed = np.gradient(np.convolve(position, np.ones(9) / 9, mode="same"), step)

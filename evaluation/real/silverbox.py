@@ -72,7 +72,7 @@ def silverbox(raw: Path, out: Path) -> DataSet:
 
 def _windows(raw: Path, name: str, most: int) -> Iterator[Part]:
     """Windows of one file, evenly spread over it; the input is band-limited and is given between the samples too."""
-    table = pd.read_csv(raw_file(raw, "silverbox", f"{name}.csv"))
+    table = pd.read_csv(raw_file(raw, "silverbox", f"{name}.csv", SOURCE))
     force, displacement = table["force_V"].to_numpy(), table["displacement_V"].to_numpy()
     finer = resample_poly(force, FINER, 1, padtype="line")
     starts = np.unique(np.linspace(0, len(force) - WINDOW - 1, most).astype(int))

@@ -12,6 +12,7 @@ from diagnosis.laws.law import Role
 from diagnosis.laws.library import library
 from diagnosis.systems.fast import FastSystem
 from diagnosis.systems.places import Fit, fits, places_of
+from evaluation.real.__main__ import main as real
 from tests.systems.rigs import LUMP, OSCILLATOR, OSCILLATOR_SCENARIO, TANK
 
 _TANK = """
@@ -115,7 +116,7 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
 
 
 def test_a_lag_of_a_macro_step_is_an_error_of_the_coupling_and_no_finding(folder: Path) -> None:
-    """Gauss-Seidel hands on values that are half a macro-step early: a lag of that size mends it."""
+    """Gauss-Seidel hands on values that are half a macro-step early: a lag of that size compensates that."""
     system = FastSystem(parse_scenario(_TANK, folder / "scenario.yaml"))
     found = {f.term.identifier: f for f in fits(places_of([system]), library(), 1.0, 0.5)}
     system.close()
@@ -127,3 +128,10 @@ def test_the_page_of_the_library_is_that_of_the_files() -> None:
     page = Path(__file__).parents[2] / "docs" / "law-library.md"
     assert page.read_text(encoding="utf-8").rstrip() == "\n".join(lines()).rstrip()
     assert "`-stiffness_3 * x ** 3`" in page.read_text(encoding="utf-8")
+
+
+def test_a_missing_recording_is_named_with_its_source(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert real(["--recordings", str(tmp_path), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert "slide.csv: there is no such file" in said
+    assert "nonlinearbenchmark.org" in said

@@ -1,1 +1,1 @@
-"""Laws of inputs: what an actuator makes of what it is told."""
+"""Laws of inputs: what an actuator makes of its command."""
