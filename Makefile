@@ -34,9 +34,9 @@ prove: dev fmus  ## the diagnosis on 480 cases with concealed effects (three hou
 
 REAL ?= runs/real
 real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=folder of their raw files (docs/real-recordings.md)
-	test -d $(REAL)/recordings || $(BIN)/python -m diagnosis.real --recordings "$(RECORDINGS)" --out $(REAL)/recordings
-	test -d $(REAL)/recordings/paper_cooling || $(BIN)/python -m diagnosis.real.paper_cooling --out $(REAL)/recordings
-	$(BIN)/python -m diagnosis.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
+	test -d $(REAL)/recordings || $(BIN)/python -m evaluation.real --recordings "$(RECORDINGS)" --out $(REAL)/recordings
+	test -d $(REAL)/recordings/paper_cooling || $(BIN)/python -m evaluation.real.paper_cooling --out $(REAL)/recordings
+	$(BIN)/python -m evaluation.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
 
 test: dev fmus  ## the test suite (about ten minutes on two cores)
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m "not slow"

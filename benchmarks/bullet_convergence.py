@@ -15,9 +15,9 @@ import numpy as np
 from benchmarks.machine import heading, results_folder
 from cosim.mechanics_assembly import FABRIC_UNITS
 from cosim.parameters import resolve
-from cosim.quantity import PhysicalValue
 from cosim.scenario import scenario_folder
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
+from cosim.unit.quantity import PhysicalValue
 from mechanics.fabric import FabricDesign
 from mechanics.solver import SolverSettings
 from mechanics.unit import FabricUnit
@@ -30,9 +30,15 @@ MACRO_STEP = 10_000_000
 ESCAPED = 4e-3
 #: (micro-step [ms], iterations, number of starts), cheap ones first. What is left out costs more than all the rest.
 CELLS = (
-    (1.0, 50, 1), (0.5, 50, 1), (0.5, 100, 2), (0.5, 200, 3), (1.0, 200, 1), (0.25, 50, 1), (0.25, 200, 1),
+    (1.0, 50, 1),
+    (0.5, 50, 1),
+    (0.5, 100, 2),
+    (0.5, 200, 3),
+    (1.0, 200, 1),
+    (0.25, 50, 1),
+    (0.25, 200, 1),
     (0.5, 1000, 1),
-)  # fmt: skip
+)
 QUICK = ((1.0, 50, 1), (0.5, 50, 1))
 
 
@@ -155,8 +161,10 @@ def table(cells: tuple[tuple[float, int, int], ...], durations: tuple[float, flo
         "lengths: hung by the first row, 2 s each, one start. Times: of the processor, on one core. Cells that "
         "are missing, and starts that are fewer, cost too much.\n"
     )
-    yield ("| micro-step [ms] | iterations | starts | cold | hot | re-cooled | worst overlap [mm] | failed "
-           "| hung cold [cm] | hung hot [cm] | ms per micro-step | s per simulated s |")  # fmt: skip
+    yield (
+        "| micro-step [ms] | iterations | starts | cold | hot | re-cooled | worst overlap [mm] | failed "
+        "| hung cold [cm] | hung hot [cm] | ms per micro-step | s per simulated s |"
+    )
     yield "|" + "---|" * 12
     for micro_ms, iterations, starts in cells:
         yield row(micro_ms, iterations, starts, durations)

@@ -16,11 +16,11 @@ import xarray as xr
 import yaml
 
 from benchmarks.machine import heading
-from cosim.camera.camera_file import CameraFile
-from cosim.camera.measure import Measured, measure
-from cosim.camera.rendered import motion_of_results, motion_of_table, write_video
-from cosim.camera.rig import load_rig
-from cosim.camera.tracks import GAP, SEEN
+from chainmail.camera.camera_file import CameraFile
+from chainmail.camera.measure import Measured, measure
+from chainmail.camera.rendered import motion_of_results, motion_of_table, write_video
+from chainmail.camera.rig import load_rig
+from chainmail.camera.tracks import GAP, SEEN
 
 DISTURBED = {"light": 0.65, "gradient": 0.5, "jpeg": 50, "noise": 3.0}
 LENS = {"fiducials": True, "yaw": "12 deg", "pitch": "-6 deg", "distortion": [-0.25, 0.08, 0.001, -0.0008]}
@@ -83,12 +83,16 @@ def _compared(measured: Measured, times: Any, places: Any, bent: Any, rate: floa
     whole = (state == SEEN)[..., None] & np.isfinite(off)
     shift = float(np.sum((off * speed)[whole]) / np.sum((speed**2)[whole]))
     return Score(
-        float(np.sqrt(np.mean(error**2))), float(np.mean(error[hot])) if hot.any() else float("nan"),
+        float(np.sqrt(np.mean(error**2))),
+        float(np.mean(error[hot])) if hot.any() else float("nan"),
         float(np.mean(np.abs(error) < 1.96 * curvature.deviation[known])),
         float(1e3 * np.sqrt(np.mean(off[is_read] ** 2))),
         float(np.mean(np.abs(off[is_read]) < 1.96 * tracks.deviation[is_read])),
-        float(1.0 - np.mean(known)), float(wrong.sum()), 1e3 * shift, rate,
-    )  # fmt: skip
+        float(1.0 - np.mean(known)),
+        float(wrong.sum()),
+        1e3 * shift,
+        rate,
+    )
 
 
 def main() -> None:
@@ -103,11 +107,12 @@ def main() -> None:
     lines = [
         heading("Tracking of rendered videos", "python -m benchmarks.camera RUN --out FOLDER"),
         "The prototype cantilever from 0 to 20 s, rendered at 960 x 720, 0.25 mm to a pixel, 30 frames per second, "
-        "exposed for 8 ms.", "",
+        "exposed for 8 ms.",
+        "",
         "| case | curvature rms [1/m] | bias when hot [1/m] | in 95 % interval: curvature, places | places rms [mm] "
         "| frames without curvature | wrong identities | clock [ms] | frames per CPU second |",
         "|---|---|---|---|---|---|---|---|---|",
-    ]  # fmt: skip
+    ]
     for number, (name, spec) in enumerate(CASES.items()):
         if number not in chosen:
             continue

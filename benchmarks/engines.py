@@ -17,7 +17,7 @@ import numpy as np
 
 from benchmarks.bullet_convergence import COLD, HOT, MACRO_STEP, prototype, woven_unit
 from benchmarks.machine import heading, results_folder
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 from mechanics.solver import SolverSettings
 
 #: Overlap that ends a run [m].
@@ -48,14 +48,27 @@ def drape(settings: dict[str, Any], start: int, durations: tuple[float, float], 
                 now += MACRO_STEP
                 centre, lengths = unit.get("row_centre"), unit.get("link_length")
                 sag = float(centre[0, 2] - centre[-1, 2])
-                rows.append((float(unit.get("max_curvature")), sag, float(lengths.mean()), float(lengths.max()),
-                             float(unit.get("max_penetration"))))  # fmt: skip
+                rows.append(
+                    (
+                        float(unit.get("max_curvature")),
+                        sag,
+                        float(lengths.mean()),
+                        float(lengths.max()),
+                        float(unit.get("max_penetration")),
+                    )
+                )
                 contacts = float(unit.get("contact_count"))
             taken = time.process_time() - begin
             last, whole = np.mean(rows[-50:], axis=0), np.array(rows)
-            found |= {f"curvature_{name}": last[0], f"sag_{name}": last[1], f"length_{name}": last[2],
-                      f"longest_{name}": last[3], f"overlap_{name}": float(whole[:, 4].max()),
-                      f"real_time_{name}": duration / taken, f"contacts_{name}": contacts}  # fmt: skip
+            found |= {
+                f"curvature_{name}": last[0],
+                f"sag_{name}": last[1],
+                f"length_{name}": last[2],
+                f"longest_{name}": last[3],
+                f"overlap_{name}": float(whole[:, 4].max()),
+                f"real_time_{name}": duration / taken,
+                f"contacts_{name}": contacts,
+            }
     except UnitError as error:
         found["failure"] = error.what
     unit.terminate()
@@ -97,7 +110,7 @@ COLUMNS: dict[str, Callable[[list[dict[str, Any]]], str]] = {
     "worst overlap [mm]": lambda rows: f"{1e3 * max(r.get(k, 0) for r in rows for k in _OVERLAPS):.2f}",
     "times real time, cold": lambda rows: _band(rows, "real_time_cold"),
     "times real time, hot": lambda rows: _band(rows, "real_time_hot"),
-}  # fmt: skip
+}
 
 
 def table(rows: list[dict[str, Any]]) -> str:

@@ -23,7 +23,7 @@ from cosim.fmu.settings import FmuSettings
 from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
 from cosim.shipped import fmu_folder
-from cosim.unit import Causality, Unit
+from cosim.unit.protocol import Causality, Unit
 
 SIZE = 10_000_000
 TURNS, STEPS = 20, 200
@@ -127,18 +127,22 @@ def main(arguments: list[str] | None = None) -> None:
         "thermal_stiffness, FMI 3.0, 36 coils": (actuator, 36),
         "thermal_stiffness, FMI 3.0, 1000 coils": (actuator, 1000),
     }
-    lines = [heading("FMUs in processes of their own", "python -m benchmarks.isolation"),
-             "Microseconds per macro-step: all inputs set, a step, all outputs read.\n",
-             "| FMU | no process | process | cost of the process | slowest tenth: no process | process |",
-             "|---|---|---|---|---|---|"]  # fmt: skip
+    lines = [
+        heading("FMUs in processes of their own", "python -m benchmarks.isolation"),
+        "Microseconds per macro-step: all inputs set, a step, all outputs read.\n",
+        "| FMU | no process | process | cost of the process | slowest tenth: no process | process |",
+        "|---|---|---|---|---|---|",
+    ]
     lines += [f"| {name} | {macro_step(*case)} |" for name, case in cases.items()]
     start, end = start_and_end(actuator)
     after, together = two_at_a_time(actuator, 20_000)
     ratio = after / together
-    lines += [f"\nStart of a process with its FMU {start:.0f} ms, end {end:.0f} ms (medians).\n",
-              f"Two FMUs of 20,000 coils, us per step: one after the other (`do_step`) {after:.0f}, at the same time "
-              f"(`begin_step`, `finish_step`) {together:.0f}, {ratio:.2f} times faster; load of the machine meanwhile "
-              f"{os.getloadavg()[0]:.1f} on {os.cpu_count()} cores."]  # fmt: skip
+    lines += [
+        f"\nStart of a process with its FMU {start:.0f} ms, end {end:.0f} ms (medians).\n",
+        f"Two FMUs of 20,000 coils, us per step: one after the other (`do_step`) {after:.0f}, at the same time "
+        f"(`begin_step`, `finish_step`) {together:.0f}, {ratio:.2f} times faster; load of the machine meanwhile "
+        f"{os.getloadavg()[0]:.1f} on {os.cpu_count()} cores.",
+    ]
     text = "\n".join(lines) + "\n"
     (results_folder() / "isolation.md").write_text(text)
     print(text)

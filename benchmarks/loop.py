@@ -33,7 +33,7 @@ from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
 from cosim.programme import Course, ProgrammeUnit
 from cosim.system import System
-from cosim.unit import Unit, seconds
+from cosim.unit.protocol import Unit, seconds
 
 MACRO_STEP = 1_000_000
 #: Macro-steps times units of one run, so that every run takes about as long.

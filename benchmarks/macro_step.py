@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import heading, results_folder
-from cosim.paper.measures import half_way_delay, plateau
-from cosim.quantity import PhysicalValue
+from chainmail.measures import half_way_delay, plateau
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.quantity import PhysicalValue
 
 #: Macro-steps of the electro-thermal loop and of the prototype [ms]; its switching times allow divisors of 10 ms only.
 LOOP_STEPS = (400, 200, 100, 50)
@@ -36,15 +36,23 @@ def loop(kind: str, macro_ms: float) -> np.ndarray[Any, Any]:
     scenario = base.model_copy(
         update={"components": components, "algorithm": base.algorithm.model_copy(update={"kind": kind})}
     )
-    scenario = with_steps(scenario, macro_ms, stop=PhysicalValue(8.0, "s"), output_step=PhysicalValue(0.4, "s"),
-                          checkpoint_step=PhysicalValue(8.0, "s"))  # fmt: skip
+    scenario = with_steps(
+        scenario,
+        macro_ms,
+        stop=PhysicalValue(8.0, "s"),
+        output_step=PhysicalValue(0.4, "s"),
+        checkpoint_step=PhysicalValue(8.0, "s"),
+    )
     return np.array(run(scenario)["actuator.temperature"].values[-1])
 
 
 def loop_table() -> list[str]:
     """Largest error over six voltages, against 1 ms, and the observed order."""
-    lines = ["## Electro-thermal loop (R rises by 0.1 %/K), error of temperature after 8 s\n",
-             "| macro-step [ms] | jacobi [K] | order | gauss_seidel [K] | order |", "|" + 5 * "---|"]  # fmt: skip
+    lines = [
+        "## Electro-thermal loop (R rises by 0.1 %/K), error of temperature after 8 s\n",
+        "| macro-step [ms] | jacobi [K] | order | gauss_seidel [K] | order |",
+        "|" + 5 * "---|",
+    ]
     reference = loop("gauss_seidel", 1.0)
     errors = {k: [np.abs(loop(k, h) - reference).max() for h in LOOP_STEPS] for k in ("jacobi", "gauss_seidel")}
     for i, size in enumerate(LOOP_STEPS):
@@ -66,17 +74,23 @@ def prototype_row(macro_ms: float) -> str:
     off = half_way_delay(kappa, 12.6, hot, again)
     worst = 1e3 * float(result["fabric.max_penetration"].max())
     hottest = float(result["actuator.temperature"].max()) - 273.15
-    return (f"| {macro_ms:g} | {cold:.4f} | {hot:.4f} | {again:.4f} | {on:.2f} | {off:.2f} | {hottest:.4f} "
-            f"| {worst:.3f} |")  # fmt: skip
+    return (
+        f"| {macro_ms:g} | {cold:.4f} | {hot:.4f} | {again:.4f} | {on:.2f} | {off:.2f} | {hottest:.4f} | {worst:.3f} |"
+    )
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Print and write the tables."""
     del arguments
-    lines = [heading("Macro-step", "python -m benchmarks.macro_step"), *loop_table(), "",
-             "## Prototype cantilever\n",
-             "| macro-step [ms] | cold [1/cm] | hot [1/cm] | re-cooled [1/cm] | delay on [s] | delay off [s] "
-             "| hottest coil [degC] | worst overlap [mm] |", "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    lines = [
+        heading("Macro-step", "python -m benchmarks.macro_step"),
+        *loop_table(),
+        "",
+        "## Prototype cantilever\n",
+        "| macro-step [ms] | cold [1/cm] | hot [1/cm] | re-cooled [1/cm] | delay on [s] | delay off [s] "
+        "| hottest coil [degC] | worst overlap [mm] |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     lines += [prototype_row(size) for size in PROTOTYPE_STEPS]
     text = "\n".join(lines) + "\n"
     (results_folder() / "macro_step.md").write_text(text)

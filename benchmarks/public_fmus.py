@@ -24,12 +24,12 @@ import fmpy
 import numpy as np
 
 from benchmarks.machine import heading, results_folder
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings
-from cosim.unit import NANOSECONDS, Causality, StepStatus, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, Causality, StepStatus, UnitError
 
 STEPS, SIZE = 100, NANOSECONDS // 100
 #: Wall time after which an FMU is given up [s].
@@ -84,9 +84,15 @@ def run(path: Path, interface: str) -> tuple[str, float | None]:
 def _against_fmpy(path: Path, found: dict[str, np.ndarray]) -> float | None:
     try:
         result = fmpy.simulate_fmu(
-            str(path), stop_time=1.0, step_size=0.01, output_interval=0.01, fmi_type="CoSimulation",
-            output=list(found), set_stop_time=False, validate=False,
-        )  # fmt: skip
+            str(path),
+            stop_time=1.0,
+            step_size=0.01,
+            output_interval=0.01,
+            fmi_type="CoSimulation",
+            output=list(found),
+            set_stop_time=False,
+            validate=False,
+        )
     except Exception:  # fmpy raises bare Exception
         return None
     last = {n: float(result[n][-1]) for n in found}

@@ -90,17 +90,25 @@ def main(arguments: list[str] | None = None) -> None:
     """Print and write the tables."""
     del arguments
     build()
-    lines = [heading("Quarter truck: height of the chassis at 2 s", "python -m benchmarks.quarter_truck"),
-             "Chassis 400 kg on 15 kN/m and 1 kN s/m, wheel 40 kg on 150 kN/m without damping. The ground steps by",
-             "0.1 m at 1 s, its derivative behind a 10 Hz filter. Start: chassis at 1 m, wheel at 0.5 m, at rest,",
-             "springs compressed by the weights. One monolithic solution of all equations (SciPy DOP853): "
-             f"{monolithic():.9f} m.",
-             ]  # fmt: skip
+    lines = [
+        heading("Quarter truck: height of the chassis at 2 s", "python -m benchmarks.quarter_truck"),
+        "Chassis 400 kg on 15 kN/m and 1 kN s/m, wheel 40 kg on 150 kN/m without damping. The ground steps by",
+        "0.1 m at 1 s, its derivative behind a 10 Hz filter. Start: chassis at 1 m, wheel at 0.5 m, at rest,",
+        "springs compressed by the weights. One monolithic solution of all equations (SciPy DOP853): "
+        f"{monolithic():.9f} m.",
+    ]
     for name, simulate in METHODS.items():
         rows, limit = table(simulate)
         beside = limit - monolithic()
-        lines += ["", f"## {name}\n", "| step [s] | height [m] | error [m] | order |", "|---|---|---|---|", *rows, "",
-                  f"Richardson limit {limit:.9f} m, {beside:+.1e} m from the monolithic solution."]  # fmt: skip
+        lines += [
+            "",
+            f"## {name}\n",
+            "| step [s] | height [m] | error [m] | order |",
+            "|---|---|---|---|",
+            *rows,
+            "",
+            f"Richardson limit {limit:.9f} m, {beside:+.1e} m from the monolithic solution.",
+        ]
     text = "\n".join(lines) + "\n"
     (results_folder() / "quarter_truck.md").write_text(text)
     print(text)

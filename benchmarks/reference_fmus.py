@@ -23,12 +23,12 @@ import numpy as np
 
 from benchmarks.machine import heading, results_folder
 from benchmarks.reference_solutions import EXACT, Exact
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings, FmuUnit
-from cosim.unit import NANOSECONDS, StepStatus, UnitError, VariableType, seconds
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, StepStatus, UnitError, VariableType, seconds
 
 INTERFACES: dict[str, Callable[[str, Any, FmuSettings], FmuUnit]] = {
     "CS": CoSimulationUnit,
@@ -146,9 +146,12 @@ def compare(path: Path, reference: Path, version: int, interface: str) -> Row:
 
 
 def _worst(
-    unit: FmuUnit, times: Sequence[int], values: Sequence[dict[str, Any]], columns: dict[str, list[str]],
+    unit: FmuUnit,
+    times: Sequence[int],
+    values: Sequence[dict[str, Any]],
+    columns: dict[str, list[str]],
     exact: Exact | None,
-) -> float:  # fmt: skip
+) -> float:
     solution = exact(np.array([seconds(t) for t in times])) if exact is not None else {}
     worst = 0.0
     for name, texts in columns.items():
@@ -184,9 +187,11 @@ def feedthrough_of_extremes(path: Path, version: int, interface: str) -> Row:
 
 def _extreme(vtype: VariableType, pick: Callable[..., Any]) -> Any:
     special = {
-        VariableType.STRING: pick("", "größer"), VariableType.BINARY: pick(b"", b"\x00\xff\x00"),
-        VariableType.BOOLEAN: pick(False, True), VariableType.ENUMERATION: pick(1, 2),
-    }  # fmt: skip
+        VariableType.STRING: pick("", "größer"),
+        VariableType.BINARY: pick(b"", b"\x00\xff\x00"),
+        VariableType.BOOLEAN: pick(False, True),
+        VariableType.ENUMERATION: pick(1, 2),
+    }
     if vtype in special:
         return special[vtype]
     info: Any = np.finfo(vtype.dtype) if vtype.is_float else np.iinfo(vtype.dtype)

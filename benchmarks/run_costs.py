@@ -41,12 +41,18 @@ CASES: dict[str, tuple[int, int, int, int, bool]] = {
 def measure(case: str) -> dict[str, float]:
     """Times [s] and memory [MiB] of one run, in this process."""
     fmus, steps, step, outputs, has_folder = CASES[case]
-    data = "\n".join([
-        f"title: costs\ntime: {{stop: {steps * step} ms, macro_step: {step} ms, output_step: {outputs * step} ms}}",
-        "algorithm: {kind: gauss_seidel}\ncomponents:",
-        *(f"  u{i}: {{kind: fmu, fmu: {FMUS}/feedthrough_fmi2.fmu, fmi: 2, start: {{u: 1.0}}}}" for i in range(fmus)),
-        "connections:", *(f"  - u{i}.y -> u{i + 1}.u" for i in range(fmus - 1)),
-    ])  # fmt: skip
+    data = "\n".join(
+        [
+            f"title: costs\ntime: {{stop: {steps * step} ms, macro_step: {step} ms, output_step: {outputs * step} ms}}",
+            "algorithm: {kind: gauss_seidel}\ncomponents:",
+            *(
+                f"  u{i}: {{kind: fmu, fmu: {FMUS}/feedthrough_fmi2.fmu, fmi: 2, start: {{u: 1.0}}}}"
+                for i in range(fmus)
+            ),
+            "connections:",
+            *(f"  - u{i}.y -> u{i + 1}.u" for i in range(fmus - 1)),
+        ]
+    )
     scenario = parse_scenario(data, Path("costs.yaml"))
     folder = Path(tempfile.mkdtemp())
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -66,8 +72,10 @@ def interleaved(repetitions: int) -> dict[str, list[dict[str, float]]]:
         for case in CASES:
             done = subprocess.run(
                 [sys.executable, "-m", "benchmarks.run_costs", "--case", case],
-                capture_output=True, text=True, check=True,
-            )  # fmt: skip
+                capture_output=True,
+                text=True,
+                check=True,
+            )
             found[case].append(json.loads(done.stdout.splitlines()[-1]))
     return found
 

@@ -99,15 +99,27 @@ def main(arguments: list[str] | None = None) -> None:
     """Print and write the tables."""
     del arguments
     build()
-    lines = [heading("Two-mass oscillator", "python -m benchmarks.two_mass"),
-             "Force and displacement coupling, both halves exact between communication points. Error of the",
-             f"displacements at {TWO_MASS.stop} s against the closed form; start (1 m, 0) at rest."]  # fmt: skip
+    lines = [
+        heading("Two-mass oscillator", "python -m benchmarks.two_mass"),
+        "Force and displacement coupling, both halves exact between communication points. Error of the",
+        f"displacements at {TWO_MASS.stop} s against the closed form; start (1 m, 0) at rest.",
+    ]
     for name, simulate in METHODS.items():
         lines += ["", f"## {name}\n", "| step [ms] | error [m] | order |", "|---|---|---|", *convergence(simulate)]
-    lines += ["", "## cosim, step_doubling, macro-step 10 ms\n", "| tolerance | error [m] |", "|---|---|",
-              *(error_control(tolerance) for tolerance in TOLERANCES)]  # fmt: skip
-    lines += ["", "## Relative error of the energy, step 1 ms\n", "| | " + " | ".join(f"{t:g} s" for t in TIMES) + " |",
-              "|---" * (1 + len(TIMES)) + "|", *(energy_row(name) for name in METHODS)]  # fmt: skip
+    lines += [
+        "",
+        "## cosim, step_doubling, macro-step 10 ms\n",
+        "| tolerance | error [m] |",
+        "|---|---|",
+        *(error_control(tolerance) for tolerance in TOLERANCES),
+    ]
+    lines += [
+        "",
+        "## Relative error of the energy, step 1 ms\n",
+        "| | " + " | ".join(f"{t:g} s" for t in TIMES) + " |",
+        "|---" * (1 + len(TIMES)) + "|",
+        *(energy_row(name) for name in METHODS),
+    ]
     text = "\n".join(lines) + "\n"
     (results_folder() / "two_mass.md").write_text(text)
     print(text)

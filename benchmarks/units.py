@@ -8,9 +8,9 @@ import time as clock
 from benchmarks.machine import heading, resident_memory, results_folder
 from cosim.assemble import assemble
 from cosim.components import FmuComponent, ProgrammeComponent, nanoseconds
-from cosim.quantity import PhysicalValue
 from cosim.run import ALGORITHMS
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.quantity import PhysicalValue
 
 #: (rows, columns): rows * (2 * columns - 1) links.
 SIZES = ((6, 2), (8, 5), (32, 5))
@@ -68,10 +68,12 @@ def main(arguments: list[str] | None = None) -> None:
     del arguments
     tables = {rows * (2 * columns - 1): measure(rows, columns, 40 if rows < 20 else 15) for rows, columns in SIZES}
     names = list(next(iter(tables.values())))
-    lines = [heading("Cost of a macro-step, by unit", "python -m benchmarks.units"),
-             "Median microseconds per macro-step of 10 ms, with the shipped solver settings.\n",
-             "| | " + " | ".join(f"{links} links" for links in tables) + " |",
-             "|---|" + "---|" * len(tables)]  # fmt: skip
+    lines = [
+        heading("Cost of a macro-step, by unit", "python -m benchmarks.units"),
+        "Median microseconds per macro-step of 10 ms, with the shipped solver settings.\n",
+        "| | " + " | ".join(f"{links} links" for links in tables) + " |",
+        "|---|" + "---|" * len(tables),
+    ]
     for name in names:
         unit = "MiB more" if name == "memory" else "us"
         lines.append(f"| {name} [{unit}] | " + " | ".join(f"{t[name]:.0f}" for t in tables.values()) + " |")

@@ -66,9 +66,11 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=int, default=20, help="simulated seconds per scenario")
     seconds = parser.parse_args(arguments).seconds
-    lines = [heading("Whole run against a bare Bullet loop", "python -m benchmarks.whole_run"),
-             "| scenario | simulated | whole run | bare loop | median ratio | quartiles of the ratio |",
-             "|---|---|---|---|---|---|"]  # fmt: skip
+    lines = [
+        heading("Whole run against a bare Bullet loop", "python -m benchmarks.whole_run"),
+        "| scenario | simulated | whole run | bare loop | median ratio | quartiles of the ratio |",
+        "|---|---|---|---|---|---|",
+    ]
     for name in ("prototype_cantilever", "prototype_cantilever_instant"):
         pairs = measure(name, seconds)
         ratios = [whole / bare for whole, bare in pairs]

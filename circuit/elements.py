@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array, seconds
+from cosim.unit.protocol import Array, seconds
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class CurrentLimit:
 class SlowSource:
     """A source whose voltage follows what is set behind a first-order delay: tau dV/dt = V_set - V; 0 V at the start.
 
-    A step feels the mean over it, with the exact exponential (the same in the bank's term `unnamed_supply_delayed`).
+    A step feels the mean over it, with the exact exponential (the same in the network's term `unnamed_supply_delayed`).
 
     Args:
         supply: Source, from 1.

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 
 VARIABLE = "NGSPICE_LIBRARY_PATH"
 
@@ -43,8 +43,11 @@ class PySpiceMissingError(UnitError, ValueError):
 
     def __init__(self, package: str) -> None:
         needed = "PySpice" if package.startswith("PySpice") else f"{package}, which PySpice imports,"
-        super().__init__("ngspice", f"a circuit needs PySpice, and {needed} is not installed",
-                         remedy="install it, `pip install PySpice==1.5`")  # fmt: skip
+        super().__init__(
+            "ngspice",
+            f"a circuit needs PySpice, and {needed} is not installed",
+            remedy="install it, `pip install PySpice==1.5`",
+        )
 
 
 def find_ngspice() -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from circuit.netlist import Network
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Relative tolerance of every law. None of some 9000 solutions of random networks (0.001 to 8e5 ohm in one string, open
 #: and shorted coils) broke a law by 1e-15; four orders above that still find 0.12 nV at a coil of the paper's network.

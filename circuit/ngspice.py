@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from circuit.installation import NgspiceMissingError, PySpiceMissingError, find_ngspice
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Commands after which ngspice's command history is freed; PySpice's own number.
 COMMANDS_TO_RELEASE = 10_000

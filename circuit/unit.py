@@ -21,7 +21,7 @@ from circuit.netlist import (
     source_name,
 )
 from circuit.ngspice import Circuit, NgspiceError
-from cosim.unit import (
+from cosim.unit.protocol import (
     Array,
     ArrayStore,
     Causality,
@@ -273,18 +273,30 @@ def _variables(network: Network) -> list[Variable]:
     is_common = network.supply == "common"
     into, out = Causality.INPUT, Causality.OUTPUT
     return [
-        Variable("supply_voltage", into, () if is_common else string, "V", () if is_common else ("string",),
-                 "Voltage of the ideal source, before its series resistance"),
+        Variable(
+            "supply_voltage",
+            into,
+            () if is_common else string,
+            "V",
+            () if is_common else ("string",),
+            "Voltage of the ideal source, before its series resistance",
+        ),
         Variable("resistance", into, coil, "ohm", ("coil",), "Resistance of a coil"),
         Variable("current", out, coil, "A", ("coil",), "Current through a coil, from the supply to ground"),
         Variable("voltage", out, coil, "V", ("coil",), "Voltage across a coil"),
         Variable("power", out, coil, "W", ("coil",), "Heat in a coil"),
         Variable("string_current", out, string, "A", ("string",), "Current through a string"),
-        Variable("terminal_voltage", out, () if is_common else string, "V", () if is_common else ("string",),
-                 "Voltage at the terminals of a source, behind its series resistance"),
+        Variable(
+            "terminal_voltage",
+            out,
+            () if is_common else string,
+            "V",
+            () if is_common else ("string",),
+            "Voltage at the terminals of a source, behind its series resistance",
+        ),
         Variable("supply_current", out, (), "A", (), "Current out of all sources together"),
         Variable("supply_power", out, (), "W", (), "Power out of all sources together"),
-    ]  # fmt: skip
+    ]
 
 
 def _coordinates(network: Network) -> dict[str, Coordinate]:

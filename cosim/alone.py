@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from cosim.errors import InputError
 from cosim.run_folder import writing
+from cosim.unit.errors import InputError
 
 
 @contextmanager
@@ -36,8 +36,12 @@ def alone(folder: Path, what: str) -> Iterator[None]:
             if not os.fstat(lock.fileno()).st_nlink:  # removed by one that ended between the opening and the lock
                 raise BlockingIOError
         except BlockingIOError as error:
-            raise InputError(folder, "", f"another {what} is at work in this folder",
-                             "wait for it, or give another folder with `--out`") from error  # fmt: skip
+            raise InputError(
+                folder,
+                "",
+                f"another {what} is at work in this folder",
+                "wait for it, or give another folder with `--out`",
+            ) from error
         try:
             yield
         finally:

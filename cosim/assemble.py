@@ -41,7 +41,6 @@ from cosim.components import (
 )
 from cosim.connection import Connection, ConnectionFault, Element
 from cosim.control_assembly import build_control
-from cosim.errors import InputError
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
@@ -50,10 +49,11 @@ from cosim.mechanics_assembly import build_fabric, build_pendulum
 from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved, resolve
 from cosim.programme import Course, ProgrammeUnit
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import CONNECTION, ScaledConnection, Scenario
 from cosim.system import System
-from cosim.unit import Causality, Unit, UnitError, Variable
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Unit, UnitError, Variable
+from cosim.unit.quantity import PhysicalValue, conversion
 from mechanics.hanging_mass import HangingMassUnit
 
 _CONNECTION = re.compile(CONNECTION)
@@ -100,8 +100,9 @@ def assemble(scenario: Scenario) -> Assembly:
         except ConnectionFault as error:
             raise InputError(source, "connections", str(error), "correct the connection") from error
         except CannotRestore as error:
-            raise InputError(source, "algorithm", str(error),
-                             "use gauss_seidel or jacobi with `on_event: continue`") from error  # fmt: skip
+            raise InputError(
+                source, "algorithm", str(error), "use gauss_seidel or jacobi with `on_event: continue`"
+            ) from error
         start = {n: _start(n, c, units[n], source) for n, c in scenario.components.items()}
     except BaseException:
         for unit in units.values():
@@ -281,8 +282,12 @@ def _start(name: str, component: Component, unit: Unit, source: Path) -> dict[st
         where = f"components.{name}.start.{key}"
         if variable is None or variable.causality is not Causality.INPUT:
             inputs = [n for n, v in unit.variables.items() if v.causality is Causality.INPUT]
-            raise InputError(source, where, f"there is no such input{did_you_mean(key, inputs)}",
-                             f"it has: {', '.join(inputs) or 'none'}")  # fmt: skip
+            raise InputError(
+                source,
+                where,
+                f"there is no such input{did_you_mean(key, inputs)}",
+                f"it has: {', '.join(inputs) or 'none'}",
+            )
         try:
             values[key] = _quantity(value).to(variable.unit)
         except ValueError as error:

@@ -19,14 +19,13 @@ from cosim.commands.group import Commands
 from cosim.commands.play import play
 from cosim.commands.sweep import sweep
 from cosim.commands.track import track
-from cosim.errors import InputError
 from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.ssp import command as ssp
+from cosim.unit.errors import InputError
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
-from diagnosis.proof.command import prove
 from diagnosis.recording.command import record
 
 if TYPE_CHECKING:
@@ -43,6 +42,18 @@ app = typer.Typer(
     epilog="Begin with `cosim list`, then `cosim run single_coil_heating`. See docs/ for the file formats.",
 )
 
+
+def _add_prove() -> None:
+    """Add `cosim prove` where there is an evaluation: it is part of a clone and of no wheel."""
+    try:
+        from evaluation.proof.command import prove
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] != "evaluation":
+            raise
+    else:
+        app.command()(prove)
+
+
 app.add_typer(fmu.app, name="fmu")
 app.add_typer(ssp.app, name="ssp")
 app.add_typer(recording.app, name="recording")
@@ -54,7 +65,7 @@ app.command()(design)
 app.command()(record)
 app.command()(track)
 app.command()(diagnose)
-app.command()(prove)
+_add_prove()
 
 
 @app.callback()
@@ -151,10 +162,10 @@ def is_ensemble(folder: Path) -> bool:
 
 def _run_starts(
     scenario: Scenario, target: RunFolder, starts: int | None, resume: bool, jobs: int, csv: bool, formats: list[str]
-) -> None:  # fmt: skip
+) -> None:
     """Run or resume an ensemble; where a start stopped, the program ends with the exit code of a failure."""
-    from cosim.ensemble.folder import EnsembleFolder
-    from cosim.ensemble.run import run_ensemble
+    from chainmail.ensemble.folder import EnsembleFolder
+    from chainmail.ensemble.run import run_ensemble
 
     folder = EnsembleFolder(target.path, target.overwrites)
     count = folder.starts() if starts is None else starts
@@ -210,7 +221,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
 
 
 def _draw(folder: RunFolder, formats: list[str]) -> None:
-    from cosim.figures.draw import draw_run
+    from chainmail.figures.draw import draw_run
 
     for path in draw_run(folder.path, formats):
         print(path)
@@ -222,7 +233,7 @@ def plot(
     formats: Formats = "png",
 ) -> None:
     """Draw the figures of one or more runs into the first run's folder."""
-    from cosim.figures.draw import draw_runs
+    from chainmail.figures.draw import draw_runs
 
     for path in draw_runs(runs, formats_of(formats)):
         print(path)
@@ -239,7 +250,7 @@ def reproduce(
     ] = 1,
 ) -> None:
     """Run the paper's experiments and compare every published number with ours."""
-    from cosim.reproduce.command import reproduce as reproduce_paper
+    from chainmail.reproduce.command import reproduce as reproduce_paper
 
     raise typer.Exit(reproduce_paper(out, jobs, starts))
 

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, StrictStr, model_validator
 
-from cosim.quantity import In, PhysicalValue
-from cosim.unit import NANOSECONDS
+from cosim.unit.protocol import NANOSECONDS
+from cosim.unit.quantity import In, PhysicalValue
 
 Time = Annotated[PhysicalValue, In("s")]
 Duration = Annotated[PhysicalValue, In("s", minimum=0.0, is_exclusive=True)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Unit, UnitError, Variable, VariableType
+from cosim.unit.protocol import AnyArray, Unit, UnitError, Variable, VariableType
 
 #: Zero-based index of one element of an array.
 Element = tuple[int, ...]
@@ -110,8 +110,9 @@ class Transfer:
         """
         for other in (p.connection for p in self.parts):
             if connection.target_element is None or other.target_element in (None, connection.target_element):
-                raise ConnectionFault(f"{connection}: another connection already leads into {'.'.join(self.end)}: "
-                                      f"{other}")  # fmt: skip
+                raise ConnectionFault(
+                    f"{connection}: another connection already leads into {'.'.join(self.end)}: {other}"
+                )
         self.parts.append(Part(connection, source, self.buffer))
 
     @property

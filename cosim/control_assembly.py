@@ -25,8 +25,8 @@ from cosim.control.laws import Hold, Law, OnOff, Pi
 from cosim.control.sensor import Fault, SensorDesign, SensorUnit
 from cosim.control.supervisor import Supervisor
 from cosim.control.user_law import UserLaw
-from cosim.quantity import PhysicalValue, conversion
-from cosim.unit import Unit
+from cosim.unit.protocol import Unit
+from cosim.unit.quantity import PhysicalValue, conversion
 
 T = TypeVar("T")
 
@@ -57,14 +57,27 @@ def build_sensor(name: str, component: SensorComponent) -> SensorUnit:
     high = math.inf if component.maximum is None else component.maximum.to(unit)
     if low >= high:
         raise ValueError(f"minimum ({component.minimum}) is not below maximum ({component.maximum})")
-    return SensorUnit(name, SensorDesign(
-        size, unit, sample, component.lag.to("s"), exposure, nanoseconds(component.delay),
-        np.array(_of_size(gain, size, "gain"), dtype=np.float64),
-        np.array([_difference(b, unit) for b in _of_size(bias, size, "bias")]),
-        0.0 if component.drift is None else component.drift.to(f"{unit}/s"),
-        _not_negative(component.noise, unit, "noise"), low, high, _not_negative(component.quantum, unit, "quantum"),
-        component.seed, tuple(_fault(f, size, unit) for f in component.faults), component.dim,
-    ))  # fmt: skip
+    return SensorUnit(
+        name,
+        SensorDesign(
+            size,
+            unit,
+            sample,
+            component.lag.to("s"),
+            exposure,
+            nanoseconds(component.delay),
+            np.array(_of_size(gain, size, "gain"), dtype=np.float64),
+            np.array([_difference(b, unit) for b in _of_size(bias, size, "bias")]),
+            0.0 if component.drift is None else component.drift.to(f"{unit}/s"),
+            _not_negative(component.noise, unit, "noise"),
+            low,
+            high,
+            _not_negative(component.quantum, unit, "quantum"),
+            component.seed,
+            tuple(_fault(f, size, unit) for f in component.faults),
+            component.dim,
+        ),
+    )
 
 
 def build_controller(name: str, component: ControllerComponent, source: Path) -> ControllerUnit:
@@ -84,9 +97,17 @@ def build_controller(name: str, component: ControllerComponent, source: Path) ->
     setpoint = np.array([v.to(unit) for v in _of_size(given, len(groups), "setpoint")])
     demand = f"({command})^2" if component.drive == "squared" else command
     design = ControllerDesign(
-        tuple(groups), unit, command, nanoseconds(component.sample), low, high, setpoint, component.combine,
-        component.drive == "squared", component.supply == "common",
-    )  # fmt: skip
+        tuple(groups),
+        unit,
+        command,
+        nanoseconds(component.sample),
+        low,
+        high,
+        setpoint,
+        component.combine,
+        component.drive == "squared",
+        component.supply == "common",
+    )
     law = _law(component.law, unit, demand, source)
     supervisor = None if component.supervisor is None else _supervisor(component.supervisor, unit)
     return ControllerUnit(name, design, law, supervisor)
@@ -107,10 +128,11 @@ def _simple(given: OnOffLaw | PiLaw, unit: str, demand: str) -> OnOff | Pi:
     if isinstance(given, OnOffLaw):
         return OnOff(_not_negative(given.band, unit, "band"))
     return Pi(
-        given.gain.to(f"({demand})/({unit})"), given.integral_time.to("s"),
+        given.gain.to(f"({demand})/({unit})"),
+        given.integral_time.to("s"),
         0.0 if given.feedforward is None else given.feedforward.to(f"({demand})/({unit})"),
         0.0 if given.ambient is None else given.ambient.to(unit),
-    )  # fmt: skip
+    )
 
 
 def _supervisor(given: SupervisorSettings, unit: str) -> Supervisor:
@@ -121,15 +143,19 @@ def _supervisor(given: SupervisorSettings, unit: str) -> Supervisor:
     if not 0.0 <= slowest <= rise:
         raise ValueError(f"supervisor: slowest_rise is {given.slowest_rise}; give 0 to {given.fastest_rise}")
     return Supervisor(
-        given.limit.to(unit), _not_negative(given.margin, unit, "margin"), rise, slowest,
+        given.limit.to(unit),
+        _not_negative(given.margin, unit, "margin"),
+        rise,
+        slowest,
         1.0 if given.cooling_time is None else given.cooling_time.to("s"),
         0.0 if given.ambient is None else given.ambient.to(unit),
         math.inf if given.tolerance is None else _not_negative(given.tolerance, unit, "tolerance"),
-        given.delay.to("s"), given.lag.to("s"),
+        given.delay.to("s"),
+        given.lag.to("s"),
         -math.inf if given.lowest is None else given.lowest.to(unit),
         math.inf if given.highest is None else given.highest.to(unit),
         0.0 if given.frozen_after is None else given.frozen_after.to("s"),
-    )  # fmt: skip
+    )
 
 
 def _fault(given: SensorFault, size: int, unit: str) -> Fault:

@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 
 from cosim.components import FmuComponent, Isolation
-from cosim.errors import InputError
 from cosim.fmu.added_terms import given_terms
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
@@ -21,13 +20,18 @@ from cosim.isolation.unit import IsolatedUnit
 from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
 from cosim.shipped import fmu_folder, shipped_actuators
-from cosim.unit import Unit
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Unit
 
 
 def build_fmu(
-    name: str, component: FmuComponent, parameters: Resolved, source: Path, reports_events: bool = False,
+    name: str,
+    component: FmuComponent,
+    parameters: Resolved,
+    source: Path,
+    reports_events: bool = False,
     stop: float | None = None,
-) -> Unit:  # fmt: skip
+) -> Unit:
     """The unit of an FMU component.
 
     Args:
@@ -47,9 +51,15 @@ def build_fmu(
     try:
         tolerance = component.tolerance.to("1") if component.tolerance is not None else None
         settings = FmuSettings(
-            component.structure, parameters.values, component.start, tuple(component.record), tolerance, stop,
-            report_early_return=reports_events, added_terms=given_terms(component.added_terms),
-        )  # fmt: skip
+            component.structure,
+            parameters.values,
+            component.start,
+            tuple(component.record),
+            tolerance,
+            stop,
+            report_early_return=reports_events,
+            added_terms=given_terms(component.added_terms),
+        )
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         build = partial(kind, name, archive, settings)
         if not isinstance(isolation, str):
@@ -75,10 +85,18 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
     known = shipped_actuators()
     if component.fmu not in known:
         hint = did_you_mean(component.fmu, known)
-        raise InputError(source, "fmu", f"there is no shipped FMU `{component.fmu}`{hint}",
-                         f"give the path of a .fmu file, or one of: {', '.join(known)}")  # fmt: skip
+        raise InputError(
+            source,
+            "fmu",
+            f"there is no shipped FMU `{component.fmu}`{hint}",
+            f"give the path of a .fmu file, or one of: {', '.join(known)}",
+        )
     name = file_name(component.fmu, component.fmi, coils if component.fmi == 2 else DEFAULT_COILS)
     there = ", ".join(sorted(p.name for p in fmu_folder().glob("*.fmu"))) or "no FMU"
     how = f"cosim fmu build {component.fmu} --fmi {component.fmi} --coils {coils} --out {fmu_folder()}"
-    raise InputError(source, "fmu", f"there is no `{name}` in COSIM_FMU_PATH={fmu_folder()} (there: {there})",
-                     f"build it with `{how}`, give the path of a .fmu file, or unset the variable")  # fmt: skip
+    raise InputError(
+        source,
+        "fmu",
+        f"there is no `{name}` in COSIM_FMU_PATH={fmu_folder()} (there: {there})",
+        f"build it with `{how}`, give the path of a .fmu file, or unset the variable",
+    )

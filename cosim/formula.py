@@ -11,25 +11,34 @@ from typing import Any
 
 import numpy as np
 
-from cosim.quantity import conversion, parse_unit, registry
-from cosim.variable import AnyArray
+from cosim.unit.quantity import conversion, parse_unit, registry
+from cosim.unit.variable import AnyArray
 
 Values = Mapping[str, AnyArray]
 _Evaluate = Callable[[Values], Any]
 
 #: Functions of numbers without unit.
 _PURE: Mapping[str, Callable[..., Any]] = {
-    "exp": np.exp, "log": np.log, "sin": np.sin, "cos": np.cos, "tan": np.tan, "tanh": np.tanh,
-}  # fmt: skip
+    "exp": np.exp,
+    "log": np.log,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "tanh": np.tanh,
+}
 #: Functions that keep the unit of their arguments.
 _KEEPING: Mapping[str, Callable[..., Any]] = {"abs": np.abs, "min": np.minimum, "max": np.maximum}
 #: Functions that give 0, 1 or a sign of anything: `step(x)` is 1 where x >= 0.
 _COUNTING: Mapping[str, Callable[..., Any]] = {
-    "sign": np.sign, "step": lambda x: np.where(np.asarray(x) >= 0.0, 1.0, 0.0),
-}  # fmt: skip
+    "sign": np.sign,
+    "step": lambda x: np.where(np.asarray(x) >= 0.0, 1.0, 0.0),
+}
 _OPERATORS: Mapping[type, Callable[[Any, Any], Any]] = {
-    ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
-}  # fmt: skip
+    ast.Add: lambda a, b: a + b,
+    ast.Sub: lambda a, b: a - b,
+    ast.Mult: lambda a, b: a * b,
+    ast.Div: lambda a, b: a / b,
+}
 #: Depth of brackets in brackets that a formula may have.
 MOST_DEPTH = 60
 

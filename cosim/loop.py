@@ -15,7 +15,7 @@ from cosim.native.planning import NoPlan, Watch, native_plan
 from cosim.observers.energy_balance import EnergyMeter
 from cosim.observers.trace import Trace
 from cosim.system import System
-from cosim.unit import StepOutcome, StepStatus, seconds
+from cosim.unit.protocol import StepOutcome, StepStatus, seconds
 
 
 class Loop(Protocol):

@@ -13,7 +13,7 @@ from scipy.optimize import anderson, root
 
 from cosim.connection import Transfer
 from cosim.ordering import in_order
-from cosim.unit import AnyArray, Array, Unit, UnitError
+from cosim.unit.protocol import AnyArray, Array, Unit, UnitError
 
 #: Largest difference of a loop's inputs, relative to 1 + their size, at which the loop counts as closed.
 TOLERANCE = 1e-10
@@ -106,8 +106,11 @@ class AlgebraicLoop:
                 unit.refresh()
             if all(_are_same(t.buffer, old) for t, old in zip(self.transfers, before)) and self._is_closed():
                 return
-        raise UnitError(self.units[0].name, f"{self}: its values do not settle in {ROUNDS} rounds",
-                        remedy="break the ring with an output that depends on no input")  # fmt: skip
+        raise UnitError(
+            self.units[0].name,
+            f"{self}: its values do not settle in {ROUNDS} rounds",
+            remedy="break the ring with an output that depends on no input",
+        )
 
     def _is_closed(self) -> bool:
         """Whether the outputs that follow from the inputs give the same inputs again."""
@@ -154,9 +157,12 @@ class Propagation:
     """
 
     def __init__(
-        self, units: Mapping[str, Unit], transfers: Mapping[str, Sequence[Transfer]], feedthrough: Feedthrough,
+        self,
+        units: Mapping[str, Unit],
+        transfers: Mapping[str, Sequence[Transfer]],
+        feedthrough: Feedthrough,
         is_complete: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         through = {n: feedthrough(u) for n, u in units.items()}
         direct = {(n, i) for n, depends in through.items() for inputs in depends.values() for i in inputs}
         # A tick must arrive once, while this is carried out again and again: algorithms hand it over before a step.

@@ -6,10 +6,10 @@ from dataclasses import fields
 from typing import Any
 
 from cosim.components import FabricComponent, ParameterValue, PendulumComponent
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
-from cosim.quantity import PhysicalValue
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 from mechanics.added import AddedEffects, tilted
 from mechanics.fabric import FabricDesign
 from mechanics.mujoco_world import MujocoMissing
@@ -113,9 +113,11 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
         return FabricUnit(name, design, solver)
     except MujocoMissing as error:
         raise InputError(
-            "scenario", f"{name}.engine", "the package mujoco is not installed",
+            "scenario",
+            f"{name}.engine",
+            "the package mujoco is not installed",
             'install it with `pip install "active-chainmail[mujoco]"`, or write `engine: bullet`',
-        ) from error  # fmt: skip
+        ) from error
 
 
 def build_pendulum(name: str, component: PendulumComponent, parameters: Resolved) -> PendulumUnit:

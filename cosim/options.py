@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.shipped import SCENARIOS
+from cosim.unit.errors import InputError
 
 
 def complete_scenario(incomplete: str) -> list[str]:
@@ -45,7 +45,7 @@ Changes = Annotated[
 Formats = Annotated[
     str, typer.Option("--format", metavar="FORMATS", help="Of figures: png, svg, pdf, or several with commas.")
 ]
-#: Formats in which figures are written; cosim.figures.style has the same ones, and a test compares them.
+#: Formats in which figures are written; cosim.figure_style has the same ones, and a test compares them.
 FORMATS = ("png", "svg", "pdf")
 
 
@@ -58,8 +58,12 @@ def formats_of(given: str) -> list[str]:
     names = list(dict.fromkeys(name.strip().lower() for name in given.split(",") if name.strip()))
     for name in names:
         if name not in FORMATS:
-            raise InputError("--format", "", f"there is no format `{name}`{did_you_mean(name, FORMATS)}",
-                             f"give one or several of: {', '.join(FORMATS)}")  # fmt: skip
+            raise InputError(
+                "--format",
+                "",
+                f"there is no format `{name}`{did_you_mean(name, FORMATS)}",
+                f"give one or several of: {', '.join(FORMATS)}",
+            )
     if not names:
         raise InputError("--format", "", "no format is given", f"give one or several of: {', '.join(FORMATS)}")
     return names

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
+from cosim.unit.errors import InputError
 from cosim.yaml_file import parse_yaml
 
 _EXAMPLE = 'write it like `--set time.stop="5 s"`, or with the name of a component: `--set fabric.rows=8`'
@@ -63,10 +63,12 @@ def _path(change: str, key: str, data: Any, keys: Sequence[str]) -> list[str | i
         return ["components", *parts]
     if parts[0] not in keys:
         raise InputError(
-            f"--set {change}", "", f"a scenario has no key `{parts[0]}` and this one no such component"
+            f"--set {change}",
+            "",
+            f"a scenario has no key `{parts[0]}` and this one no such component"
             f"{did_you_mean(str(parts[0]), [*keys, *names])}",
             f"begin with one of: {', '.join([*keys, *map(str, names)])}",
-        )  # fmt: skip
+        )
     return parts
 
 
@@ -95,6 +97,10 @@ def _step(place: Any, part: str | int, before: Sequence[str | int], change: str)
     if not isinstance(place, dict):
         raise InputError(f"--set {change}", "", f"{where} holds no keys, so there is no `{part}` in it", _EXAMPLE)
     if before == ["components"] and part not in place:
-        raise InputError(f"--set {change}", "", f"there is no component `{part}`{did_you_mean(str(part), place)}",
-                         f"there are: {', '.join(map(str, place))}")  # fmt: skip
+        raise InputError(
+            f"--set {change}",
+            "",
+            f"there is no component `{part}`{did_you_mean(str(part), place)}",
+            f"there are: {', '.join(map(str, place))}",
+        )
     return place.setdefault(part, {})

@@ -12,10 +12,10 @@ import pydantic
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from cosim.components import ParameterValue
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
-from cosim.quantity import In, PhysicalValue, parse_unit
 from cosim.scenario import scenario_folder
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import In, PhysicalValue, parse_unit
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 
@@ -82,8 +82,12 @@ def find_parameter_set(name: str, scenario_file: Path) -> Path:
         if os.path.isfile(candidate):  # of a name too long it is False
             return candidate
     shipped = sorted(p.stem for p in folder.glob("*.yaml"))
-    raise InputError(scenario_file, "parameter_set", f"there is no parameter set `{name}`{did_you_mean(name, shipped)}",
-                     f"give a file beside the scenario, or one of: {', '.join(shipped)}")  # fmt: skip
+    raise InputError(
+        scenario_file,
+        "parameter_set",
+        f"there is no parameter set `{name}`{did_you_mean(name, shipped)}",
+        f"give a file beside the scenario, or one of: {', '.join(shipped)}",
+    )
 
 
 def load_parameter_set(path: Path) -> ParameterSet:

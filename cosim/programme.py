@@ -10,7 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, Variable, seconds
+from cosim.unit.protocol import (
+    Array,
+    ArrayStore,
+    Causality,
+    Coordinate,
+    StepOutcome,
+    StepStatus,
+    Unit,
+    Variable,
+    seconds,
+)
 
 
 @dataclass(frozen=True)

@@ -118,8 +118,12 @@ class Board:
     def ended(self, number: int, outcome: str) -> None:
         """Say how a run ended; its line goes."""
         self._ended.add(number)
-        self._console.print(f"[{len(self._ended)}/{len(self.titles)}] {self.titles[number]}: {outcome}",
-                            markup=False, highlight=False, soft_wrap=True)  # fmt: skip
+        self._console.print(
+            f"[{len(self._ended)}/{len(self.titles)}] {self.titles[number]}: {outcome}",
+            markup=False,
+            highlight=False,
+            soft_wrap=True,
+        )
 
     @contextmanager
     def drawn(self) -> Iterator[None]:
@@ -152,8 +156,9 @@ class Board:
     def _say(self) -> None:
         while not self._stop.wait(SAYING):
             for number, share, remaining in self.running():
-                self._console.print(line(self.titles[number], share, remaining),
-                                    markup=False, highlight=False, soft_wrap=True)  # fmt: skip
+                self._console.print(
+                    line(self.titles[number], share, remaining), markup=False, highlight=False, soft_wrap=True
+                )
 
 
 _slots: MutableSequence[float] | None = None

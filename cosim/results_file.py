@@ -15,7 +15,7 @@ import netCDF4
 import numpy as np
 
 from cosim.observers.trace import Trace
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 #: Values are compressed in pieces of about this size [byte].
 _PIECE = 1 << 19

@@ -17,7 +17,6 @@ import xarray as xr
 from cosim.alone import alone
 from cosim.assemble import Assembly, assemble
 from cosim.components import nanoseconds
-from cosim.errors import InputError
 from cosim.interrupt import Interrupt, deferred_interrupt
 from cosim.loop import Loop, Watched, choose_loop
 from cosim.native.plan import Grid
@@ -26,7 +25,8 @@ from cosim.observers.trace import Trace
 from cosim.run_folder import RunFolder, read_checkpoint, useless_checkpoint
 from cosim.scenario import Scenario
 from cosim.system import ConnectionFault, System
-from cosim.unit import StepStatus, UnitError, seconds
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import StepStatus, UnitError, seconds
 
 _LOG = logging.getLogger(__name__)
 
@@ -181,7 +181,7 @@ def record(
 
 def _run(
     scenario: Scenario, folder: RunFolder | None, resume: bool, on_progress: Callable[[Progress], None] | None
-) -> Recorded:  # fmt: skip
+) -> Recorded:
     if resume:
         _check_resumable(folder)
     elif folder is not None:
@@ -201,8 +201,12 @@ def _run(
 
 def _check_resumable(folder: RunFolder | None) -> None:
     if folder is None or not folder.scenario.is_file():
-        raise InputError(folder.path if folder else "run", "", "there is no run and no checkpoint to resume from",
-                         "run it without `--resume`")  # fmt: skip
+        raise InputError(
+            folder.path if folder else "run",
+            "",
+            "there is no run and no checkpoint to resume from",
+            "run it without `--resume`",
+        )
     if folder.is_complete():
         raise InputError(folder.path, "", "this run is complete", "look at it with `cosim plot`")
 
@@ -245,9 +249,11 @@ def _trace(scenario: Scenario, system: System, times: range, folder: RunFolder |
     except (MemoryError, OSError, OverflowError, ValueError) as error:
         where = "memory" if folder is None or isinstance(error, MemoryError) else str(folder.path)
         raise InputError(
-            scenario.path or "scenario", "time.output_step", f"{len(times)} outputs do not fit into {where}",
+            scenario.path or "scenario",
+            "time.output_step",
+            f"{len(times)} outputs do not fit into {where}",
             "take a longer output_step or a nearer stop" + ("" if where == "memory" else ", or make room"),
-        ) from error  # fmt: skip
+        ) from error
 
 
 def _restore(state: _Clockwork, files: Sequence[Path]) -> None:
@@ -341,9 +347,12 @@ def _step_to_end(
         finally:
             state.index = state.loop.index
         if outcome.status is not StepStatus.OK:
-            raise UnitError("algorithm", f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} "
-                            "cannot repeat a step", outcome.time,
-                            "use a smaller macro_step, or `kind: step_doubling`")  # fmt: skip
+            raise UnitError(
+                "algorithm",
+                f"{outcome.message or outcome.status.value}; {state.scenario.algorithm.kind} cannot repeat a step",
+                outcome.time,
+                "use a smaller macro_step, or `kind: step_doubling`",
+            )
         if state.index == due < state.total and has_checkpoints:
             begin = clock.perf_counter()
             _checkpoint(state, folder)
@@ -353,8 +362,9 @@ def _step_to_end(
         if on_progress is not None:
             elapsed = clock.perf_counter() - state.begin
             simulated = seconds((state.index - state.first_index) * state.macro)
-            on_progress(Progress(state.index, state.total, seconds(state.now), elapsed, simulated,
-                                 seconds(state.macro)))  # fmt: skip
+            on_progress(
+                Progress(state.index, state.total, seconds(state.now), elapsed, simulated, seconds(state.macro))
+            )
         interrupt.check()
 
 
@@ -372,14 +382,20 @@ def _can_checkpoint(state: _Clockwork) -> bool:
 
 def _attributes(state: _Clockwork, reason: str) -> dict[str, Any]:
     found: dict[str, Any] = {
-        "title": state.scenario.title, "status": reason or "complete", "algorithm": state.scenario.algorithm.kind,
+        "title": state.scenario.title,
+        "status": reason or "complete",
+        "algorithm": state.scenario.algorithm.kind,
         "macro_step_s": seconds(state.macro),
         **{f"wall_time_{name}_s": s for name, s in state.assembly.system.wall_time.items()},
-    }  # fmt: skip
+    }
     balance = None if reason else state.meter.balance()
     if balance is not None:
-        found |= {"energy_electrical_J": balance.electrical, "energy_stored_J": balance.stored,
-                  "energy_convected_J": balance.convected, "energy_residual": balance.residual}  # fmt: skip
+        found |= {
+            "energy_electrical_J": balance.electrical,
+            "energy_stored_J": balance.stored,
+            "energy_convected_J": balance.convected,
+            "energy_residual": balance.residual,
+        }
     return found
 
 
@@ -398,10 +414,15 @@ def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:
         "checkpoints": state.checkpoint_count,
         "wall_time_s": {
             "since_start_or_resumption": clock.perf_counter() - state.begin,
-            "checkpoints": state.checkpoint_time, "units": units,
+            "checkpoints": state.checkpoint_time,
+            "units": units,
         },
-        "energy_J": None if balance is None else {
-            "electrical": balance.electrical, "stored": balance.stored, "convected": balance.convected,
+        "energy_J": None
+        if balance is None
+        else {
+            "electrical": balance.electrical,
+            "stored": balance.stored,
+            "convected": balance.convected,
             "relative_residual": balance.residual,
         },
-    }  # fmt: skip
+    }

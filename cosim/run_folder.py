@@ -27,7 +27,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:  # `cosim --help` needs none of them
     import numpy as np
@@ -87,7 +87,7 @@ class RunFolder:
 
     @property
     def ensemble(self) -> Path:
-        """How many starts there are, where the folder holds an ensemble (`cosim.ensemble`)."""
+        """How many starts there are, where the folder holds an ensemble (`chainmail.ensemble`)."""
         return self.path / "ensemble.json"
 
     @staticmethod
@@ -100,9 +100,11 @@ class RunFolder:
         """Raise InputError where the folder already holds a run that must not be overwritten."""
         if not self.overwrites and self._holds_run():
             raise InputError(
-                self.path, "", "this folder already holds a run", "go on from it with `--resume`, replace it with "
-                "`--overwrite`, or give another folder with `--out`",
-            )  # fmt: skip
+                self.path,
+                "",
+                "this folder already holds a run",
+                "go on from it with `--resume`, replace it with `--overwrite`, or give another folder with `--out`",
+            )
 
     def _holds_run(self) -> bool:
         return bool(self.checkpoints()) or any(p.exists() for p in (self.scenario, self.results, self.summary))
@@ -161,10 +163,12 @@ class RunFolder:
         for here, there in itertools.zip_longest(asked, stored, fillvalue="nothing"):
             if here != there:
                 raise InputError(
-                    self.path, "", f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
+                    self.path,
+                    "",
+                    f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
                     f"in {scenario.path}",
                     f"resume what it holds with `cosim run {self.path} --resume`, or give another folder with `--out`",
-                )  # fmt: skip
+                )
 
     def is_complete(self) -> bool:
         """Whether the run in this folder has reached its end."""

@@ -28,11 +28,11 @@ from cosim.components import (
     Time,
     nanoseconds,
 )
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.overrides import with_changes
-from cosim.quantity import In, PhysicalValue
 from cosim.shipped import SCENARIOS
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import In, PhysicalValue
 from cosim.yaml_file import input_error, parse_yaml, read_text
 
 _REMEDY = "`cosim schema` prints every key; `cosim list` shows examples"
@@ -186,11 +186,15 @@ class Scenario(Strict):
             if isinstance(component, FabricComponent | PendulumComponent):
                 key, micro = _micro_step(component)
                 if macro % nanoseconds(micro):
-                    raise ValueError(f"components.{name}.{key} ({micro}) must divide time.macro_step "
-                                     f"({self.time.macro_step}) into a whole number of steps")  # fmt: skip
+                    raise ValueError(
+                        f"components.{name}.{key} ({micro}) must divide time.macro_step "
+                        f"({self.time.macro_step}) into a whole number of steps"
+                    )
             if isinstance(component, SensorComponent | ControllerComponent) and nanoseconds(component.sample) % macro:
-                raise ValueError(f"components.{name}.sample ({component.sample}) must be a multiple of time.macro_step "
-                                 f"({self.time.macro_step})")  # fmt: skip
+                raise ValueError(
+                    f"components.{name}.sample ({component.sample}) must be a multiple of time.macro_step "
+                    f"({self.time.macro_step})"
+                )
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():
                     late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]
@@ -230,8 +234,12 @@ def parse_scenario(text: str, source: Path) -> Scenario:
 def scenario_of_data(data: object, source: Path) -> Scenario:
     """Scenario from the content of YAML, however it was put together; arguments and errors as of `parse_scenario`."""
     if not isinstance(data, dict):
-        raise InputError(source, "", "a scenario is a mapping with the keys title, time, components, connections",
-                         "copy one from `cosim list`")  # fmt: skip
+        raise InputError(
+            source,
+            "",
+            "a scenario is a mapping with the keys title, time, components, connections",
+            "copy one from `cosim list`",
+        )
     if "path" in data:
         raise InputError(source, "path", "there is no such key here", "remove it: the path is that of the file itself")
     try:

@@ -12,7 +12,7 @@ import numpy as np
 from cosim.connection import Connection, ConnectionFault, Element, Transfer
 from cosim.loops import AlgebraicLoop, Propagation
 from cosim.nearest import did_you_mean
-from cosim.unit import (
+from cosim.unit.protocol import (
     AnyArray,
     Causality,
     ParallelUnit,
@@ -96,17 +96,23 @@ class System:
     def _check(self, connection: Connection) -> None:
         source = self._variable(connection.source, {Causality.OUTPUT, Causality.LOCAL}, connection)
         target = self._variable(connection.target, {Causality.INPUT}, connection)
-        shapes = [_shape(v, e, connection)
-                  for v, e in ((source, connection.source_element), (target, connection.target_element))]  # fmt: skip
+        shapes = [
+            _shape(v, e, connection)
+            for v, e in ((source, connection.source_element), (target, connection.target_element))
+        ]
         if shapes[0] != shapes[1] and shapes[0] != ():
             raise ConnectionFault(f"{connection}: shape {shapes[0]} does not fit shape {shapes[1]}")
         if not target.type.accepts(source.type):
-            raise ConnectionFault(f"{connection}: {source.type.value} does not fit {target.type.value} without loss; "
-                                  f"{_remedy(source.type, target.type)}")  # fmt: skip
+            raise ConnectionFault(
+                f"{connection}: {source.type.value} does not fit {target.type.value} without loss; "
+                f"{_remedy(source.type, target.type)}"
+            )
         can_scale = source.type.is_number or source.type is VariableType.BOOLEAN
         if connection.is_scaled and not (target.type.is_number and can_scale):
-            raise ConnectionFault(f"{connection}: a value of type {source.type.value} cannot be scaled; "
-                                  "connect it without factor and offset")  # fmt: skip
+            raise ConnectionFault(
+                f"{connection}: a value of type {source.type.value} cannot be scaled; "
+                "connect it without factor and offset"
+            )
 
     def _check_inputs(self) -> None:
         for name, unit in self.units.items():
@@ -119,8 +125,10 @@ class System:
                 missing = connected[variable.name].missing
                 if missing is not None:
                     element = ",".join(str(i + 1) for i in missing)
-                    raise ConnectionFault(f"{name}.{variable.name}[{element}]: nothing is connected to this element "
-                                          "of the input; connect it")  # fmt: skip
+                    raise ConnectionFault(
+                        f"{name}.{variable.name}[{element}]: nothing is connected to this element "
+                        "of the input; connect it"
+                    )
 
     def initialise(self, time: int, start: Mapping[str, Mapping[str, float]]) -> None:
         """Initialise every unit in order, then exchange start values until all agree, loops included.

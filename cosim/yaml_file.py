@@ -10,15 +10,31 @@ from typing import Any, TypeVar
 import pydantic
 import yaml
 
-from cosim.errors import InputError
 from cosim.faults import is_weak, shown, words
+from cosim.unit.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
 _MEMBER = re.compile(r"^(bool|function-plain\[.*|union\[.*|list\[.*|float|int|str)$")
-_KINDS = ("programme", "ngspice", "fmu", "actuator", "bullet_fabric", "hanging_mass", "bullet_pendulum",
-          "sensor", "controller",
-          "gauss_seidel", "jacobi", "iterated", "step_doubling",
-          "contact", "lead", "drop", "source_resistance", "current_limit")  # fmt: skip
+_KINDS = (
+    "programme",
+    "ngspice",
+    "fmu",
+    "actuator",
+    "bullet_fabric",
+    "hanging_mass",
+    "bullet_pendulum",
+    "sensor",
+    "controller",
+    "gauss_seidel",
+    "jacobi",
+    "iterated",
+    "step_doubling",
+    "contact",
+    "lead",
+    "drop",
+    "source_resistance",
+    "current_limit",
+)
 
 
 Model = TypeVar("Model", bound=pydantic.BaseModel)

@@ -11,9 +11,9 @@ import typer
 from rich.console import Console
 
 from cosim.alone import alone
-from cosim.errors import InputError
 from cosim.loading import load_scenario
 from cosim.run_folder import writing
+from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,8 +91,12 @@ def diagnose(
             Batches(choose_place(jobs, cluster), kept, display.progress) as batches,
         ):
             if kept.count() and not resume:
-                raise InputError(out, "", "an interrupted diagnosis left its simulations here",
-                                 "go on from them with `--resume`, or give another folder with `--out`")  # fmt: skip
+                raise InputError(
+                    out,
+                    "",
+                    "an interrupted diagnosis left its simulations here",
+                    "go on from them with `--resume`, or give another folder with `--out`",
+                )
             base = load_scenario(scenario)
             means = Means(
                 tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief, not despite_doubts
@@ -132,10 +136,10 @@ def _brief(found: Found, out: Path) -> Diagnosis:
 
 
 def _whole(found: Found, scenario: Scenario, judges: Sequence[Recording], out: Path) -> Diagnosis:
-    """Write everything; see `hand_over`."""
-    from diagnosis.hand_over import hand_over  # late: figures take a second to load
+    """Write everything; see `write_outputs`."""
+    from diagnosis.write_outputs import write_outputs  # late: figures take a second to load
 
-    return hand_over(found, scenario, judges, out)
+    return write_outputs(found, scenario, judges, out)
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
@@ -153,5 +157,9 @@ def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
         out.rmdir()
     same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
     if same:
-        raise InputError(sorted(same)[0], "", "this recording is fitted and held out at once",
-                         "hold out a recording that was made with another programme")  # fmt: skip
+        raise InputError(
+            sorted(same)[0],
+            "",
+            "this recording is fitted and held out at once",
+            "hold out a recording that was made with another programme",
+        )

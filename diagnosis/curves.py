@@ -8,10 +8,10 @@ import numpy as np
 
 from diagnosis.diagnose import Found
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
+from diagnosis.models.build import DiagnosisModel
 from diagnosis.report.fits import is_channel, plain_channel
 from diagnosis.report.series import Series
 from diagnosis.search.problem import Point
-from diagnosis.simulator.models import DiagnosisModel
 
 #: Channels drawn, of those fitted and of those held out.
 DRAWN = 3
@@ -60,10 +60,16 @@ def _part(
         values = {stage: model.predict(point, run)[number] for stage, point in points.items()}
         drawn.append(
             Series(
-                channel=series.channel.name, unit=series.channel.unit, times=series.channel.times[-count:],
-                measured=np.where(series.used, series.channel.values[-count:], np.nan), before=values["before"],
-                recalibrated=values["recalibrated"], after=values["after"], deviation=series.channel.deviation,
-                recording=fits[i].recording, is_held_out=is_held_out,
+                channel=series.channel.name,
+                unit=series.channel.unit,
+                times=series.channel.times[-count:],
+                measured=np.where(series.used, series.channel.values[-count:], np.nan),
+                before=values["before"],
+                recalibrated=values["recalibrated"],
+                after=values["after"],
+                deviation=series.channel.deviation,
+                recording=fits[i].recording,
+                is_held_out=is_held_out,
             )
-        )  # fmt: skip
+        )
     return drawn

@@ -10,14 +10,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cosim.compute.batch import Batches
-from cosim.errors import InputError
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.check import check_recordings
 from diagnosis.experiment.design import next_experiment
-from diagnosis.fabric.model import FabricModel
-from diagnosis.fabric.search import search_fabric
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
@@ -38,16 +36,18 @@ from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
+from diagnosis.models.build import DiagnosisModel, models_of
+from diagnosis.models.cosimulation.unit_laws import identifiers
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.search import search_fabric
+from diagnosis.models.wrappers.biased import with_biases
+from diagnosis.models.wrappers.tempered import untempered
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
 from diagnosis.report.user_units import written_units
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.structure import structure
-from diagnosis.simulator.biased import with_biases
-from diagnosis.simulator.models import DiagnosisModel, models_of
-from diagnosis.simulator.tempered import untempered
-from diagnosis.simulator.unit_laws import identifiers
 from diagnosis.ways import is_cheap, other_ways
 
 
@@ -79,8 +79,12 @@ class Means:
         """
         unknown = sorted(set(self.without) - {c.identifier for c in catalogue()} - identifiers())
         if unknown:
-            raise InputError("--without", "", f"the catalogue has no effect `{unknown[0]}`",
-                             "docs/candidates.md lists their identifiers")  # fmt: skip
+            raise InputError(
+                "--without",
+                "",
+                f"the catalogue has no effect `{unknown[0]}`",
+                "docs/candidates.md lists their identifiers",
+            )
         return tuple(c for c in catalogue() if c.identifier not in self.without)
 
 
@@ -104,9 +108,13 @@ class Found:
 
 
 def diagnose(
-    scenario: Scenario, training: Sequence[Recording], held_out: Sequence[Recording], settings: Settings,
-    on_progress: Callable[[str], None] = lambda text: None, means: Means = Means(),
-) -> Found:  # fmt: skip
+    scenario: Scenario,
+    training: Sequence[Recording],
+    held_out: Sequence[Recording],
+    settings: Settings,
+    on_progress: Callable[[str], None] = lambda text: None,
+    means: Means = Means(),
+) -> Found:
     """Find out what a scenario leaves out.
 
     Args:
@@ -204,10 +212,13 @@ def diagnose(
 
 
 def _unsearched(
-    scenario: Scenario, fitted: tuple[DiagnosisModel, Sequence[Recording]],
-    judged: tuple[DiagnosisModel | None, Sequence[Recording]], doubts: tuple[Doubt, ...], settings: Settings,
+    scenario: Scenario,
+    fitted: tuple[DiagnosisModel, Sequence[Recording]],
+    judged: tuple[DiagnosisModel | None, Sequence[Recording]],
+    doubts: tuple[Doubt, ...],
+    settings: Settings,
     seconds: float,
-) -> Found:  # fmt: skip
+) -> Found:
     """The answer where recordings and scenario are not of the same experiment: nothing is fitted."""
     (model, training), (judge, held_out) = fitted, judged
     points = dict.fromkeys(("before", "recalibrated", "after"), Point(np.zeros(len(model.parameters))))
@@ -243,7 +254,7 @@ def _unsearched(
 
 def _searched(
     model: DiagnosisModel, judge: DiagnosisModel | None, settings: Settings, on_progress: Callable[[str], None]
-) -> tuple[Outcome, DiagnosisModel, DiagnosisModel | None]:  # fmt: skip
+) -> tuple[Outcome, DiagnosisModel, DiagnosisModel | None]:
     """Outcome of the search, the model that it belongs to, and the model that judges."""
     if isinstance(model, FabricModel):
         outcome = search_fabric(model, settings, on_progress)
@@ -255,9 +266,13 @@ def _searched(
 
 
 def _accepted(
-    model: DiagnosisModel, judge: DiagnosisModel | None, outcome: Outcome, training: Sequence[Recording],
-    held_out: Sequence[Recording], on_progress: Callable[[str], None],
-) -> tuple[Accepted, Readings]:  # fmt: skip
+    model: DiagnosisModel,
+    judge: DiagnosisModel | None,
+    outcome: Outcome,
+    training: Sequence[Recording],
+    held_out: Sequence[Recording],
+    on_progress: Callable[[str], None],
+) -> tuple[Accepted, Readings]:
     """What of a search is accepted, and the readings that judged."""
     titles = [r.title for r in training]
     fitted = left_out_stretches(model, titles, on_progress)
@@ -269,7 +284,13 @@ def _accepted(
         return is_shown_there_alone(term, known[term], model, judge)
 
     accepted = accept(
-        model, outcome, unfitted, fitted, is_local,
-        lambda: left_out_readings(model, titles), not isinstance(judge, FabricModel), on_progress,
-    )  # fmt: skip
+        model,
+        outcome,
+        unfitted,
+        fitted,
+        is_local,
+        lambda: left_out_readings(model, titles),
+        not isinstance(judge, FabricModel),
+        on_progress,
+    )
     return accepted, unfitted.readings

@@ -10,8 +10,11 @@ from functools import partial, reduce
 import numpy as np
 
 from cosim.compute.steps import counted
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.wrappers.masked import MaskedModel
+from diagnosis.models.wrappers.tempered import BELIEVED, TemperedModel, inflation
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -19,9 +22,6 @@ from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
 from diagnosis.search.validation import Validated, Validation, chosen
-from diagnosis.simulator.masked import MaskedModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 
 #: What was found is fitted again if it leaves errors whose variance is larger than was assumed by this factor.
 FAR = 2.0

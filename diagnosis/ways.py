@@ -13,21 +13,21 @@ from dataclasses import replace
 
 from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import pooled, refitted
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.tempered import BELIEVED, TemperedModel, inflation
 from diagnosis.search.complete import completed
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.tempered import BELIEVED, TemperedModel, inflation
 
 #: Derivatives of residuals by parameters from which another search would take minutes.
 MOST = 200_000
 
 
 def is_cheap(model: DiagnosisModel) -> bool:
-    """Whether another search of the model takes a minute at most: a bank of coils or heaters that is not large."""
-    return isinstance(model, BankModel) and len(model.layout.time) * len(model.parameters) < MOST
+    """Whether another search of the model takes a minute at most: a network of coils or heaters that is not large."""
+    return isinstance(model, CoilNetworkModel) and len(model.layout.time) * len(model.parameters) < MOST
 
 
 def other_ways(

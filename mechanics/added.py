@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 @dataclass(frozen=True)

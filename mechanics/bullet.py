@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.bullet_added import AddedForces
 from mechanics.engine import load
 from mechanics.fabric import FabricDesign, Layout
@@ -194,9 +194,13 @@ class World:
     def _slide(self, body: int, link: int) -> None:
         shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
         pybullet.changeDynamics(
-            body, 0, jointLowerLimit=shortest, jointUpperLimit=0.0, jointLimitForce=_NO_LIMIT,
+            body,
+            0,
+            jointLowerLimit=shortest,
+            jointUpperLimit=0.0,
+            jointLimitForce=_NO_LIMIT,
             physicsClientId=self._client,
-        )  # fmt: skip
+        )
         pybullet.resetJointState(
             body, 0, float(self._motion.slide[link]), float(self._motion.slide_rate[link]), physicsClientId=self._client
         )
@@ -254,8 +258,14 @@ class World:
                 is_inside, speed = gap < 0, -rate
             if speed > abs(gap) * per_step:
                 bound += impact * speed
-            put(body, 0, motor, targetVelocity=gap * (per_step if is_inside else slowly), force=bound,
-                physicsClientId=client)  # fmt: skip
+            put(
+                body,
+                0,
+                motor,
+                targetVelocity=gap * (per_step if is_inside else slowly),
+                force=bound,
+                physicsClientId=client,
+            )
 
     def motion(self) -> Motion:
         """Current state; the arrays are overwritten by the next call."""

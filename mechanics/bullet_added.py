@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.engine import load
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.motion import SCALE, woven
@@ -58,9 +58,13 @@ class AddedForces:
             if added.slide_friction:
                 # A bounded motor that wants the slide to stand is Coulomb friction, solved with the contacts.
                 pybullet.setJointMotorControl2(
-                    body, 0, pybullet.VELOCITY_CONTROL, targetVelocity=0.0, force=SCALE * added.slide_friction,
+                    body,
+                    0,
+                    pybullet.VELOCITY_CONTROL,
+                    targetVelocity=0.0,
+                    force=SCALE * added.slide_friction,
                     physicsClientId=client,
-                )  # fmt: skip
+                )
 
     def push(self) -> None:
         """Apply the forces of wires and payload; Bullet forgets them after a step."""

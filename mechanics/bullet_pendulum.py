@@ -37,13 +37,14 @@ class PendulumWorld:
         if self._client < 0:
             raise RuntimeError("Bullet has no free client")
         pybullet.setPhysicsEngineParameter(
-            fixedTimeStep=micro_step, numSubSteps=0, numSolverIterations=_ITERATIONS, solverResidualThreshold=0,
+            fixedTimeStep=micro_step,
+            numSubSteps=0,
+            numSolverIterations=_ITERATIONS,
+            solverResidualThreshold=0,
             physicsClientId=self._client,
-        )  # fmt: skip
+        )
         sine, cosine = math.sin(design.tilt), math.cos(design.tilt)
-        pybullet.setGravity(
-            -design.gravity * sine, 0.0, -design.gravity * cosine, physicsClientId=self._client
-        )  # fmt: skip
+        pybullet.setGravity(-design.gravity * sine, 0.0, -design.gravity * cosine, physicsClientId=self._client)
         self._body = self._arm()
 
     def _arm(self) -> int:
@@ -63,14 +64,24 @@ class PendulumWorld:
             physicsClientId=client,
         )
         pybullet.changeDynamics(
-            body, -1, linearDamping=0.0, angularDamping=0.0, maxJointVelocity=_NO_LIMIT,
-            activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=client,
-        )  # fmt: skip
+            body,
+            -1,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            maxJointVelocity=_NO_LIMIT,
+            activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+            physicsClientId=client,
+        )
         # All friction is ours; the moment about the hinge is what matters, so the other two are set alike.
         pybullet.changeDynamics(
-            body, 0, localInertiaDiagonal=[design.central_inertia] * 3, jointDamping=0.0, linearDamping=0.0,
-            angularDamping=0.0, physicsClientId=client,
-        )  # fmt: skip
+            body,
+            0,
+            localInertiaDiagonal=[design.central_inertia] * 3,
+            jointDamping=0.0,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            physicsClientId=client,
+        )
         self._hold(int(body), 0.0)
         return int(body)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 from mechanics.quiet import without_output
 
 REMEDY = (

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.added import NO_EFFECTS, AddedEffects
 from mechanics.lattice import Weave, jammed_weave, taut_weave
 

@@ -7,7 +7,17 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable
+from cosim.unit.protocol import (
+    Array,
+    ArrayStore,
+    Causality,
+    Coordinate,
+    StepOutcome,
+    StepStatus,
+    Unit,
+    UnitError,
+    Variable,
+)
 
 
 class HangingMassUnit(Unit):

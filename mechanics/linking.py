@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 def corners(back: Array, axes: Array, bar_distance: Array, half_width: float) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import half
 

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
@@ -232,22 +232,37 @@ class MujocoWorld:
         ElementTree.SubElement(root, "size", memory="1G" if design.links > 200 else "200M")
         ElementTree.SubElement(root, "compiler", angle="radian", autolimits="true", balanceinertia="false")
         option = ElementTree.SubElement(
-            root, "option", timestep=repr(solver.micro_step), gravity=_text(design.gravity), cone="elliptic",
-            impratio=repr(FRICTION_RATIO), integrator="implicitfast", solver="Newton",
+            root,
+            "option",
+            timestep=repr(solver.micro_step),
+            gravity=_text(design.gravity),
+            cone="elliptic",
+            impratio=repr(FRICTION_RATIO),
+            integrator="implicitfast",
+            solver="Newton",
             iterations=str(solver.iterations),
-        )  # fmt: skip
+        )
         # Without this a world that diverged begins anew at its start, as if nothing had happened.
         ElementTree.SubElement(option, "flag", autoreset="disable")
         default = ElementTree.SubElement(root, "default")
         ElementTree.SubElement(
-            default, "geom", friction=f"{design.pair_friction!r} 0 {added.hinge_friction!r}", solref=solref,
-            solimp=solimp, condim="6" if added.hinge_friction else "3",
-        )  # fmt: skip
+            default,
+            "geom",
+            friction=f"{design.pair_friction!r} 0 {added.hinge_friction!r}",
+            solref=solref,
+            solimp=solimp,
+            condim="6" if added.hinge_friction else "3",
+        )
         # Dry friction of a slide is to hold it, not to let it creep: as rigid as MuJoCo takes it.
         ElementTree.SubElement(
-            default, "joint", solreflimit=solref, solimplimit=solimp, solreffriction=solref,
-            solimpfriction="0.9999 0.9999 0.001", damping="0",
-        )  # fmt: skip
+            default,
+            "joint",
+            solreflimit=solref,
+            solimplimit=solimp,
+            solreffriction=solref,
+            solimpfriction="0.9999 0.9999 0.001",
+            damping="0",
+        )
         world = ElementTree.SubElement(root, "worldbody")
         exclusions = ElementTree.SubElement(root, "contact")
         for link in range(design.links):
@@ -271,21 +286,28 @@ class MujocoWorld:
         if not is_locked:
             shortest = design.bar_distance_hot - design.bar_distance_cold
             ElementTree.SubElement(
-                front, "joint", name=f"slide{link}", type="slide", axis="0 1 0", range=_text((shortest, 0.0)),
-                damping=repr(design.added.slide_damping), frictionloss=repr(design.added.slide_friction),
-            )  # fmt: skip
+                front,
+                "joint",
+                name=f"slide{link}",
+                type="slide",
+                axis="0 1 0",
+                range=_text((shortest, 0.0)),
+                damping=repr(design.added.slide_damping),
+                frictionloss=repr(design.added.slide_friction),
+            )
         self._solid(front, part, -1.0)
 
     def _solid(self, body: ElementTree.Element, part: Half, sign: float) -> None:
         """Mass and shape of a half about its centre of mass."""
-        ElementTree.SubElement(
-            body, "inertial", pos="0 0 0", mass=repr(part.mass), diaginertia=_text(part.inertia)
-        )  # fmt: skip
+        ElementTree.SubElement(body, "inertial", pos="0 0 0", mass=repr(part.mass), diaginertia=_text(part.inertia))
         bar_y, arm_y = -sign * part.centre, sign * (part.arm_size[1] / 2 - part.centre)
         ElementTree.SubElement(
-            body, "geom", type="capsule", size=repr(part.bar_radius),
+            body,
+            "geom",
+            type="capsule",
+            size=repr(part.bar_radius),
             fromto=_text((-part.arm_x, bar_y, 0.0, part.arm_x, bar_y, 0.0)),
-        )  # fmt: skip
+        )
         for side in (-part.arm_x, part.arm_x):
             ElementTree.SubElement(
                 body, "geom", type="box", size=_text([s / 2 for s in part.arm_size]), pos=_text((side, arm_y, 0.0))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import (
+from cosim.unit.protocol import (
     NANOSECONDS,
     Array,
     ArrayStore,
@@ -110,8 +110,9 @@ class PendulumUnit(Unit):
         world.advance(steps, float(self._store.get("torque")))
         angle = world.state()[0]
         if not (math.isfinite(angle) and math.isfinite(world.angular_velocity())):
-            raise UnitError(self.name, "the arm is lost: its angle is no finite number", time + size,
-                            "take a shorter micro_step")  # fmt: skip
+            raise UnitError(
+                self.name, "the arm is lost: its angle is no finite number", time + size, "take a shorter micro_step"
+            )
         self._store.get("arm_angle")[...] = angle
         self._store.get("angular_velocity")[...] = world.angular_velocity()
         self._read()

@@ -7,9 +7,17 @@ from dataclasses import dataclass, fields
 
 #: Numbers that may have either sign.
 _SIGNED = frozenset(
-    {"tilt", "initial_angle", "initial_angular_velocity", "spring_stiffness", "spring_rest", "periodic_torque",
-     "periodic_phase", "constant_torque"}
-)  # fmt: skip
+    {
+        "tilt",
+        "initial_angle",
+        "initial_angular_velocity",
+        "spring_stiffness",
+        "spring_rest",
+        "periodic_torque",
+        "periodic_phase",
+        "constant_torque",
+    }
+)
 #: Numbers that must not be 0.
 _POSITIVE = frozenset({"mass", "centre_distance", "gravity", "stribeck_speed", "band_width"})
 
@@ -120,8 +128,17 @@ class PendulumDesign:
     @property
     def has_smooth_law(self) -> bool:
         """Whether any torque but weight and dry friction acts by itself."""
-        return any((self.viscous_damping, self.quadratic_drag, self.cubic_drag, self.spring_stiffness,
-                    self.band_damping, self.periodic_torque, self.constant_torque))  # fmt: skip
+        return any(
+            (
+                self.viscous_damping,
+                self.quadratic_drag,
+                self.cubic_drag,
+                self.spring_stiffness,
+                self.band_damping,
+                self.periodic_torque,
+                self.constant_torque,
+            )
+        )
 
     def smooth_torque(self, time: float, angle: float, angular_velocity: float) -> float:
         """Torque of all laws but weight and dry friction [N m], at a time [s], an angle and a rate in radians."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 @dataclass(frozen=True)

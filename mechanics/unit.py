@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import (
+from cosim.unit.protocol import (
     NANOSECONDS,
     Array,
     ArrayStore,
@@ -45,8 +45,14 @@ def fabric_variables(design: FabricDesign) -> dict[str, Variable]:
         Variable("link_length", found, links, "m", link, "link length l"),
         Variable("position", found, (*links, 3), "m", ("link", "axis"), "middle of every link"),
         Variable("orientation", found, (*links, 4), "1", ("link", "quaternion"), "orientation of every link"),
-        Variable("marker_position", found, (2 * rows, 3), "m", ("marker", "axis"),
-                 "back and front bar of the last link of every row, at its outer side (+x)"),
+        Variable(
+            "marker_position",
+            found,
+            (2 * rows, 3),
+            "m",
+            ("marker", "axis"),
+            "back and front bar of the last link of every row, at its outer side (+x)",
+        ),
         Variable("row_centre", found, (rows, 3), "m", ("row", "axis"), "middle of the two markers of every row"),
         Variable("max_curvature", found, (), "1/m", (), "equation (1) along the row centres"),
         Variable("fabric_length", found, (), "m", (), "between the back bars of the first and the last A links"),
@@ -54,7 +60,7 @@ def fabric_variables(design: FabricDesign) -> dict[str, Variable]:
         Variable("potential_energy", found, (), "J", (), "energy of gravity and of all springs"),
         Variable("max_penetration", found, (), "m", (), "deepest overlap of two links at the end of the step"),
         Variable("contact_count", found, (), "1", (), "contact points between links"),
-    )  # fmt: skip
+    )
     return {v.name: v for v in listed}
 
 
@@ -162,8 +168,9 @@ class FabricUnit(Unit):
             raise UnitError(
                 self.name,
                 f"the macro-step {seconds(size)} s is no multiple of the micro-step {seconds(self._micro)} s",
-                time, "change solver.micro_step or time.macro_step",
-            )  # fmt: skip
+                time,
+                "change solver.micro_step or time.macro_step",
+            )
         self._check_inputs(time)
         try:
             self._world.advance(steps, self._store.get("stiffness"), self._store.get("rest_length"))
@@ -279,9 +286,11 @@ class FabricUnit(Unit):
             bad = np.flatnonzero(~np.isfinite(value.reshape(len(value), -1)).all(axis=1))
             if bad.size:
                 raise UnitError(
-                    self.name, f"{what} of {self._describe(int(bad[0]))} is not finite", time,
+                    self.name,
+                    f"{what} of {self._describe(int(bad[0]))} is not finite",
+                    time,
                     f"{'MuJoCo' if self.can_restore else 'Bullet'} diverged: take a smaller solver.micro_step",
-                )  # fmt: skip
+                )
 
     def _check_hooks(self, back: Array, axes: Array, bar_distance: Array, time: int) -> None:
         pairs = self._layout.hooked
@@ -289,9 +298,11 @@ class FabricUnit(Unit):
         if torn.size:
             one, other = (self._describe(int(i)) for i in pairs[torn[0]])
             raise UnitError(
-                self.name, f"{one} is torn free of {other} ({torn.size} of {len(pairs)} hooks open)", time,
+                self.name,
+                f"{one} is torn free of {other} ({torn.size} of {len(pairs)} hooks open)",
+                time,
                 "take a smaller solver.micro_step or more solver.iterations",
-            )  # fmt: skip
+            )
 
     def _check_contacts(self, time: int) -> None:
         assert self._world is not None
@@ -304,8 +315,9 @@ class FabricUnit(Unit):
                 self.name,
                 f"{one} and {other} overlap by {1e3 * contacts.penetration:.3g} mm, more than the "
                 f"{1e3 * self.solver.penetration_limit:.3g} mm of solver.penetration_limit",
-                time, "take a smaller solver.micro_step or more solver.iterations",
-            )  # fmt: skip
+                time,
+                "take a smaller solver.micro_step or more solver.iterations",
+            )
 
     def _describe(self, link: int) -> str:
         return f"link {link + 1} (row {self._layout.row[link] + 1}, place {self._layout.link_in_row[link] + 1})"

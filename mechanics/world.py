@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from mechanics.motion import Motion
 
 

@@ -14,8 +14,19 @@ from cosim.scenario import parse_scenario
 
 ROOT = Path(__file__).resolve().parents[1]
 #: Folders of the project that hold documents; what is built, installed or run lies elsewhere.
-FOLDERS = ("benchmarks", "circuit", "cosim", "diagnosis", "docs", "fmus", "mechanics", "proving", "scenarios",
-           "templates", "tests")  # fmt: skip
+FOLDERS = (
+    "benchmarks",
+    "circuit",
+    "cosim",
+    "diagnosis",
+    "docs",
+    "fmus",
+    "mechanics",
+    "proving",
+    "scenarios",
+    "templates",
+    "tests",
+)
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md"))])
 _FENCE = re.compile(r"^```(?P<info>[^\n]*)\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\((?P<target>[^)\s]+)\)")

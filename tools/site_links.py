@@ -17,8 +17,16 @@ ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 #: Where pages of the tree outside docs/ stand in the site.
 OUTSIDE = "tree"
-_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "fmus/README.md", "fmus/*/README.md",
-          "benchmarks/results/*.md", "benchmarks/models/README.md", "benchmarks/peers/README.md")  # fmt: skip
+_PAGES = (
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "fmus/README.md",
+    "fmus/*/README.md",
+    "benchmarks/results/*.md",
+    "benchmarks/models/README.md",
+    "benchmarks/peers/README.md",
+)
 #: A link, or code, in which brackets are no link.
 _LINK = re.compile(r"(?P<code>`[^`\n]*`)|(?P<before>!?\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\])\((?P<target>[^)\s]+)\)")
 

@@ -13,7 +13,7 @@ import numpy as np
 from benchmarks.check_rates import rig
 from benchmarks.machine import heading, results_folder
 from cosim.scenario import Scenario, load_scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.check import check_recordings
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
@@ -22,9 +22,7 @@ from diagnosis.recording.recording import load_recording
 Maker = Callable[[Path, np.random.Generator, float], Path]
 
 
-def _drawn(
-    rng: np.random.Generator, slowness: float, has_event: bool = False
-) -> tuple[rig.Rig, Array, Array, Array]:  # fmt: skip
+def _drawn(rng: np.random.Generator, slowness: float, has_event: bool = False) -> tuple[rig.Rig, Array, Array, Array]:
     one, points = rig.drawn(rng, slowness, has_event), rig.programme(rng)
     return one, points, *rig.readings(one, points, rng)
 
@@ -68,7 +66,7 @@ def _held(points: Array, times: Array) -> Array:
 
 def _with_column(
     folder: Path, rng: np.random.Generator, slowness: float, change: Callable[[Array, Array], Array]
-) -> Path:  # fmt: skip
+) -> Path:
     one, points, times, values = _drawn(rng, slowness)
     stamps = np.arange(0.0, rig.SPAN, 1.0)
     return rig.write(folder, points, times, values, one.noise, (stamps, change(points, stamps)))
@@ -76,9 +74,7 @@ def _with_column(
 
 def recorded(folder: Path, rng: np.random.Generator, slowness: float) -> Path:
     """A column of the input that is the programme, with the noise of a meter."""
-    return _with_column(
-        folder, rng, slowness, lambda p, t: _held(p, t) + 0.003 * rng.standard_normal((len(t), 2))
-    )  # fmt: skip
+    return _with_column(folder, rng, slowness, lambda p, t: _held(p, t) + 0.003 * rng.standard_normal((len(t), 2)))
 
 
 def column_off(folder: Path, rng: np.random.Generator, slowness: float) -> Path:
@@ -141,8 +137,10 @@ def counted(
 def table(seed: int, number: int) -> list[str]:
     """Rows of the table; `number` recordings of each sabotage and speed."""
     scenario = load_scenario("tclab")
-    lines = ["| what is wrong | time constant | recordings | told by its kind | serious doubt | other notes |",
-             "|---|---|---|---|---|---|"]  # fmt: skip
+    lines = [
+        "| what is wrong | time constant | recordings | told by its kind | serious doubt | other notes |",
+        "|---|---|---|---|---|---|",
+    ]
     with tempfile.TemporaryDirectory() as folder:
         for maker, name, kinds, times in CASES:
             for slowness in SLOWNESS:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Length of a recording and step of the integration [s].
 SPAN, STEP = 600.0, 0.25
@@ -58,10 +58,13 @@ def drawn(rng: np.random.Generator, slowness: float, has_event: bool) -> Rig:
         rng.uniform(0.0, 0.008),
         slowness * rng.uniform(0.2, 1.0) if rng.random() < 0.5 else 0.0,
         rng.uniform(0.005, 0.05),
-        rng.uniform(1.0, 20.0), rng.uniform(-1.0, 1.0), float(np.exp(rng.uniform(np.log(0.03), np.log(0.2)))),
-        float(rng.choice([1.0, 2.0, 4.0])), (rng.uniform(100.0, 500.0), contact),
+        rng.uniform(1.0, 20.0),
+        rng.uniform(-1.0, 1.0),
+        float(np.exp(rng.uniform(np.log(0.03), np.log(0.2)))),
+        float(rng.choice([1.0, 2.0, 4.0])),
+        (rng.uniform(100.0, 500.0), contact),
         (rng.uniform(100.0, 350.0), rng.uniform(60.0, 150.0), draught),
-    )  # fmt: skip
+    )
 
 
 def programme(rng: np.random.Generator) -> Array:
@@ -119,7 +122,7 @@ def _table(file: Path, head: str, times: Array, values: Array) -> None:
 
 def write(
     folder: Path, stated: Array, times: Array, values: Array, noise: float, column: tuple[Array, Array] | None = None
-) -> Path:  # fmt: skip
+) -> Path:
     """A recording folder that states a programme, and has a column of both inputs where one is given."""
     folder.mkdir(parents=True)
     _table(folder / "data.csv", "time,T1,T2", times, values)

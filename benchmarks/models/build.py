@@ -47,8 +47,22 @@ def build_one(folder: Path, version: int, into: Path) -> Path:
         library = Path(work) / "library"
         shared = [SHIM / name for name in ("instance.c", "linear_step.c", *SOURCES[version])]
         headers = Path(fmpy.__file__).parent / "c-code"
-        run(["gcc", *FLAGS, f"-I{work}", f"-I{SHIM}", "-isystem", headers, "-o", library, folder / "model.c", *shared,
-             "-lm"], check=True)  # fmt: skip
+        run(
+            [
+                "gcc",
+                *FLAGS,
+                f"-I{work}",
+                f"-I{SHIM}",
+                "-isystem",
+                headers,
+                "-o",
+                library,
+                folder / "model.c",
+                *shared,
+                "-lm",
+            ],
+            check=True,
+        )
         entries = {"modelDescription.xml": describe(model, version).encode(), binary: library.read_bytes()}
     into.mkdir(parents=True, exist_ok=True)
     part = fmu.with_name(f"{fmu.name}.{os.getpid()}.part")  # others may be reading the old file, or building it as well

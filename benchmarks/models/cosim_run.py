@@ -45,12 +45,16 @@ def scenario(
         components[name].setdefault(key, {})[variable] = f"{value!r} {unit}".strip()
     return {
         "title": "measured system",
-        "time": {"stop": f"{system.stop:.9g} s", "macro_step": f"{step * 1e9:.0f} ns",
-                 "output_step": f"{output * 1e9:.0f} ns", "checkpoint_step": f"{step * steps * 1e9:.0f} ns"},
+        "time": {
+            "stop": f"{system.stop:.9g} s",
+            "macro_step": f"{step * 1e9:.0f} ns",
+            "output_step": f"{output * 1e9:.0f} ns",
+            "checkpoint_step": f"{step * steps * 1e9:.0f} ns",
+        },
         "algorithm": {"kind": method} if isinstance(method, str) else method,
         "components": components,
         "connections": [f"{c.source}.{c.output} -> {c.target}.{c.input}" for c in system.connections],
-    }  # fmt: skip
+    }
 
 
 def load(

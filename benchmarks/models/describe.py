@@ -9,9 +9,16 @@ from xml.etree import ElementTree as ET
 FMI2, FMI3 = 2, 3
 #: Exponents of the SI base units of every unit that the models use.
 UNITS: dict[str, dict[str, int]] = {
-    "1": {}, "m": {"m": 1}, "kg": {"kg": 1}, "s": {"s": 1}, "Hz": {"s": -1}, "m/s": {"m": 1, "s": -1},
-    "N": {"kg": 1, "m": 1, "s": -2}, "N/m": {"kg": 1, "s": -2}, "N.s/m": {"kg": 1, "s": -1},
-}  # fmt: skip
+    "1": {},
+    "m": {"m": 1},
+    "kg": {"kg": 1},
+    "s": {"s": 1},
+    "Hz": {"s": -1},
+    "m/s": {"m": 1, "s": -1},
+    "N": {"kg": 1, "m": 1, "s": -2},
+    "N/m": {"kg": 1, "s": -2},
+    "N.s/m": {"kg": 1, "s": -1},
+}
 STRUCTURAL = "structuralParameter"
 
 
@@ -97,12 +104,18 @@ def _variability(row: dict[str, Any]) -> str:
 
 
 def _variables2(model: Model, parent: ET.Element) -> None:
-    time = ET.SubElement(parent, "ScalarVariable", name="time", valueReference="0", causality="independent",
-                         variability="continuous")  # fmt: skip
+    time = ET.SubElement(
+        parent, "ScalarVariable", name="time", valueReference="0", causality="independent", variability="continuous"
+    )
     ET.SubElement(time, "Real", unit="s")
     for name, row in model.variables.items():
-        attributes = {"name": name, "valueReference": str(model.reference(name)), "causality": row["causality"],
-                      "variability": _variability(row), "description": row["description"]}  # fmt: skip
+        attributes = {
+            "name": name,
+            "valueReference": str(model.reference(name)),
+            "causality": row["causality"],
+            "variability": _variability(row),
+            "description": row["description"],
+        }
         if row["causality"] in {"output", "local"}:
             attributes["initial"] = "calculated"
         variable = ET.SubElement(parent, "ScalarVariable", attributes)
@@ -112,12 +125,18 @@ def _variables2(model: Model, parent: ET.Element) -> None:
 
 
 def _variables3(model: Model, parent: ET.Element) -> None:
-    ET.SubElement(parent, "Float64", name="time", valueReference="0", causality="independent",
-                  variability="continuous", unit="s")  # fmt: skip
+    ET.SubElement(
+        parent, "Float64", name="time", valueReference="0", causality="independent", variability="continuous", unit="s"
+    )
     for name, row in model.variables.items():
         is_structural = row["causality"] == STRUCTURAL
-        attributes = {"name": name, "valueReference": str(model.reference(name)), "causality": row["causality"],
-                      "variability": _variability(row), "description": row["description"]}  # fmt: skip
+        attributes = {
+            "name": name,
+            "valueReference": str(model.reference(name)),
+            "causality": row["causality"],
+            "variability": _variability(row),
+            "description": row["description"],
+        }
         variable = ET.SubElement(parent, "UInt64" if is_structural else "Float64", attributes)
         if not is_structural:
             variable.set("unit", row["unit"])

@@ -31,10 +31,14 @@ class Loop:
         self.references: dict[tuple[str, str], int] = {}
         self.fmus = {name: self._open(name) for name in system.components}
         self.wires = [
-            (self.fmus[c.source], [self.references[c.source, c.output]],
-             self.fmus[c.target], [self.references[c.target, c.input]])
+            (
+                self.fmus[c.source],
+                [self.references[c.source, c.output]],
+                self.fmus[c.target],
+                [self.references[c.target, c.input]],
+            )
             for c in system.connections
-        ]  # fmt: skip
+        ]
 
     def _open(self, name: str) -> Any:
         path = self.system.fmu(name, self.version)
@@ -42,8 +46,12 @@ class Loop:
         self.folders.append(extract(path))
         self.references.update({(name, v.name): v.valueReference for v in description.modelVariables})
         slave = FMU2Slave if self.version == 2 else FMU3Slave
-        fmu = slave(guid=description.guid, unzipDirectory=self.folders[-1], instanceName=name,
-                    modelIdentifier=description.coSimulation.modelIdentifier)  # fmt: skip
+        fmu = slave(
+            guid=description.guid,
+            unzipDirectory=self.folders[-1],
+            instanceName=name,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
         fmu.instantiate()
         return fmu
 

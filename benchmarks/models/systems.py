@@ -119,6 +119,10 @@ CRASH = System(
 )
 
 SYSTEMS = {
-    "chain": CHAIN, "quarter_truck": QUARTER_TRUCK, "two_mass": TWO_MASS,
-    "loop": LOOP, "wrong_units": WRONG_UNITS, "crash": CRASH,
-}  # fmt: skip
+    "chain": CHAIN,
+    "quarter_truck": QUARTER_TRUCK,
+    "two_mass": TWO_MASS,
+    "loop": LOOP,
+    "wrong_units": WRONG_UNITS,
+    "crash": CRASH,
+}

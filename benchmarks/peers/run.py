@@ -48,8 +48,12 @@ class Cell:
             try:
                 done = subprocess.run(
                     [self.tool.python, "-m", f"benchmarks.peers.entries.{self.tool.module}", job.text()],
-                    capture_output=True, text=True, env=environment(), timeout=SECONDS_AT_MOST, check=False,
-                )  # fmt: skip
+                    capture_output=True,
+                    text=True,
+                    env=environment(),
+                    timeout=SECONDS_AT_MOST,
+                    check=False,
+                )
             except subprocess.TimeoutExpired:
                 self.failure = f"not done after {SECONDS_AT_MOST} s"
                 return
@@ -118,17 +122,28 @@ def end_table(cells: list[Cell]) -> list[str]:
 
 def report(cells: list[Cell], ends: list[Cell], chosen: list[Tool], rounds: int) -> str:
     """The whole page."""
-    return "\n".join([
-        heading("Speed and end time beside other tools", "python -m benchmarks.peers.run"),
-        f"Microseconds per macro-step and FMU: median of {rounds} rounds that go over all tools in turn, in brackets",
-        "the smallest and the largest. The stepping loop alone: loading and unpacking are left out. A blank cell: the",
-        "tool has no such FMI version or records nothing. What `recording` is differs: benchmarks/peers/README.md.",
-        f"Load average of the machine at the end of the run: {os.getloadavg()[0]:.1f}.", "",
-        "## Two chained feedthrough FMUs\n", *timing_table(cells, chosen, "chain"), "",
-        "## Quarter truck, three FMUs in a loop, step 1 ms\n", *timing_table(cells, chosen, "quarter_truck"), "",
-        "The C floor of the truck contains what the FMUs themselves take.", "",
-        "## Where a run to 2 s ends\n", *end_table(ends), "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            heading("Speed and end time beside other tools", "python -m benchmarks.peers.run"),
+            f"Microseconds per macro-step and FMU: median of {rounds} rounds that go over all tools in turn, in",
+            "brackets the smallest and the largest. The stepping loop alone: loading and unpacking are left out. A",
+            "blank cell: the tool has no such FMI version or records nothing. What `recording` is differs:",
+            "benchmarks/peers/README.md.",
+            f"Load average of the machine at the end of the run: {os.getloadavg()[0]:.1f}.",
+            "",
+            "## Two chained feedthrough FMUs\n",
+            *timing_table(cells, chosen, "chain"),
+            "",
+            "## Quarter truck, three FMUs in a loop, step 1 ms\n",
+            *timing_table(cells, chosen, "quarter_truck"),
+            "",
+            "The C floor of the truck contains what the FMUs themselves take.",
+            "",
+            "## Where a run to 2 s ends\n",
+            *end_table(ends),
+            "",
+        ]
+    )
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cosim.quantity import conversion
-from cosim.unit import Causality, Variable
+from cosim.unit.protocol import Causality, Variable
+from cosim.unit.quantity import conversion
 
 #: Where a user reads on.
 PAGE = "docs/actuators/interface.md"

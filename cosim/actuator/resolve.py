@@ -9,13 +9,13 @@ from pathlib import Path
 
 from cosim.actuator.interface import PAGE, coils_of, faults
 from cosim.components import ActuatorComponent, FmuComponent
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu_assembly import find_fmu
 from cosim.scenario import CONNECTION, Scenario, scenario_folder
-from cosim.unit import Causality, Unit, Variable
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Unit, Variable
 
 #: Parameter sets of shipped actuators that are not named after them.
 PARAMETER_SETS = {"thermal_stiffness": "niti_paper", "instant_stiffness": "niti_instant"}
@@ -76,8 +76,9 @@ def _neighbours(component: ActuatorComponent, units: Mapping[str, Unit], source:
         if neighbour is None:
             continue
         if neighbour not in units:
-            raise InputError(source, role, f"there is no component `{neighbour}` to connect to",
-                             f"name one of: {', '.join(units)}")  # fmt: skip
+            raise InputError(
+                source, role, f"there is no component `{neighbour}` to connect to", f"name one of: {', '.join(units)}"
+            )
         found[role] = neighbour, units[neighbour]
     return found
 
@@ -87,9 +88,11 @@ def _plain(
 ) -> tuple[FmuComponent, Mapping[str, Variable]]:
     """The component as one of kind `fmu`, and its checked variables."""
     coils = _size(component, neighbours, source)
-    sized = component if coils is None else component.model_copy(
-        update={"structure": {**component.structure, "coils": coils}}
-    )  # fmt: skip
+    sized = (
+        component
+        if coils is None
+        else component.model_copy(update={"structure": {**component.structure, "coils": coils}})
+    )
     archive = open_fmu(find_fmu(sized, source))
     try:
         structure, variables = _variables(archive, sized, source)
@@ -98,8 +101,12 @@ def _plain(
     check_actuator(archive.path.name, variables, source)
     own = coils_of(variables)
     if coils not in (None, own):
-        raise InputError(source, "fmu", f"{archive.path.name} is built for {own} coils, its neighbours have {coils}",
-                         f"build it for them: `cosim fmu build ... --coils {coils}`")  # fmt: skip
+        raise InputError(
+            source,
+            "fmu",
+            f"{archive.path.name} is built for {own} coils, its neighbours have {coils}",
+            f"build it for them: `cosim fmu build ... --coils {coils}`",
+        )
     fields = {key: getattr(component, key) for key in FmuComponent.model_fields if key in component.model_fields_set}
     fields |= {"kind": "fmu", "structure": structure, "parameter_set": default_parameter_set(component)}
     return FmuComponent(**fields), variables
@@ -124,9 +131,11 @@ def check_actuator(what: str, variables: Mapping[str, Variable], source: object)
     found = faults(variables)
     if found:
         raise InputError(
-            source, "fmu", f"{what} is no actuator: " + "; ".join(found),
+            source,
+            "fmu",
+            f"{what} is no actuator: " + "; ".join(found),
             f"see {PAGE}, or use `kind: fmu` and connect its variables yourself",
-        )  # fmt: skip
+        )
 
 
 def _size(component: ActuatorComponent, neighbours: Mapping[str, tuple[str, Unit]], source: Path) -> int | None:
@@ -141,8 +150,12 @@ def _size(component: ActuatorComponent, neighbours: Mapping[str, tuple[str, Unit
             given[f"{role} ({neighbour})"] = sizes[0]
     if len(set(given.values())) > 1:
         said = ", ".join(f"{who}: {coils}" for who, coils in given.items())
-        raise InputError(source, "", f"its neighbours have different numbers of coils: {said}",
-                         "make them equal, for example `strings` of the circuit")  # fmt: skip
+        raise InputError(
+            source,
+            "",
+            f"its neighbours have different numbers of coils: {said}",
+            "make them equal, for example `strings` of the circuit",
+        )
     return next(iter(given.values()), None)
 
 
@@ -160,19 +173,31 @@ def _connections(
     for role, (neighbour, unit) in neighbours.items():
         outputs = {n for n, v in unit.variables.items() if v.causality is Causality.OUTPUT}
         inputs = {n for n, v in unit.variables.items() if v.causality is Causality.INPUT}
-        into = [((name, own), f"{neighbour}.{theirs} -> {name}.{own}")
-                for theirs, own in _FROM[role] if theirs in outputs and own in variables]  # fmt: skip
-        out = [((neighbour, theirs), f"{name}.{own} -> {neighbour}.{theirs}")
-               for own, theirs in _TO[role] if own in variables and theirs in inputs]  # fmt: skip
+        into = [
+            ((name, own), f"{neighbour}.{theirs} -> {name}.{own}")
+            for theirs, own in _FROM[role]
+            if theirs in outputs and own in variables
+        ]
+        out = [
+            ((neighbour, theirs), f"{name}.{own} -> {neighbour}.{theirs}")
+            for own, theirs in _TO[role]
+            if own in variables and theirs in inputs
+        ]
         if not into and role != "mechanical":
             takes = " or ".join(f"`{own}`" for _, own in _FROM[role] if own in variables)
             gives = ", ".join(sorted(outputs)) or "nothing"
-            raise InputError(source, role,
-                             f"`{neighbour}` gives no {takes} to this actuator; it gives: {gives}",
-                             "name another component, or connect them under `connections`")  # fmt: skip
+            raise InputError(
+                source,
+                role,
+                f"`{neighbour}` gives no {takes} to this actuator; it gives: {gives}",
+                "name another component, or connect them under `connections`",
+            )
         if not out and role == "mechanical":
-            raise InputError(source, role,
-                             f"`{neighbour}` takes no stiffness; its inputs: {', '.join(sorted(inputs)) or 'none'}",
-                             "name the fabric or the load")  # fmt: skip
+            raise InputError(
+                source,
+                role,
+                f"`{neighbour}` takes no stiffness; its inputs: {', '.join(sorted(inputs)) or 'none'}",
+                "name the fabric or the load",
+            )
         made += into + out
     return made

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cosim.system import System
-from cosim.unit import StepOutcome
+from cosim.unit.protocol import StepOutcome
 
 
 class Algorithm(Protocol):

@@ -14,7 +14,7 @@ from cosim.scenario import Algorithm as Settings
 from cosim.scenario import Iterated as IteratedSettings
 from cosim.scenario import StepDoubling as StepDoublingSettings
 from cosim.system import System
-from cosim.unit import StepOutcome
+from cosim.unit.protocol import StepOutcome
 
 PLAIN: Mapping[str, Callable[[System, int, int], StepOutcome]] = {
     "gauss_seidel": gauss_seidel.step,

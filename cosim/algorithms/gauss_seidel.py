@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cosim.system import System
-from cosim.unit import StepOutcome, StepStatus
+from cosim.unit.protocol import StepOutcome, StepStatus
 
 
 def step(system: System, time: int, size: int) -> StepOutcome:

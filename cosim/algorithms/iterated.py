@@ -13,7 +13,7 @@ from cosim.algorithms.restoring import require_restoring
 from cosim.connection import Transfer
 from cosim.ordering import in_order
 from cosim.system import System
-from cosim.unit import AnyArray, StepOutcome, StepStatus, UnitError, seconds
+from cosim.unit.protocol import AnyArray, StepOutcome, StepStatus, UnitError, seconds
 
 #: (unit, input) to its value.
 Values: TypeAlias = Mapping[tuple[str, str], AnyArray]
@@ -36,10 +36,15 @@ def groups(system: System) -> list[Group]:
     """Loops of units and single units, each after those that it depends on; sources are left out."""
     movers = system.movers
     index = {name: i for i, name in enumerate(movers)}
-    edges = sorted({
-        (index[p.connection.source[0]], index[name])
-        for name in movers for t in system.transfers[name] for p in t.parts if p.connection.source[0] in index
-    })  # fmt: skip
+    edges = sorted(
+        {
+            (index[p.connection.source[0]], index[name])
+            for name in movers
+            for t in system.transfers[name]
+            for p in t.parts
+            if p.connection.source[0] in index
+        }
+    )
     result = []
     for members in in_order(len(movers), edges):
         names = tuple(movers[i] for i in members)
@@ -156,10 +161,12 @@ class Iterated(Algorithm):
         finally:
             system.release(saved)
         raise UnitError(
-            "iterated", f"the loop {', '.join(group.names)} does not converge in {self._iterations} repetitions of the "
-            f"step of {seconds(when[1]):g} s: {'.'.join(where.end)} still changes by {change:.3g} (relative)", when[0],
+            "iterated",
+            f"the loop {', '.join(group.names)} does not converge in {self._iterations} repetitions of the "
+            f"step of {seconds(when[1]):g} s: {'.'.join(where.end)} still changes by {change:.3g} (relative)",
+            when[0],
             "use a smaller macro_step, `inputs: end`, or more iterations",
-        )  # fmt: skip
+        )
 
     def _repeat(
         self, system: System, group: Group, values: tuple[Values, Values], when: tuple[int, int]

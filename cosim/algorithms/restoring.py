@@ -29,5 +29,6 @@ def require_restoring(system: System, names: Sequence[str], purpose: str, is_div
     unable = [name for name in names if not system.units[name].can_restore]
     if unable:
         kinds = ", ".join(f"{name} ({type(system.units[name]).__name__})" for name in unable)
-        raise CannotRestore(f"{purpose} takes units back to the begin of a step, but {kinds} cannot return to a saved "
-                            "state")  # fmt: skip
+        raise CannotRestore(
+            f"{purpose} takes units back to the begin of a step, but {kinds} cannot return to a saved state"
+        )

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from cosim.algorithms.algorithm import Algorithm
 from cosim.algorithms.restoring import require_restoring
 from cosim.system import System
-from cosim.unit import Array, Causality, StepOutcome, StepStatus, UnitError, seconds
+from cosim.unit.protocol import Array, Causality, StepOutcome, StepStatus, UnitError, seconds
 
 #: The next step is this share of the one that would just meet the tolerance.
 SAFETY = 0.9
@@ -112,9 +112,13 @@ class StepDoubling(Algorithm):
                 return size
             self.rejected += 1
             if size <= self._control.minimum_step:
-                raise UnitError("step_doubling", f"the error of a step of {seconds(size):g} s is {error:.3g} times the "
-                                "tolerance, and minimum_step allows none shorter", time,
-                                "loosen the tolerances or allow a smaller minimum_step")  # fmt: skip
+                raise UnitError(
+                    "step_doubling",
+                    f"the error of a step of {seconds(size):g} s is {error:.3g} times the "
+                    "tolerance, and minimum_step allows none shorter",
+                    time,
+                    "loosen the tolerances or allow a smaller minimum_step",
+                )
             self._size = max(round(size * min(factor, 0.5)), self._control.minimum_step)
 
     def _error(self, system: System, saved: dict[str, object], time: int, size: int) -> float:

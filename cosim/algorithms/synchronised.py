@@ -7,7 +7,7 @@ from collections.abc import Callable
 from cosim.algorithms.algorithm import Algorithm
 from cosim.algorithms.restoring import require_restoring
 from cosim.system import System
-from cosim.unit import StepOutcome, StepStatus, UnitError
+from cosim.unit.protocol import StepOutcome, StepStatus, UnitError
 
 
 class Synchronised(Algorithm):
@@ -49,8 +49,12 @@ class Synchronised(Algorithm):
                 if outcome.status is not StepStatus.EARLY_RETURN:
                     return outcome
                 if not now < outcome.time < end:
-                    raise UnitError("synchronise", f"{outcome.message or 'a unit returned early'} without having moved",
-                                    now, "use `on_event: continue`")  # fmt: skip
+                    raise UnitError(
+                        "synchronise",
+                        f"{outcome.message or 'a unit returned early'} without having moved",
+                        now,
+                        "use `on_event: continue`",
+                    )
                 system.restore(saved, now)
             finally:
                 system.release(saved)

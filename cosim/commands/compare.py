@@ -30,8 +30,8 @@ def compare(
 
     Ctrl-C keeps what is computed; the same command goes on from there.
     """
-    from cosim.compare.command import Request
-    from cosim.compare.command import compare as compare_actuators
+    from chainmail.compare.command import Request
+    from chainmail.compare.command import compare as compare_actuators
 
     names = tuple(name.strip() for name in actuators.split(",") if name.strip())
     raise typer.Exit(compare_actuators(Request(scenario, names, fmi, component, jobs, tuple(changes or ())), out))

@@ -26,16 +26,18 @@ def design(
     """
     from rich.console import Console
 
+    from chainmail.design.command import design as find
     from cosim.compute.cluster import choose_place
     from cosim.compute.display import Display
-    from cosim.design.command import design as find
 
     display = Display(Console(stderr=True))
     try:
         with display.drawn():
             code = find(task, out, choose_place(jobs, cluster, goes_on=True), resume, display.stage, display.progress)
     except KeyboardInterrupt as error:
-        print(f"interrupted; finished runs are kept, go on with: cosim design {task} --out {out} --resume",
-              file=sys.stderr)  # fmt: skip
+        print(
+            f"interrupted; finished runs are kept, go on with: cosim design {task} --out {out} --resume",
+            file=sys.stderr,
+        )
         raise typer.Exit(INTERRUPTED) from error
     raise typer.Exit(code)

@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.shipped import SCENARIOS, shipped_examples
+from cosim.unit.errors import InputError
 
 
 def _shipped() -> dict[str, Path]:
@@ -28,8 +28,9 @@ def example(
     """Copy a shipped scenario, or the example of the diagnosis with its recordings (`rig`), to begin from."""
     known = _shipped()
     if name not in known:
-        raise InputError(name, "", f"there is no such example{did_you_mean(name, known)}",
-                         f"one of: {', '.join(known)}")  # fmt: skip
+        raise InputError(
+            name, "", f"there is no such example{did_you_mean(name, known)}", f"one of: {', '.join(known)}"
+        )
     source = known[name]
     target = out or Path(source.name)
     if target.exists():
@@ -38,12 +39,15 @@ def example(
         target.parent.mkdir(parents=True, exist_ok=True)
         if source.is_dir():
             shutil.copytree(source, target, copy_function=shutil.copyfile)
-            print(f"{target}: a scenario and recordings of it; go on with\n"
-                  f"  cosim diagnose {target}/scenario.yaml --recording {target}/monday --held-out {target}/tuesday "
-                  f"--out answer")  # fmt: skip
+            print(
+                f"{target}: a scenario and recordings of it; go on with\n"
+                f"  cosim diagnose {target}/scenario.yaml --recording {target}/monday --held-out {target}/tuesday "
+                f"--out answer"
+            )
         else:
             shutil.copyfile(source, target)
             print(f"{target}: edit it, then\n  cosim run {target}")
     except OSError as error:
-        raise InputError(target, "", f"it cannot be written: {error.strerror or error}",
-                         "give another place with `--out`") from error  # fmt: skip
+        raise InputError(
+            target, "", f"it cannot be written: {error.strerror or error}", "give another place with `--out`"
+        ) from error

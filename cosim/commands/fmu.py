@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from cosim.errors import InputError
 from cosim.fmu_tools.sources import Language
+from cosim.unit.errors import InputError
 
 app = typer.Typer(no_args_is_help=True, help="Build, export, inspect and validate FMUs; begin an actuator of your own.")
 

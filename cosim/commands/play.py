@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 
 def play(
@@ -46,11 +46,11 @@ def play(
         )
     film = film_of(folders, frames)
     if out is not None or (gif is None and mp4 is None):
-        from cosim.play.page import page
+        from chainmail.play.page import page
 
         _write_page(out or folders[0] / "play.html", page(film))
     if gif is not None or mp4 is not None:
-        from cosim.play import movie
+        from chainmail.play import movie
 
         style = movie.MovieStyle(colour, view, speed, width)
         for path, write in ((gif, movie.write_gif), (mp4, movie.write_mp4)):
@@ -63,7 +63,7 @@ def play(
 
 
 def _write_page(path: Path, text: str) -> None:
-    from cosim.play.output import output
+    from chainmail.play.output import output
 
     with output(path) as partial:
         partial.write_text(text, encoding="utf-8")

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from cosim.errors import InputError
-from cosim.play.film import Curve, Fabric, Film, Finding, Marks, Point, Track
-from cosim.play.from_diagnosis import FILE, findings_of
-from cosim.play.from_results import fabric_of
-from cosim.play.run_results import is_run, run_results
+from chainmail.play.film import Curve, Fabric, Film, Finding, Marks, Point, Track
+from chainmail.play.from_diagnosis import FILE, findings_of
+from chainmail.play.from_results import fabric_of
+from chainmail.play.run_results import is_run, run_results
+from cosim.unit.errors import InputError
 from diagnosis.recording.recording import Channel, Recording, load_recording
 
 #: Recorded quantity to the plot that shows it, its unit, factor and shift.
@@ -44,8 +44,12 @@ def film_of(folders: Sequence[Path], frames: int) -> Film:
     kinds = [(_kind(folder), folder) for folder in folders]
     runs = [folder for kind, folder in kinds if kind == "run"]
     if not runs:
-        raise InputError(folders[0], "", "there is no run among what was given, so there is no fabric to show",
-                         "give the folder of a run first, then recordings and diagnoses")  # fmt: skip
+        raise InputError(
+            folders[0],
+            "",
+            "there is no run among what was given, so there is no fabric to show",
+            "give the folder of a run first, then recordings and diagnoses",
+        )
     fabrics = _distinct([fabric_of(run_results(run), run, frames) for run in runs], runs)
     first = fabrics[0]
     marks = tuple(_marks(load_recording(folder), first) for kind, folder in kinds if kind == "recording")
@@ -70,9 +74,11 @@ def _kind(folder: Path) -> str:
     if (folder / FILE).is_file():
         return "diagnosis"
     raise InputError(
-        folder, "", f"it holds no run (results.nc), no recording (recording.yaml) and no diagnosis ({FILE})",
+        folder,
+        "",
+        f"it holds no run (results.nc), no recording (recording.yaml) and no diagnosis ({FILE})",
         "give the folder that `cosim run`, `cosim record` or `cosim diagnose` wrote",
-    )  # fmt: skip
+    )
 
 
 def _distinct(fabrics: list[Fabric], runs: Sequence[Path]) -> list[Fabric]:
@@ -129,8 +135,12 @@ def _marks(recording: Recording, fabric: Fabric) -> Marks:
 def _check_distance(recording: Recording, channel: Channel) -> None:
     farthest = float(np.abs(channel.values).max())
     if farthest > _FARTHEST:
-        raise InputError(recording.path / "recording.yaml", f"channels.{channel.name}", f"it reads {farthest:.4g} m",
-                         "correct its `unit` and `factor`")  # fmt: skip
+        raise InputError(
+            recording.path / "recording.yaml",
+            f"channels.{channel.name}",
+            f"it reads {farthest:.4g} m",
+            "correct its `unit` and `factor`",
+        )
 
 
 def _flat(tracks: dict[tuple[str, int], dict[str, Track]]) -> list[str]:

@@ -38,7 +38,9 @@ def sweep(
         with display.drawn():
             code = make(file, folder, choose_place(jobs, cluster, goes_on=True), resume, display.progress)
     except KeyboardInterrupt as error:
-        print(f"interrupted; finished runs are kept, go on with: cosim sweep {file} --out {folder} --resume",
-              file=sys.stderr)  # fmt: skip
+        print(
+            f"interrupted; finished runs are kept, go on with: cosim sweep {file} --out {folder} --resume",
+            file=sys.stderr,
+        )
         raise typer.Exit(INTERRUPTED) from error
     raise typer.Exit(code)

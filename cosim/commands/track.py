@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 
 def track(
@@ -23,12 +23,12 @@ def track(
     Places of markers, row centres, angles of links and the largest curvature, each with its uncertainty. A frame that
     cannot be resolved is a gap. Exit code 2: wrong input.
     """
-    from cosim.camera.frames import Frames
-    from cosim.camera.measure import measure
-    from cosim.camera.output import refuse_recording, write_tracks
-    from cosim.camera.page import write_page
-    from cosim.camera.rig import load_rig
-    from cosim.camera.summary import summary
+    from chainmail.camera.frames import Frames
+    from chainmail.camera.measure import measure
+    from chainmail.camera.output import refuse_recording, write_tracks
+    from chainmail.camera.page import write_page
+    from chainmail.camera.rig import load_rig
+    from chainmail.camera.summary import summary
 
     refuse_recording(out)
     loaded = load_rig(rig)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from cosim.compute.result import Result
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 #: First characters of a key name a folder: a folder of ten thousand files is slow on many file systems.
 _PREFIX = 2
@@ -67,8 +67,12 @@ class Cache:
         except OSError as error:
             with suppress(OSError):
                 partial.unlink()
-            raise InputError(self.folder, "", f"a simulation cannot be kept: {error.strerror or error}",
-                             "make room, or give another folder with `--out`") from error  # fmt: skip
+            raise InputError(
+                self.folder,
+                "",
+                f"a simulation cannot be kept: {error.strerror or error}",
+                "make room, or give another folder with `--out`",
+            ) from error
 
     def count(self) -> int:
         """Number of results that are kept."""

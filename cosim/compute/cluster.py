@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, ExitStack
 from typing import Any, Protocol
 
 from cosim.compute.result import Result, Task, Work
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 #: Time in which a cluster must answer [s].
 CONNECT_TIME = 30.0
@@ -96,9 +96,11 @@ class DaskPlace:
                 yield number, self._again(client, work, tasks[number])
         except (dask.KilledWorker, dask.client.FutureCancelledError) as error:
             raise InputError(
-                self._address or "local cluster", "", f"a process died while it simulated: {error}",
+                self._address or "local cluster",
+                "",
+                f"a process died while it simulated: {error}",
                 "run with `--jobs 1` to see why; most often memory ran out",
-            ) from error  # fmt: skip
+            ) from error
         finally:
             client.cancel(list(futures), force=True)
 
@@ -118,9 +120,11 @@ class DaskPlace:
                 self._client = self._open.enter_context(self._connect())
             except (OSError, TimeoutError) as error:
                 raise InputError(
-                    self._address or "local cluster", "", f"the cluster does not answer: {error}",
+                    self._address or "local cluster",
+                    "",
+                    f"the cluster does not answer: {error}",
                     "give the address that `dask scheduler` prints with `--cluster`, or leave it out",
-                ) from error  # fmt: skip
+                ) from error
             self.parallel = max(1, sum(self._client.nthreads().values()))
         return self._client
 
@@ -134,9 +138,13 @@ class DaskPlace:
             return client  # type: ignore[no-any-return]
         # One thread each: ngspice and Bullet are not made for two threads, and a fabric keeps a core busy by itself.
         cluster = dask.LocalCluster(
-            n_workers=self._jobs, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
+            n_workers=self._jobs,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,
             silence_logs=logging.CRITICAL,
-        )  # fmt: skip
+        )
         self._open.callback(cluster.close)
         return dask.Client(cluster)  # type: ignore[no-any-return]
 

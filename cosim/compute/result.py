@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from cosim.control.laws import Law, Sample
 from cosim.control.supervisor import Supervisor
-from cosim.unit import (
+from cosim.unit.protocol import (
     Array,
     ArrayStore,
     Causality,
@@ -141,8 +141,12 @@ class ControllerUnit(Unit):
         except ValueError as error:  # of a user's own law
             raise UnitError(self.name, str(error), time, "correct the law's file") from error
         if demand.shape != (count,) or not np.isfinite(demand).all():
-            raise UnitError(self.name, f"its law asks for {demand} in {count} groups", time,
-                            "a law gives one finite number per group")  # fmt: skip
+            raise UnitError(
+                self.name,
+                f"its law asks for {demand} in {count} groups",
+                time,
+                "a law gives one finite number per group",
+            )
         given = np.clip(demand, low, high)
         alarm = np.zeros(count)
         if self.supervisor is not None:
@@ -185,8 +189,13 @@ class ControllerUnit(Unit):
         self._start = int(state["start"])
         for prefix, memory in (("law.", self._memory), ("watch.", self._watch)):
             memory.clear()
-            memory.update({n.removeprefix(prefix): np.array(v, dtype=np.float64) for n, v in state.items()
-                           if n.startswith(prefix)})  # fmt: skip
+            memory.update(
+                {
+                    n.removeprefix(prefix): np.array(v, dtype=np.float64)
+                    for n, v in state.items()
+                    if n.startswith(prefix)
+                }
+            )
         for name, array in self._store.arrays.items():
             array[...] = state[f"value.{name}"]
 

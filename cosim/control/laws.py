@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Memory of a law: name to an array, shape (groups,).
 Memory = MutableMapping[str, Array]

@@ -14,7 +14,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import Array, ArrayStore, Causality, Coordinate, StepOutcome, StepStatus, Unit, Variable, seconds
+from cosim.unit.protocol import (
+    Array,
+    ArrayStore,
+    Causality,
+    Coordinate,
+    StepOutcome,
+    StepStatus,
+    Unit,
+    Variable,
+    seconds,
+)
 
 #: What a sensor remembers.
 State = dict[str, npt.NDArray[Any]]
@@ -142,10 +152,14 @@ class SensorUnit(Unit):
         quantity = self._store.arrays["quantity"]
         first = self._read(quantity, 0)
         self._state = {
-            "settled": quantity.copy(), "before": quantity.copy(), "time": np.array(time),
-            "exposed": np.zeros_like(quantity), "exposure": np.array(0), "pending": np.tile(first, (self._depth, 1)),
+            "settled": quantity.copy(),
+            "before": quantity.copy(),
+            "time": np.array(time),
+            "exposed": np.zeros_like(quantity),
+            "exposure": np.array(0),
+            "pending": np.tile(first, (self._depth, 1)),
             "frozen": np.full(self.design.size, np.nan),
-        }  # fmt: skip
+        }
         return self._state
 
     def _follow(self, state: State, quantity: Array, time: int) -> None:

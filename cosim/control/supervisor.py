@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: What `alarm` says of a group.
 NO_ALARM, LIMITED, OUT_OF_RANGE, FROZEN, NO_RESPONSE = 0, 1, 2, 3, 4
@@ -67,10 +67,14 @@ class Supervisor:
         """
         waiting = math.ceil(self.delay / step - 1e-9)
         return {
-            "waiting": np.zeros((waiting, elements)), "lagging": np.zeros(elements),
-            "coldest": np.full(elements, self.ambient), "seen": np.full((waiting + 1, elements), self.ambient),
-            "last": np.full(elements, np.nan), "unchanged": np.zeros(elements), "failed": np.zeros(elements),
-        }  # fmt: skip
+            "waiting": np.zeros((waiting, elements)),
+            "lagging": np.zeros(elements),
+            "coldest": np.full(elements, self.ambient),
+            "seen": np.full((waiting + 1, elements), self.ambient),
+            "last": np.full(elements, np.nan),
+            "unchanged": np.zeros(elements),
+            "failed": np.zeros(elements),
+        }
 
     def check(self, measured: Array, memory: MutableMapping[str, Array], step: float) -> Array:
         """Thermometers that fail by now, as codes, shape (elements,); a failure stays."""

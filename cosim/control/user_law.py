@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cosim.control.laws import Memory, Sample
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 class UserLaw:

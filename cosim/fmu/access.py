@@ -15,7 +15,7 @@ import numpy as np
 
 from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray, UnitError
+from cosim.unit.protocol import AnyArray, UnitError
 
 #: Called with the name of a function and a status that is neither OK nor Warning; raises UnitError.
 StatusCheck = Callable[[str, int], None]
@@ -48,9 +48,17 @@ class Access:
     is_direct = True
 
     def __init__(
-        self, function: str, component: int, call: Callable[..., int], variable: FmuVariable, references: Any,
-        values: AnyArray, buffer: AnyArray, check: StatusCheck, unit: str,
-    ) -> None:  # fmt: skip
+        self,
+        function: str,
+        component: int,
+        call: Callable[..., int],
+        variable: FmuVariable,
+        references: Any,
+        values: AnyArray,
+        buffer: AnyArray,
+        check: StatusCheck,
+        unit: str,
+    ) -> None:
         if not buffer.flags["C_CONTIGUOUS"]:
             raise ValueError("a buffer must be contiguous: its address is kept")
         self.function, self.variable, self.references = function, variable, references

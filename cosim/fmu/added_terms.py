@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
 from cosim.fmu.settings import AddedState, AddedTerm, Table
 from cosim.fmu.units import is_known
 from cosim.formula import Formula, FormulaError, to_base
-from cosim.quantity import PhysicalValue
-from cosim.unit import AnyArray, Array, Causality, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array, Causality, UnitError
+from cosim.unit.quantity import PhysicalValue
 
 _DERIVATIVE = re.compile(r"^der\((?P<state>.+)\)$")
 _TIME = "time"
@@ -169,8 +169,12 @@ class AddedTerms:
         parameters = {}
         for name, value in given.parameters.items():
             if name in units:
-                raise InputError(self.table.archive.path, f"{key}.parameters.{name}",
-                                 "a variable of the FMU has this name", "choose another one")  # fmt: skip
+                raise InputError(
+                    self.table.archive.path,
+                    f"{key}.parameters.{name}",
+                    "a variable of the FMU has this name",
+                    "choose another one",
+                )
             units[name] = value.unit or "1"
             factor, offset = to_base(units[name])
             parameters[name] = np.asarray(factor * value.number + offset)
@@ -195,11 +199,16 @@ class AddedTerms:
         known = dict(units)
         for name, state in given.states.items():
             if name in units:
-                raise InputError(path, f"{key}.states.{name}", "a variable or a parameter has this name",
-                                 "choose another one")  # fmt: skip
+                raise InputError(
+                    path, f"{key}.states.{name}", "a variable or a parameter has this name", "choose another one"
+                )
             if not is_known(state.unit):
-                raise InputError(path, f"{key}.states.{name}.unit", f"`{state.unit}` is not a unit that is known here",
-                                 "write it as in `m/s^2`")  # fmt: skip
+                raise InputError(
+                    path,
+                    f"{key}.states.{name}.unit",
+                    f"`{state.unit}` is not a unit that is known here",
+                    "write it as in `m/s^2`",
+                )
         units |= {name: state.unit for name, state in given.states.items()}
         rates, starts = {}, {}
         for name, state in given.states.items():
@@ -272,16 +281,23 @@ class AddedTerms:
         where = self.table.archive.path, f"{key}.to"
         if is_derivative:
             if not self.is_model_exchange:
-                raise InputError(*where, "its own solver integrates this FMU, nobody else sees its derivatives",
-                                 "use `integrator: cvode`, or add to an input or output")  # fmt: skip
+                raise InputError(
+                    *where,
+                    "its own solver integrates this FMU, nobody else sees its derivatives",
+                    "use `integrator: cvode`, or add to an input or output",
+                )
             if target not in self.states:
-                raise InputError(*where, f"the FMU has no continuous state `{target}`",
-                                 f"it has: {', '.join(self.states) or 'none'}")  # fmt: skip
+                raise InputError(
+                    *where, f"the FMU has no continuous state `{target}`", f"it has: {', '.join(self.states) or 'none'}"
+                )
             return self._units[target]
         ports = [n for n in self._units if n in self.table.exposed]
         if target not in ports:
-            raise InputError(*where, f"the FMU has no floating-point input or output `{target}`",
-                             f"it has: {', '.join(ports)}; a derivative is written der(state)")  # fmt: skip
+            raise InputError(
+                *where,
+                f"the FMU has no floating-point input or output `{target}`",
+                f"it has: {', '.join(ports)}; a derivative is written der(state)",
+            )
         return self._units[target]
 
     def bind(self, binding: Binding, values: Mapping[str, AnyArray]) -> None:
@@ -371,8 +387,11 @@ class AddedTerms:
     def _amount(self, term: _Term, environment: Mapping[str, AnyArray]) -> Any:
         amount = term.amount(environment)
         if not np.isfinite(amount).all():
-            raise UnitError(self.name, f"the term added to {term.target} is not a finite number",
-                            remedy=f"check `{term.formula.text}`")  # fmt: skip
+            raise UnitError(
+                self.name,
+                f"the term added to {term.target} is not a finite number",
+                remedy=f"check `{term.formula.text}`",
+            )
         return amount
 
     def feedthrough(self) -> dict[str, frozenset[str]]:
@@ -388,8 +407,10 @@ def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
     """Terms as a scenario gives them."""
     return tuple(
         AddedTerm(
-            t.to, t.formula, {n: PhysicalValue.parse(v) for n, v in t.parameters.items()},
+            t.to,
+            t.formula,
+            {n: PhysicalValue.parse(v) for n, v in t.parameters.items()},
             {n: AddedState(s.rate, s.start, s.unit) for n, s in t.states.items()},
         )
         for t in given
-    )  # fmt: skip
+    )

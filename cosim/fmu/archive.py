@@ -13,10 +13,10 @@ from typing import Any
 import fmpy
 from fmpy.model_description import ModelDescription
 
-from cosim.errors import InputError
 from cosim.fmu.description import read_description
 from cosim.fmu.extraction import unpack
 from cosim.fmu.temporary import make_folder, remove_folder, remove_with
+from cosim.unit.errors import InputError
 
 
 @dataclass(eq=False)

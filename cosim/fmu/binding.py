@@ -16,7 +16,6 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from cosim.errors import InputError
 from cosim.fmu.access import (
     Access,
     BinaryReader,
@@ -30,7 +29,8 @@ from cosim.fmu.archive import FmuArchive
 from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray, UnitError, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, UnitError, VariableType
 
 Interface = Literal["co_simulation", "model_exchange"]
 
@@ -130,7 +130,7 @@ class Binding(ABC):
                 "modelDescription.xml",
                 f"it has no {_SPOKEN[interface]} interface",
                 _other_interface(archive),
-            )  # fmt: skip
+            )
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
         self.uses_event_mode = interface == "model_exchange"
@@ -162,9 +162,11 @@ class Binding(ABC):
         path = self.archive.path.resolve()
         if path in _ONLY_ONCE:
             raise InputError(
-                path, "canBeInstantiatedOnlyOncePerProcess", f"{_ONLY_ONCE[path]} uses it already",
+                path,
+                "canBeInstantiatedOnlyOncePerProcess",
+                f"{_ONLY_ONCE[path]} uses it already",
                 f"give {self.name} `isolation: process`",
-            )  # fmt: skip
+            )
         self._claimed = path
         _ONLY_ONCE[path] = self.name
 
@@ -233,9 +235,16 @@ class Binding(ABC):
         buffer = values if kind is plain else np.zeros(values.shape, dtype=c_type.dtype)
         call = self.function(name, *argtypes)
         return kind(
-            self.prefix + name, self.fmu.component, call, variables[0], references, values, buffer, self.check,
+            self.prefix + name,
+            self.fmu.component,
+            call,
+            variables[0],
+            references,
+            values,
+            buffer,
+            self.check,
             self.name,
-        )  # fmt: skip
+        )
 
     def writer(self, variable: FmuVariable, values: AnyArray) -> Access:
         """A call that copies `values` (its address is kept) to the FMU."""

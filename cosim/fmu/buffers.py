@@ -11,7 +11,7 @@ import numpy as np
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray, Causality, UnitError, VariableType
+from cosim.unit.protocol import AnyArray, Causality, UnitError, VariableType
 
 Saved = list[AnyArray]
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from cosim.fmu.binding import Binding
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray, Causality, VariableType
+from cosim.unit.protocol import AnyArray, Causality, VariableType
 
 _UNCHANGED, _CHANGED = 1, 2
 _PERIODIC = ("constant", "fixed", "tunable", "changing")

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.clocks import Clocks
 from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, SavedState, is_worth_reporting
-from cosim.unit import NANOSECONDS, AnyArray, StepOutcome, StepStatus, UnitError, VariableType, seconds
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, AnyArray, StepOutcome, StepStatus, UnitError, VariableType, seconds
 
 #: What is practically the same instant [s]: a tenth of the resolution of simulated time.
 INSTANT = 0.1 / NANOSECONDS
@@ -48,8 +48,12 @@ class CoSimulationUnit(FmuUnit):
         self.clocks = Clocks(self.binding, self.table.exposed, self.buffers.values)
         if self.clocks.timed and not self.binding.uses_event_mode:
             self.binding.free()
-            raise InputError(archive.path, name, "its clocks need Event Mode, which it does not have (hasEventMode)",
-                             "export it with Event Mode")  # fmt: skip
+            raise InputError(
+                archive.path,
+                name,
+                "its clocks need Event Mode, which it does not have (hasEventMode)",
+                "export it with Event Mode",
+            )
 
     @property
     def is_plain(self) -> bool:
@@ -64,10 +68,11 @@ class CoSimulationUnit(FmuUnit):
         ratio = seconds(size) / float(internal)
         if abs(ratio - round(ratio)) > 1e-6 or round(ratio) < 1:
             raise InputError(
-                self.archive.path, f"{self.name}.fixedInternalStepSize",
+                self.archive.path,
+                f"{self.name}.fixedInternalStepSize",
                 f"it steps by {internal} s inside, and a macro-step of {seconds(size):g} s is no multiple of that",
                 "choose a macro_step that is a multiple",
-            )  # fmt: skip
+            )
 
     def _begin(self, time: int) -> None:
         self._now = seconds(time)
@@ -132,9 +137,12 @@ class CoSimulationUnit(FmuUnit):
         """
         self.exit_initialisation()
         if not self.can_vary_step and self._size not in (None, size):
-            raise UnitError(self.name, "it cannot change its communication step size "
-                            "(canHandleVariableCommunicationStepSize is false)", time,
-                            "choose an algorithm with constant steps")  # fmt: skip
+            raise UnitError(
+                self.name,
+                "it cannot change its communication step size (canHandleVariableCommunicationStepSize is false)",
+                time,
+                "choose an algorithm with constant steps",
+            )
         begin, end, length = seconds(time), seconds(time + size), seconds(size)
         if begin != self._now and abs(self._now - begin) * NANOSECONDS <= 1.0:
             begin, length = self._now, end - self._now

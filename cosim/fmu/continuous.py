@@ -11,7 +11,7 @@ import numpy as np
 from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.binding import DISCARD, WARNING, Binding
 from cosim.fmu.sizes import MOST_STATES
-from cosim.unit import Array, UnitError
+from cosim.unit.protocol import Array, UnitError
 
 #: Evaluations without a finite value between two events before the FMU is given up; CVODE's step is tiny by then.
 MOST_FAULTS = 100
@@ -38,10 +38,11 @@ class ContinuousModel:
             self.indicators = int(binding.call(binding.fmu.getNumberOfEventIndicators))
         if max(self.states, self.indicators) > MOST_STATES:
             raise UnitError(
-                self.name, f"the FMU says that it has {self.states} continuous states and {self.indicators} event "
+                self.name,
+                f"the FMU says that it has {self.states} continuous states and {self.indicators} event "
                 f"indicators; more than {MOST_STATES} are not integrated",
                 remedy="use its Co-Simulation interface, if it has one",
-            )  # fmt: skip
+            )
         #: States that terms of the master add; they come last.
         self.own = 0 if self._added is None else self._added.own_count
         array = ctypes.c_void_p, ctypes.c_size_t

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fmpy.model_description import ModelDescription, Unknown
 
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import Causality
+from cosim.unit.protocol import Causality
 
 Feedthrough = dict[str, frozenset[str]]
 

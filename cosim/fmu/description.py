@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 
 from fmpy.model_description import ModelDescription, ValidationError, read_model_description
 
-from cosim.errors import InputError
 from cosim.fmu.rules import check_rules
 from cosim.fmu.sizes import MOST_XML
+from cosim.unit.errors import InputError
 
 _LOG = logging.getLogger(__name__)
 FILE = "modelDescription.xml"
@@ -32,8 +32,12 @@ def read_description(path: Path, folder: Path) -> ModelDescription:
     if not file.is_file():
         raise InputError(path, "", f"there is no {FILE} in it", "an FMU holds one at its top level")
     if file.stat().st_size > MOST_XML:
-        raise InputError(path, FILE, f"it has {file.stat().st_size >> 20} MiB, more than {MOST_XML >> 20}",
-                         "export the FMU with fewer variables")  # fmt: skip
+        raise InputError(
+            path,
+            FILE,
+            f"it has {file.stat().st_size >> 20} MiB, more than {MOST_XML >> 20}",
+            "export the FMU with fewer variables",
+        )
     try:
         description = _parse(path, folder)
         _complete(description, file)

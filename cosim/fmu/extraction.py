@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 #: An FMU that unpacks to more than this is refused [byte].
 MAXIMUM_UNPACKED_SIZE = 1 << 30
@@ -84,11 +84,16 @@ def unpack(path: Path, folder: Path) -> None:
             for entry in entries:
                 _unpack_entry(path, archive, entry, folder)
     except zipfile.BadZipFile as error:
-        raise InputError(path, "", f"this is not an FMU: {error}",
-                         "an FMU is a zip archive; export it again") from error  # fmt: skip
+        raise InputError(
+            path, "", f"this is not an FMU: {error}", "an FMU is a zip archive; export it again"
+        ) from error
     except (OSError, RuntimeError, NotImplementedError, ValueError, EOFError) as error:
-        raise InputError(path, "", f"it cannot be unpacked: {error}",
-                         "export it again, or make room in the folder of temporary files") from error  # fmt: skip
+        raise InputError(
+            path,
+            "",
+            f"it cannot be unpacked: {error}",
+            "export it again, or make room in the folder of temporary files",
+        ) from error
 
 
 def _unpack_entry(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path) -> None:

@@ -12,11 +12,11 @@ from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 from fmpy.logging import addLoggerProxy
 
-from cosim.errors import InputError
 from cosim.fmu.binding import DISCARD, Binding, DiscreteStates, StepResult
 from cosim.fmu.types import FMI2
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, UnitError
 
 _PENDING = 5
 _LAST_SUCCESSFUL_TIME, _TERMINATED = 2, 3
@@ -67,8 +67,12 @@ class Fmi2Binding(Binding):
     def configure(self, values: Sequence[tuple[FmuVariable, AnyArray]]) -> None:
         """Refuse: FMI 2.0 has no structural parameters."""
         for variable, _ in values:
-            raise InputError(self.archive.path, variable.variable.name, "FMI 2.0 has no structural parameters",
-                             "build the FMU for this size, or use FMI 3.0")  # fmt: skip
+            raise InputError(
+                self.archive.path,
+                variable.variable.name,
+                "FMI 2.0 has no structural parameters",
+                "build the FMU for this size, or use FMI 3.0",
+            )
 
     def enter_initialisation(self, time: float, tolerance: float | None, stop: float | None) -> None:
         """Set up the experiment, give parameters and start values once more, enter Initialization Mode."""
@@ -83,8 +87,11 @@ class Fmi2Binding(Binding):
         if status == DISCARD:
             return self._discarded(time)
         if status == _PENDING:
-            raise UnitError(self.name, "its step runs on asynchronously (fmi2DoStep returned fmi2Pending), which is "
-                            "not supported", remedy="export it without canRunAsynchronuously")  # fmt: skip
+            raise UnitError(
+                self.name,
+                "its step runs on asynchronously (fmi2DoStep returned fmi2Pending), which is not supported",
+                remedy="export it without canRunAsynchronuously",
+            )
         self.check("fmi2DoStep", status)
         return StepResult(time + size)
 

@@ -12,7 +12,7 @@ from fmpy import fmi3
 from cosim.fmu.binding import DISCARD, Binding, DiscreteStates, StepResult
 from cosim.fmu.types import FMI3
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 _LOG = logging.getLogger(__name__)
 
@@ -67,9 +67,11 @@ class Fmi3Binding(Binding):
         for with_events in (True, False) if capabilities.hasEventMode else (False,):
             try:
                 slave.instantiate(
-                    loggingOn=True, logMessage=log, eventModeUsed=with_events,
+                    loggingOn=True,
+                    logMessage=log,
+                    eventModeUsed=with_events,
                     earlyReturnAllowed=with_events or capabilities.mightReturnEarlyFromDoStep,
-                )  # fmt: skip
+                )
             except Exception:  # fmpy raises bare Exception
                 if not with_events:
                     raise

@@ -11,7 +11,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from cosim.fmu.sizes import MOST_DIMENSIONS, StructureFault
 from cosim.fmu.units import UnitNames
 from cosim.fmu.variables import FmuVariable, declared_array, sizes, variable_of
-from cosim.unit import Causality
+from cosim.unit.protocol import Causality
 
 _ELEMENT = re.compile(r"^(?P<name>.+)\[(?P<index>\d{1,9}(\s*,\s*\d{1,9})*)\]$", re.ASCII)
 

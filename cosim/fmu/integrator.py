@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cosim.fmu.continuous import ContinuousModel
-from cosim.unit import Array, UnitError
+from cosim.unit.protocol import Array, UnitError
 
 #: Internal steps of CVODE in one macro-step before it is given up.
 MOST_STEPS = 50_000
@@ -31,11 +31,15 @@ def load_cvode(name: str) -> Any:
     try:
         from sksundae.cvode import CVODE
     except ModuleNotFoundError as error:
-        raise UnitError(name, "`integrator: cvode` needs scikit-sundae, and it is not installed",
-                        remedy=f"{_INSTALL}, {_OTHERWISE}") from error  # fmt: skip
+        raise UnitError(
+            name, "`integrator: cvode` needs scikit-sundae, and it is not installed", remedy=f"{_INSTALL}, {_OTHERWISE}"
+        ) from error
     except ImportError as error:
-        raise UnitError(name, f"`integrator: cvode` needs scikit-sundae, and it does not load: {error}",
-                        remedy=f"install it again, {_OTHERWISE}") from error  # fmt: skip
+        raise UnitError(
+            name,
+            f"`integrator: cvode` needs scikit-sundae, and it does not load: {error}",
+            remedy=f"install it again, {_OTHERWISE}",
+        ) from error
     return CVODE
 
 

@@ -12,7 +12,7 @@ from cosim.fmu.archive import FmuArchive
 from cosim.fmu.continuous import ContinuousModel
 from cosim.fmu.integrator import Integrator, load_cvode
 from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, is_worth_reporting
-from cosim.unit import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
+from cosim.unit.protocol import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
 
 RELATIVE_TOLERANCE = 1e-8
 #: Events in a row at practically the same instant before the FMU is given up: it chatters.
@@ -123,8 +123,11 @@ class ModelExchangeUnit(FmuUnit):
             repeated = repeated + 1 if now - last <= INSTANT else 0
             last = now
             if repeated > MOST_EVENTS:
-                raise UnitError(self.name, f"{repeated} events follow each other at {now:.9g} s: it chatters",
-                                remedy="give its switching a hysteresis")  # fmt: skip
+                raise UnitError(
+                    self.name,
+                    f"{repeated} events follow each other at {now:.9g} s: it chatters",
+                    remedy="give its switching a hysteresis",
+                )
             self._enter_event_mode()
             self._leave_event_mode()
             if self.settings.report_early_return and is_worth_reporting(now, begin, end):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import AnyArray, VariableType
+from cosim.unit.protocol import AnyArray, VariableType
 
 
 def plain(values: AnyArray) -> AnyArray:

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
-from cosim.errors import InputError
 from cosim.fmu.sizes import StructureFault, check_shape
 from cosim.fmu.types import TYPES
-from cosim.unit import VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import VariableType
 
 _LARGEST_REFERENCE = 2**32 - 1
 #: Lexical forms of XML Schema's types, which FMI uses.

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding
 from cosim.fmu.gathering import fmu_variables
@@ -17,8 +16,9 @@ from cosim.fmu.sizes import StructureFault, check_total
 from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
 from cosim.fmu.variables import FmuVariable, Sizes, declared_array, start_value
-from cosim.quantity import PhysicalValue
-from cosim.unit import AnyArray, Causality, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Causality, UnitError
+from cosim.unit.quantity import PhysicalValue
 
 #: Relative rounding of a parameter that an FMU keeps in single precision.
 _ROUNDING = 1e-6
@@ -125,8 +125,12 @@ class Table:
             if variable is not None and variable.is_structural:
                 part = "structure" if key in self.settings.structure else "parameters"
                 if part == "parameters" and variable.is_size:
-                    raise InputError(self.archive.path, f"{self.name}.parameters.{key}", "it is the size of an array",
-                                     "give it under `structure`")  # fmt: skip
+                    raise InputError(
+                        self.archive.path,
+                        f"{self.name}.parameters.{key}",
+                        "it is the size of an array",
+                        "give it under `structure`",
+                    )
                 given.append((variable, self._array(part, key, variable, value)))
         binding.configure([(v, array) for v, array in given if not _is_start(v, array)])
 
@@ -167,10 +171,11 @@ class Table:
             if len(wrong):
                 element = f"[{wrong[0] + 1}]" if array.ndim else ""
                 raise InputError(
-                    self.archive.path, f"{self.name}.parameters.{key}{element}",
+                    self.archive.path,
+                    f"{self.name}.parameters.{key}{element}",
                     f"the FMU does not take {array.flat[wrong[0]]:g}: it keeps {kept.flat[wrong[0]]:g}",
                     "give a value that it takes; it may limit or round it, or set this parameter itself",
-                )  # fmt: skip
+                )
 
     def start_values(self, binding: Binding) -> dict[str, AnyArray]:
         """Set start values before initialisation; those of inputs are returned, by name of the input.
@@ -197,7 +202,7 @@ class Table:
             unit = f" in {v.unit}" if v.type.is_float and v.unit != "1" else ""
             raise InputError(
                 self.archive.path, f"{self.name}.{part}.{key}", str(error), f"give {what}{unit}"
-            ) from error  # fmt: skip
+            ) from error
 
     def _find(self, part: str, key: str, is_right: Callable[[FmuVariable], bool]) -> FmuVariable:
         """A variable, or one element of gathered scalars by its own name in the FMU."""

@@ -51,8 +51,9 @@ def check_shape(name: str, shape: Sequence[int], sizes: Iterable[str] = ()) -> N
     smaller = f"give a smaller {' or '.join(given)} under `structure`" if given else "export it with a smaller array"
     text = " x ".join(f"{n:d}" for n in shape[:8]) + (" x ..." if len(shape) > 8 else "")
     if len(shape) > MOST_DIMENSIONS:
-        raise StructureFault(f"{name} has {len(shape)} dimensions, more than {MOST_DIMENSIONS}",
-                        "export it with fewer dimensions")  # fmt: skip
+        raise StructureFault(
+            f"{name} has {len(shape)} dimensions, more than {MOST_DIMENSIONS}", "export it with fewer dimensions"
+        )
     if any(n < 0 for n in shape):
         raise StructureFault(f"{name} has a negative size, {text}", "correct its <Dimension>")
     if math.prod(shape) > MOST_ELEMENTS:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.unit import VariableType
+from cosim.unit.protocol import VariableType
 
 
 @dataclass(frozen=True)

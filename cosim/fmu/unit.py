@@ -18,7 +18,7 @@ from cosim.fmu.dependencies import dependencies
 from cosim.fmu.plain import plain, unplain
 from cosim.fmu.settings import FmuSettings, Table
 from cosim.fmu.versions import bind
-from cosim.unit import (
+from cosim.unit.protocol import (
     NANOSECONDS,
     AnyArray,
     Coordinate,
@@ -256,8 +256,11 @@ class FmuUnit(Unit):
     def save(self) -> SavedState:
         """The FMU's state, the values of inputs and outputs, and what the interface keeps."""
         if not self.can_restore:
-            raise UnitError(self.name, "it cannot return to a saved state (canGetAndSetFMUstate is false)",
-                            remedy="choose an algorithm that repeats no step")  # fmt: skip
+            raise UnitError(
+                self.name,
+                "it cannot return to a saved state (canGetAndSetFMUstate is false)",
+                remedy="choose an algorithm that repeats no step",
+            )
         self.exit_initialisation()
         return SavedState(self.binding.save(), self.buffers.save(), self._mode, self._is_stale, self._extra())
 
@@ -277,8 +280,11 @@ class FmuUnit(Unit):
         """The FMU's serialised state, the inputs, and what the interface keeps."""
         if not self.binding.capabilities.canSerializeFMUstate:
             has = "can get and set its state but not serialise it" if self.can_restore else "cannot save its state"
-            raise UnitError(self.name, f"the FMU {has}, so the run cannot be resumed from here",
-                            remedy="leave out checkpoints, or export the FMU with canSerializeFMUState")  # fmt: skip
+            raise UnitError(
+                self.name,
+                f"the FMU {has}, so the run cannot be resumed from here",
+                remedy="leave out checkpoints, or export the FMU with canSerializeFMUState",
+            )
         self.exit_initialisation()
         inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self.writers}
         extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}

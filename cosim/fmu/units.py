@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from fmpy.model_description import BaseUnit, ModelDescription, ModelVariable
 
-from cosim.quantity import conversion, parse_unit, registry
+from cosim.unit.quantity import conversion, parse_unit, registry
 
 _BASES = {"kg": "kg", "m": "m", "s": "s", "A": "A", "K": "K", "mol": "mol", "cd": "cd", "rad": "rad"}
 _POWER = re.compile(r"(?<=[A-Za-z])([-+]?\d+)")

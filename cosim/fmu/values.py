@@ -10,8 +10,8 @@ import numpy as np
 
 from cosim.fmu.units import UnitNames, is_known
 from cosim.fmu.variables import FmuVariable
-from cosim.quantity import PhysicalValue
-from cosim.unit import AnyArray, VariableType
+from cosim.unit.protocol import AnyArray, VariableType
+from cosim.unit.quantity import PhysicalValue
 
 _DISPLAY = re.compile(r"^\s*(?P<number>[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>\S.*?)\s*$")
 #: Whole numbers up to this are exact as floating-point numbers.

@@ -16,7 +16,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from cosim.fmu.sizes import StructureFault, check_shape
 from cosim.fmu.types import TYPES
 from cosim.fmu.units import UnitNames
-from cosim.unit import AnyArray, Causality, Variable, VariableType
+from cosim.unit.protocol import AnyArray, Causality, Variable, VariableType
 
 _CAUSALITIES = {
     "input": Causality.INPUT,
@@ -134,9 +134,13 @@ def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVaria
 
 
 def variable_of(
-    name: str, declared: Sequence[ModelVariable], shape: tuple[int, ...], dims: tuple[str, ...], units: UnitNames,
+    name: str,
+    declared: Sequence[ModelVariable],
+    shape: tuple[int, ...],
+    dims: tuple[str, ...],
+    units: UnitNames,
     first_index: int = 1,
-) -> Variable:  # fmt: skip
+) -> Variable:
     """What every unit says of a variable."""
     v = declared[0]
     vtype = TYPES[v.type]
@@ -145,9 +149,16 @@ def variable_of(
         causality = Causality.LOCAL  # the variable itself is there under its own name
     start = start_value(declared, vtype, shape) if causality is Causality.INPUT else None
     return Variable(
-        name, causality, shape, units.of(v) if vtype.is_float else "1", dims, v.description or "", start,
-        type=vtype, first_index=first_index,
-    )  # fmt: skip
+        name,
+        causality,
+        shape,
+        units.of(v) if vtype.is_float else "1",
+        dims,
+        v.description or "",
+        start,
+        type=vtype,
+        first_index=first_index,
+    )
 
 
 def start_value(declared: Sequence[ModelVariable], vtype: VariableType, shape: tuple[int, ...]) -> Any:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding, Interface
 from cosim.fmu.fmi2 import Fmi2Binding
 from cosim.fmu.fmi3 import Fmi3Binding
+from cosim.unit.errors import InputError
 
 
 def bind(archive: FmuArchive, interface: Interface, name: str) -> Binding:

@@ -7,9 +7,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from cosim.errors import InputError
 from cosim.fmu_build.build_c import build_c
 from cosim.shipped import fmu_folder, given_fmu_folder, shipped_actuators
+from cosim.unit.errors import InputError
 
 #: The size for which `make fmus` builds, and which file names leave out.
 DEFAULT_COILS = 36

@@ -17,8 +17,8 @@ from pathlib import Path
 
 import fmpy
 
-from cosim.errors import InputError
 from cosim.shipped import FMUS
+from cosim.unit.errors import InputError
 
 WARNINGS = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic")
 _SHARED = ("variables.c", "instance.c", "states.c", "snapshot.c")
@@ -35,8 +35,9 @@ def model_identifier(folder: Path) -> str:
     """
     match = _IDENTIFIER.search((folder / "config.h").read_text(encoding="utf-8"))
     if match is None:
-        raise InputError(folder / "config.h", "MODEL_IDENTIFIER", "it is not defined",
-                         'add `#define MODEL_IDENTIFIER "my_actuator"`')  # fmt: skip
+        raise InputError(
+            folder / "config.h", "MODEL_IDENTIFIER", "it is not defined", 'add `#define MODEL_IDENTIFIER "my_actuator"`'
+        )
     return match[1]
 
 
@@ -112,6 +113,10 @@ def _compile(folder: Path, arguments: list[str], where: Path) -> list[str]:
 def _output(folder: Path, program: Path, argument: str) -> bytes:
     done = subprocess.run([program, argument], capture_output=True, check=False)
     if done.returncode:
-        raise InputError(folder / "config.h", "", f"no model description: {done.stderr.decode(errors='replace')}",
-                         "correct the table")  # fmt: skip
+        raise InputError(
+            folder / "config.h",
+            "",
+            f"no model description: {done.stderr.decode(errors='replace')}",
+            "correct the table",
+        )
     return done.stdout

@@ -5,12 +5,12 @@ from __future__ import annotations
 import zipfile
 from pathlib import Path
 
-from cosim.errors import InputError
 from cosim.fmu_build.at_first_use import file_name
 from cosim.fmu_build.build_c import build_c, model_identifier
 from cosim.fmu_tools.build_python import build_python, class_name
 from cosim.fmu_tools.sources import Language, find_source, language_of
 from cosim.shipped import fmu_folder, shipped_actuators
+from cosim.unit.errors import InputError
 
 
 def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path, list[str]]:

@@ -8,7 +8,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 
 def build_python(folder: Path, version: int, coils: int, target: Path) -> list[str]:
@@ -46,8 +46,9 @@ def build_python(folder: Path, version: int, coils: int, target: Path) -> list[s
         except InputError:
             raise
         except Exception as error:  # whatever the user's module raises
-            raise InputError(folder / "actuator.py", "", f"it cannot be built: {type(error).__name__}: {error}",
-                             "correct the module") from error  # fmt: skip
+            raise InputError(
+                folder / "actuator.py", "", f"it cannot be built: {type(error).__name__}: {error}", "correct the module"
+            ) from error
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.move(made, target)
     return []
@@ -62,6 +63,10 @@ def class_name(folder: Path) -> str:
     text = (folder / "actuator.py").read_text(encoding="utf-8")
     match = re.search(r"^class (\w+)\([^)]*\bFmi3Slave\b[^)]*\):", text, re.MULTILINE)
     if match is None:
-        raise InputError(folder / "actuator.py", "", "it defines no class derived from CoilActuator and Fmi3Slave",
-                         "class my_actuator(CoilActuator, Fmi3Slave): ...")  # fmt: skip
+        raise InputError(
+            folder / "actuator.py",
+            "",
+            "it defines no class derived from CoilActuator and Fmi3Slave",
+            "class my_actuator(CoilActuator, Fmi3Slave): ...",
+        )
     return match[1]

@@ -17,21 +17,42 @@ from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu_tools.info import looks_like_actuator
 from cosim.fmu_tools.isolated import Skipped
-from cosim.unit import Variable
+from cosim.unit.protocol import Variable
 
-_CONTINUOUS = {"EnterContinuousTimeMode", "CompletedIntegratorStep", "SetTime", "SetContinuousStates",
-               "GetEventIndicators", "GetContinuousStates", "GetNominalsOfContinuousStates"}  # fmt: skip
+_CONTINUOUS = {
+    "EnterContinuousTimeMode",
+    "CompletedIntegratorStep",
+    "SetTime",
+    "SetContinuousStates",
+    "GetEventIndicators",
+    "GetContinuousStates",
+    "GetNominalsOfContinuousStates",
+}
 #: Functions that only one interface has, by version (FMI 2.0.4, sections 3.2 and 4.2; FMI 3.0, sections 3.2 and 4.2).
 MODEL_EXCHANGE = {
     "2": _CONTINUOUS | {"EnterEventMode", "NewDiscreteStates", "GetDerivatives"},
-    "3": _CONTINUOUS | {"InstantiateModelExchange", "GetContinuousStateDerivatives", "GetNumberOfContinuousStates",
-                        "GetNumberOfEventIndicators"},
-}  # fmt: skip
+    "3": _CONTINUOUS
+    | {
+        "InstantiateModelExchange",
+        "GetContinuousStateDerivatives",
+        "GetNumberOfContinuousStates",
+        "GetNumberOfEventIndicators",
+    },
+}
 CO_SIMULATION = {
-    "2": {"SetRealInputDerivatives", "GetRealOutputDerivatives", "DoStep", "CancelStep", "GetStatus", "GetRealStatus",
-          "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus"},
+    "2": {
+        "SetRealInputDerivatives",
+        "GetRealOutputDerivatives",
+        "DoStep",
+        "CancelStep",
+        "GetStatus",
+        "GetRealStatus",
+        "GetIntegerStatus",
+        "GetBooleanStatus",
+        "GetStringStatus",
+    },
     "3": {"InstantiateCoSimulation", "EnterStepMode", "GetOutputDerivatives", "DoStep"},
-}  # fmt: skip
+}
 
 
 def description(path: Path) -> str:
@@ -67,8 +88,9 @@ def symbols(path: Path) -> str:
         raise Skipped("needs nm on Linux")
     archive = open_fmu(path)
     try:
-        listing = subprocess.run(["nm", "-D", "--defined-only", _binary(archive)], capture_output=True, text=True,
-                                 check=True).stdout  # fmt: skip
+        listing = subprocess.run(
+            ["nm", "-D", "--defined-only", _binary(archive)], capture_output=True, text=True, check=True
+        ).stdout
     finally:
         archive.remove()
     exported = {line.split()[-1] for line in listing.splitlines() if line}

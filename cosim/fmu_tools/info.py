@@ -12,19 +12,26 @@ from rich.console import Console
 from rich.table import Table
 
 from cosim.actuator.interface import PORTS, faults
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.sizes import StructureFault
 from cosim.fmu.units import UnitNames
 from cosim.fmu.variables import FmuVariable
-from cosim.unit import Causality, Variable
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Variable
 
 _CAPABILITIES = (
-    "canHandleVariableCommunicationStepSize", "canGetAndSetFMUstate", "canSerializeFMUstate", "hasEventMode",
-    "mightReturnEarlyFromDoStep", "canReturnEarlyAfterIntermediateUpdate", "providesDirectionalDerivative",
-    "providesDirectionalDerivatives", "needsExecutionTool", "canBeInstantiatedOnlyOncePerProcess",
-)  # fmt: skip
+    "canHandleVariableCommunicationStepSize",
+    "canGetAndSetFMUstate",
+    "canSerializeFMUstate",
+    "hasEventMode",
+    "mightReturnEarlyFromDoStep",
+    "canReturnEarlyAfterIntermediateUpdate",
+    "providesDirectionalDerivative",
+    "providesDirectionalDerivatives",
+    "needsExecutionTool",
+    "canBeInstantiatedOnlyOncePerProcess",
+)
 
 
 @dataclass(frozen=True)
@@ -73,12 +80,18 @@ def looks_like_actuator(variables: Mapping[str, Variable]) -> bool:
 
 def _general(archive: FmuArchive, variables: dict[str, FmuVariable]) -> dict[str, str]:
     d = archive.description
-    found = {"model": d.modelName or "", "FMI version": d.fmiVersion, "description": d.description or "",
-             "made by": d.generationTool or "", "token": getattr(d, "instantiationToken", None) or d.guid}  # fmt: skip
+    found = {
+        "model": d.modelName or "",
+        "FMI version": d.fmiVersion,
+        "description": d.description or "",
+        "made by": d.generationTool or "",
+        "token": getattr(d, "instantiationToken", None) or d.guid,
+    }
     for kind, declared in (
-        ("Co-Simulation", d.coSimulation), ("Model Exchange", d.modelExchange),
+        ("Co-Simulation", d.coSimulation),
+        ("Model Exchange", d.modelExchange),
         ("Scheduled Execution", d.scheduledExecution),
-    ):  # fmt: skip
+    ):
         if declared is not None:
             able = [c for c in _CAPABILITIES if getattr(declared, c, False)]
             found[kind] = ", ".join(able) or "no capabilities"
@@ -106,10 +119,15 @@ def _states(archive: FmuArchive, variables: dict[str, FmuVariable]) -> list[str]
 def _row(name: str, v: FmuVariable) -> dict[str, Any]:
     declared = v.declared[0]
     return {
-        "name": name, "causality": declared.causality or "local", "variability": declared.variability or "",
-        "type": v.variable.type.value, "shape": list(v.variable.shape), "unit": v.variable.unit,
-        "start": declared.start, "description": v.variable.description,
-    }  # fmt: skip
+        "name": name,
+        "causality": declared.causality or "local",
+        "variability": declared.variability or "",
+        "type": v.variable.type.value,
+        "shape": list(v.variable.shape),
+        "unit": v.variable.unit,
+        "start": declared.start,
+        "description": v.variable.description,
+    }
 
 
 def show_info(path: Path, info: FmuInfo, console: Console) -> None:
@@ -128,8 +146,9 @@ def show_info(path: Path, info: FmuInfo, console: Console) -> None:
     table.add_column("description", overflow="ellipsis", no_wrap=True)
     for row in info.variables:
         shape = "x".join(map(str, row["shape"])) or "scalar"
-        table.add_row(row["name"], row["causality"], row["type"], shape, row["unit"], _short(row["start"]),
-                      row["description"])  # fmt: skip
+        table.add_row(
+            row["name"], row["causality"], row["type"], shape, row["unit"], _short(row["start"]), row["description"]
+        )
     console.print(table)
 
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 
-from cosim.errors import InputError
-from cosim.unit import UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import UnitError
 
 #: Wall time that a check may take [s].
 LIMIT = 60.0

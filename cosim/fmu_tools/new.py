@@ -6,9 +6,9 @@ import keyword
 import re
 from pathlib import Path
 
-from cosim.errors import InputError
 from cosim.fmu_tools.sources import Language
 from cosim.shipped import TEMPLATES, shipped_actuators
+from cosim.unit.errors import InputError
 
 _PLACEHOLDER = "my_actuator"
 

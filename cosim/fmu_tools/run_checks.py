@@ -13,7 +13,7 @@ from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings, FmuUnit
 from cosim.fmu_tools.file_checks import is_actuator
 from cosim.fmu_tools.isolated import Skipped
-from cosim.unit import NANOSECONDS, AnyArray, Causality, UnitError
+from cosim.unit.protocol import NANOSECONDS, AnyArray, Causality, UnitError
 
 #: What an actuator is driven with; other FMUs keep their start values.
 DRIVE = {"power": 0.4, "voltage": 0.8, "tension": 1.0, "extension": 0.005, "ambient_temperature": 295.15}

@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import StrEnum
 from pathlib import Path
 
-from cosim.errors import InputError
 from cosim.nearest import did_you_mean
 from cosim.shipped import shipped_actuators
+from cosim.unit.errors import InputError
 
 
 class Language(StrEnum):
@@ -28,8 +28,12 @@ def find_source(given: str) -> Path:
         return folder
     if given in shipped:
         return shipped[given]
-    raise InputError(given, "", f"there is no such folder and no such actuator{did_you_mean(given, shipped)}",
-                     f"give a folder, or one of: {', '.join(shipped)}")  # fmt: skip
+    raise InputError(
+        given,
+        "",
+        f"there is no such folder and no such actuator{did_you_mean(given, shipped)}",
+        f"give a folder, or one of: {', '.join(shipped)}",
+    )
 
 
 def language_of(folder: Path) -> Language:
@@ -42,5 +46,9 @@ def language_of(folder: Path) -> Language:
         return Language.C
     if (folder / "actuator.py").is_file():
         return Language.PYTHON
-    raise InputError(folder, "", "it holds no actuator: neither model.c with config.h nor actuator.py",
-                     "begin one with `cosim fmu new NAME`")  # fmt: skip
+    raise InputError(
+        folder,
+        "",
+        "it holds no actuator: neither model.c with config.h nor actuator.py",
+        "begin one with `cosim fmu new NAME`",
+    )

@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
 from cosim.isolation.fmi_calls import note_calls
 from cosim.isolation.message import STATUSES, Channel, Closed, Frame, Kind, failure
 from cosim.isolation.shared import Header, SharedArrays
 from cosim.isolation.watch import Watch, memory_in_use
-from cosim.unit import Causality, Unit, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Unit, UnitError
 
 
 def serve(requests: int, replies: int, memory: int, parent: int, folder: str) -> None:
@@ -111,11 +111,17 @@ class Server:
         self.unit = unit = self.build()
         self.shared = SharedArrays(self.memory, unit.variables, is_owner=True)
         self.put_inputs()
-        return Frame(Kind.DONE, payload={
-            "variables": dict(unit.variables), "coordinates": dict(unit.coordinates),
-            "feedthrough": dict(unit.feedthrough), "initial_feedthrough": dict(unit.initial_feedthrough),
-            "can_restore": unit.can_restore, "can_checkpoint": unit.can_checkpoint,
-        })  # fmt: skip
+        return Frame(
+            Kind.DONE,
+            payload={
+                "variables": dict(unit.variables),
+                "coordinates": dict(unit.coordinates),
+                "feedthrough": dict(unit.feedthrough),
+                "initial_feedthrough": dict(unit.initial_feedthrough),
+                "can_restore": unit.can_restore,
+                "can_checkpoint": unit.can_checkpoint,
+            },
+        )
 
     def put_inputs(self) -> None:
         """Show the unit's own values of its inputs."""

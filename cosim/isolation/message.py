@@ -14,8 +14,8 @@ import time as clock
 from enum import IntEnum
 from typing import Any, NamedTuple
 
-from cosim.errors import InputError
-from cosim.unit import StepStatus, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import StepStatus, UnitError
 
 #: How long a reader asks again and again before it sleeps [s]. Waking up an idle core costs 25 us on a virtual machine,
 #: more than what a small FMU computes. A reader whose last wait was long sleeps at once: giving way again and again

@@ -12,12 +12,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from cosim.errors import InputError
 from cosim.isolation.ending import Ending, last_lines, memory_used
 from cosim.isolation.limits import Limits, memory_text
 from cosim.isolation.message import Channel, Closed, Frame, Kind, raised
 from cosim.isolation.shared import Header, create_memory
-from cosim.unit import Unit, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Unit, UnitError
 
 #: Wall time that the interpreter and its imports may take [s]: about 0.5, much more on a loaded machine.
 START_LIMIT = 60.0
@@ -62,8 +62,11 @@ class IsolatedProcess:
         if ready.first > limits.memory_limit:
             self.end()
             used, limit = memory_text(ready.first), memory_text(limits.memory_limit)
-            raise UnitError(unit, f"its process uses {used} before the FMU is loaded, more than its limit of {limit}",
-                            remedy="raise isolation.memory_limit")  # fmt: skip
+            raise UnitError(
+                unit,
+                f"its process uses {used} before the FMU is loaded, more than its limit of {limit}",
+                remedy="raise isolation.memory_limit",
+            )
 
     @property
     def has_ended(self) -> bool:
@@ -79,9 +82,14 @@ class IsolatedProcess:
         try:
             # A process group of its own: Ctrl-C in the terminal does not reach it, and all its children end with it.
             self._process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=output[1], stderr=output[1], pass_fds=theirs,
-                process_group=0, env={"OPENBLAS_NUM_THREADS": "1", **os.environ},
-            )  # fmt: skip
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=output[1],
+                stderr=output[1],
+                pass_fds=theirs,
+                process_group=0,
+                env={"OPENBLAS_NUM_THREADS": "1", **os.environ},
+            )
         except OSError as error:
             for descriptor in (*requests, *replies, *output, self.memory):
                 os.close(descriptor)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cosim.unit import AnyArray, Causality, Variable
+from cosim.unit.protocol import AnyArray, Causality, Variable
 
 #: Bytes of the header; a mapping must begin at a multiple of the granularity.
 HEADER_SIZE = mmap.ALLOCATIONGRANULARITY

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cosim.errors import InputError
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.buffers import element_text
 from cosim.isolation.limits import Limits
 from cosim.isolation.message import STATUSES, Frame, Kind
 from cosim.isolation.process import IsolatedProcess
 from cosim.isolation.shared import SharedArrays
-from cosim.unit import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable
 
 _LOG = logging.getLogger(__name__)
 

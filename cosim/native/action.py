@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from cosim.native.layout import Code, Operation
-from cosim.unit import StepOutcome
+from cosim.unit.protocol import StepOutcome
 
 #: Called with begin and length of the macro-step [ns]; a unit's step returns its outcome.
 Perform = Callable[[int, int], StepOutcome | None]

@@ -32,8 +32,11 @@ def _load(path: Path) -> ctypes.CDLL | str:
         if library.cosim_layout_version() != LAYOUT_VERSION:
             return f"{path.name} is older than its Python side; {_BUILD}"
         library.cosim_advance.argtypes = (
-            ctypes.POINTER(PlanLayout), ctypes.POINTER(Cursor), ctypes.c_int64, ctypes.c_double
-        )  # fmt: skip
+            ctypes.POINTER(PlanLayout),
+            ctypes.POINTER(Cursor),
+            ctypes.c_int64,
+            ctypes.c_double,
+        )
         library.cosim_advance.restype = ctypes.c_int32
         library.cosim_format_rows.restype = ctypes.c_size_t
     except (OSError, AttributeError) as error:

@@ -15,7 +15,7 @@ from cosim.native.courses import course_call
 from cosim.native.fmu_calls import is_carried, is_plain, next_event, read_calls, step_call, write_call
 from cosim.programme import ProgrammeUnit
 from cosim.system import System
-from cosim.unit import AnyArray, StepOutcome, Unit
+from cosim.unit.protocol import AnyArray, StepOutcome, Unit
 
 Kind = Literal["jacobi", "gauss_seidel"]
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from cosim.connection import Connection
 from cosim.native.layout import ELEMENT_TYPES, Code, Operation
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 
 def copy_operation(connection: Connection, source: AnyArray, target: AnyArray, unit: int) -> Operation | None:

@@ -7,7 +7,7 @@ import numpy as np
 from cosim.native.action import Call
 from cosim.native.layout import Code, Operation
 from cosim.programme import Course
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 
 def course_call(course: Course, target: AnyArray, unit: int) -> tuple[Call, AnyArray, AnyArray]:

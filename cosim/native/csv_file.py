@@ -17,7 +17,7 @@ import numpy as np
 from cosim.native.compiled import LibraryAbsent, library
 from cosim.native.layout import ELEMENT_TYPES
 from cosim.native.powers import powers_of_ten
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 
 #: Text is handed to the file in pieces of this size [byte].
 PIECE = 1 << 20
@@ -139,9 +139,14 @@ class _NativeColumns:
         view = memoryview(self._text)
         while row.value < stop:
             count = self._format(
-                self._layouts, ctypes.c_size_t(len(self._layouts)), ctypes.c_void_p(self._powers.ctypes.data),
-                ctypes.byref(row), ctypes.c_size_t(stop), self._text, ctypes.c_size_t(len(self._text)),
-            )  # fmt: skip
+                self._layouts,
+                ctypes.c_size_t(len(self._layouts)),
+                ctypes.c_void_p(self._powers.ctypes.data),
+                ctypes.byref(row),
+                ctypes.c_size_t(stop),
+                self._text,
+                ctypes.c_size_t(len(self._text)),
+            )
             file.write(view[:count])
 
 

@@ -9,7 +9,7 @@ from cosim.fmu.access import Access, address_of
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.native.action import Call
 from cosim.native.layout import ELEMENT_TYPES, Code, Operation
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 
 
 def write_call(access: Access, given: AnyArray, unit: int) -> Call | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from enum import IntEnum
 
-from cosim.unit import VariableType
+from cosim.unit.protocol import VariableType
 
 #: Changes with every change of the structures or of what is done with them; the library says for which one it was
 #: compiled.

@@ -14,7 +14,7 @@ from cosim.native.action import Action
 from cosim.native.compiled import library
 from cosim.native.layout import Code, Cursor, Operation, PlanLayout, Recording, Return
 from cosim.system import System
-from cosim.unit import AnyArray, StepOutcome, StepStatus
+from cosim.unit.protocol import AnyArray, StepOutcome, StepStatus
 
 #: Wall time after which `Plan.advance` comes back, so that interrupts and progress have their turn [s].
 TURN = 0.05
@@ -86,10 +86,18 @@ class Plan:
         self._wall_time = np.zeros(len(system.units) + 1)
         self._sample = np.zeros_like(self._wall_time)
         self._layout = PlanLayout(
-            self._operations, self._step_count, len(operations), self._recordings, len(actions.recordings),
-            grid.per_record, grid.start, grid.size,
-            self._wall_time.ctypes.data, self._sample.ctypes.data, len(system.units),
-        )  # fmt: skip
+            self._operations,
+            self._step_count,
+            len(operations),
+            self._recordings,
+            len(actions.recordings),
+            grid.per_record,
+            grid.start,
+            grid.size,
+            self._wall_time.ctypes.data,
+            self._sample.ctypes.data,
+            len(system.units),
+        )
         self._cursor = Cursor()
 
     @property

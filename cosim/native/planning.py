@@ -10,7 +10,7 @@ from cosim.native.compose import Composer, Kind
 from cosim.native.plan import Actions, Grid, Plan
 from cosim.observers.trace import Trace, keep
 from cosim.system import System
-from cosim.unit import AnyArray, Unit, Variable
+from cosim.unit.protocol import AnyArray, Unit, Variable
 
 #: Integers up to this are exact as doubles, so that both loops compute the same times (104 days) [ns].
 LATEST = 2**53

@@ -71,7 +71,7 @@ static inline int read_checked(const Operation *operation, Cursor *cursor, bool 
     return cursor->element >= 0 ? NOT_FINITE : REACHED;
 }
 
-/* A macro-step in nanoseconds and in seconds, its ends and its length each rounded on their own, as in cosim/unit.py:
+/* A macro-step in nanoseconds and in seconds, its ends and its length each rounded on their own, as in cosim/unit/protocol.py:
  * the FMU gets 0.001 for a millisecond, not end - begin. */
 typedef struct {
     int64_t time, size;

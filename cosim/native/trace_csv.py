@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.native.csv_file import CsvColumn, CsvWriter
 from cosim.observers.trace import Channel, Trace
-from cosim.unit import AnyArray, VariableType
+from cosim.unit.protocol import AnyArray, VariableType
 
 #: Rows that are written before memory is given back.
 _ROWS = 1 << 16

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 #: Rows that take less than this stay in memory [byte].
 LARGEST_IN_MEMORY = 64 << 20

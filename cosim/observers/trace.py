@@ -12,7 +12,7 @@ import xarray as xr
 
 from cosim.observers.storage import Storage
 from cosim.system import System
-from cosim.unit import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
+from cosim.unit.protocol import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
 
 #: Times are converted to seconds in pieces of so many.
 _TIMES_AT_ONCE = 1 << 16

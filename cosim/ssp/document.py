@@ -9,11 +9,11 @@ from typing import Any
 
 from lxml import etree
 
-from cosim.errors import InputError
 from cosim.ssp.model import Place
 from cosim.ssp.namespaces import PREFIXES, SSB, SSD, SSM, SSV, tag
 from cosim.ssp.rules import first_fault
 from cosim.ssp.schemas import schema
+from cosim.unit.errors import InputError
 
 #: An XML file larger than this is refused [byte].
 MAXIMUM_SIZE = 64 << 20

@@ -13,7 +13,6 @@ import yaml
 from cosim.assemble import Assembly, assemble
 from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import Connection
-from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
 from cosim.parameters import Resolved, find_parameter_set
 from cosim.scenario import ScaledConnection, Scenario
@@ -28,7 +27,8 @@ from cosim.ssp.package import write
 from cosim.ssp.replaced import Replaced
 from cosim.ssp.write import WrittenComponent, WrittenConnection, WrittenStructure, description
 from cosim.ssp.write_parameters import Entry, parameter_set
-from cosim.unit import NANOSECONDS
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS
 
 _IMPLEMENTATIONS = {"internal": "CoSimulation", "cvode": "ModelExchange"}
 
@@ -112,9 +112,16 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
         own["algorithm"]["order"] = [n for n in own["algorithm"]["order"] if n not in left_out]
     start, stop = (nanoseconds(t) / NANOSECONDS for t in (scenario.time.start, scenario.time.stop))
     return WrittenStructure(
-        scenario.title, scenario.description, export.version, list(replaced.inputs.values()), components, connections,
-        start, stop, own,
-    ), replaced.notes  # fmt: skip
+        scenario.title,
+        scenario.description,
+        export.version,
+        list(replaced.inputs.values()),
+        components,
+        connections,
+        start,
+        stop,
+        own,
+    ), replaced.notes
 
 
 def _scaling(given: str | ScaledConnection) -> tuple[Linear, bool]:
@@ -155,8 +162,12 @@ def _own_component(export: _Export, part: Part, connected: set[str]) -> WrittenC
         InputError: It is a controller whose law is a Python file, which no other tool runs.
     """
     if getattr(getattr(part.component, "law", None), "kind", "") == "python":
-        raise InputError(export.source, f"components.{part.name}.law", "a law in Python cannot be exported",
-                         "take a built-in law, or write an FMU")  # fmt: skip
+        raise InputError(
+            export.source,
+            f"components.{part.name}.law",
+            "a law in Python cannot be exported",
+            "take a built-in law, or write an FMU",
+        )
     data = part.component.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     data = {"kind": part.component.kind, **data}
     name = data.get("parameter_set")

@@ -11,9 +11,9 @@ from cosim.ssp.fmus import Fmu
 from cosim.ssp.model import Unit
 from cosim.ssp.namespaces import FLOAT_TYPES, Version
 from cosim.ssp.units import UnitFault, known_unit
-from cosim.unit import Causality
-from cosim.unit import Unit as SimulatedUnit
-from cosim.variable import Variable
+from cosim.unit.protocol import Causality
+from cosim.unit.protocol import Unit as SimulatedUnit
+from cosim.unit.variable import Variable
 
 _KINDS = {Causality.INPUT: "input", Causality.OUTPUT: "output"}
 

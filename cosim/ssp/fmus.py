@@ -15,7 +15,7 @@ from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
 from cosim.ssp.model import BASE_UNITS, Unit
 from cosim.ssp.units import UnitFault, known_unit
-from cosim.variable import AnyArray
+from cosim.unit.variable import AnyArray
 
 
 @dataclass(frozen=True)

@@ -155,7 +155,7 @@ class Graph:
         self._check_transformation(c, source)
         return Edge(
             source, source_indices, target, target_indices, c.suppress_unit_conversion, c.transformation, c.place
-        )  # fmt: skip
+        )
 
     def _end(
         self, system: System, path: Path, end: End, place: Place, dictionaries: Mapping[str, Path]

@@ -11,7 +11,6 @@ import pydantic
 import yaml
 
 from cosim.components import Component as ScenarioComponent
-from cosim.errors import InputError
 from cosim.ssp.files import copy_once
 from cosim.ssp.fmus import Fmu, Variable
 from cosim.ssp.graph import Node
@@ -21,14 +20,21 @@ from cosim.ssp.model import Component, Unit
 from cosim.ssp.namespaces import FLOAT_TYPES
 from cosim.ssp.units import means_the_same, plain
 from cosim.ssp.values import Value
+from cosim.unit.errors import InputError
 from cosim.yaml_file import parse_yaml, read_text
 
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
 OWN_KEYS = ("tolerance", "isolation", "structure", "record")
 _EXACT = 2**53
 _WITHOUT_FMU = (
-    "programme", "ngspice", "bullet_fabric", "hanging_mass", "bullet_pendulum", "sensor", "controller",
-)  # fmt: skip
+    "programme",
+    "ngspice",
+    "bullet_fabric",
+    "hanging_mass",
+    "bullet_pendulum",
+    "sensor",
+    "controller",
+)
 
 
 def own_component(component: Component, out: Path) -> dict[str, Any]:
@@ -138,8 +144,10 @@ class FmuImport:
             )
         written, wanted = value.parameter.type, variable.type
         if (written in FLOAT_TYPES and wanted not in FLOAT_TYPES) or (wanted == "Boolean") != (written == "Boolean"):
-            raise value.place.error(f"`{component.name}.{variable.name}` is {wanted}, the value is {written}",
-                                    "give it as the type of the variable")  # fmt: skip
+            raise value.place.error(
+                f"`{component.name}.{variable.name}` is {wanted}, the value is {written}",
+                "give it as the type of the variable",
+            )
 
     def _written(self, value: Value, variable: Variable) -> Any:
         """The value as a scenario holds it."""

@@ -105,8 +105,8 @@ def _check_causality(graph: Graph, ends: Ends, flow: Flow, target: Node) -> None
     if fmu is not None and fmu.variables[target[1]].causality != "input":
         raise flow.place.error(
             f"`{'.'.join(target[0])}.{target[1]}` is a {fmu.variables[target[1]].causality}; only inputs are connected",
-            "bind a value to it in a parameter set"
-        )  # fmt: skip
+            "bind a value to it in a parameter set",
+        )
     source = ends.fmus.get(flow.source[0])
     if source is None:
         return
@@ -118,8 +118,9 @@ def _check_causality(graph: Graph, ends: Ends, flow: Flow, target: Node) -> None
     elif variable.causality != "output":
         raise flow.place.error(
             f"`{'.'.join(flow.source[0])}.{flow.source[1]}` is a {variable.causality}; only outputs and locals "
-            "are read", "bind a value to the target in a parameter set"
-        )  # fmt: skip
+            "are read",
+            "bind a value to the target in a parameter set",
+        )
 
 
 def _scaling(ends: Ends, flow: Flow, target: Node) -> tuple[float, float, bool]:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from cosim.components import nanoseconds
-from cosim.quantity import PhysicalValue
 from cosim.scenario import default_checkpoint_step
 from cosim.ssp.model import Structure
+from cosim.unit.quantity import PhysicalValue
 
 
 @dataclass(frozen=True)

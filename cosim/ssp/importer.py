@@ -10,7 +10,6 @@ from typing import Any
 
 import yaml
 
-from cosim.errors import InputError
 from cosim.scenario import parse_scenario
 from cosim.ssp.files import plain_name
 from cosim.ssp.fmus import Fmu
@@ -24,6 +23,7 @@ from cosim.ssp.namespaces import FMU_TYPE, OWN_TYPE
 from cosim.ssp.package import opened
 from cosim.ssp.read import read_structure
 from cosim.ssp.values import Bindings
+from cosim.unit.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -141,8 +141,9 @@ def _checked_source(component: Component) -> Path:
             f"`{component.name}` is of type {component.type}", "only FMUs can be run; export it as FMU"
         )
     if component.source is None:
-        raise component.place.error(f"`{component.name}` has no source: it is a place for a component yet to come",
-                                    "give it an FMU")  # fmt: skip
+        raise component.place.error(
+            f"`{component.name}` has no source: it is a place for a component yet to come", "give it an FMU"
+        )
     return component.source
 
 
@@ -153,8 +154,11 @@ def _check_interface(component: Component, fmu: Fmu) -> None:
     there = " or ".join(sorted(fmu.interfaces))
     remedy = f"ask for {there}, which it has" if there else "export the FMU for Co-Simulation or Model Exchange"
     if component.implementation == "ScheduledExecution" or not there:
-        problem = f"`{component.name}` has ScheduledExecution alone" if not there else (
-            f"`{component.name}` asks for ScheduledExecution")  # fmt: skip
+        problem = (
+            f"`{component.name}` has ScheduledExecution alone"
+            if not there
+            else (f"`{component.name}` asks for ScheduledExecution")
+        )
         raise component.place.error(f"{problem}, which is not carried out", remedy)
     raise component.place.error(f"the FMU of `{component.name}` has no {component.implementation}", remedy)
 
@@ -169,8 +173,9 @@ def _check_connectors(component: Component, fmu: Fmu) -> None:
         if connector.kind not in (variable.causality, "unspecified", "constant"):
             raise connector.place.error(
                 f"the connector `{name}` of `{component.name}` is of kind {connector.kind}, the FMU's variable is "
-                f"{variable.causality}", "make the two agree"
-            )  # fmt: skip
+                f"{variable.causality}",
+                "make the two agree",
+            )
 
 
 def _names(graph: Graph) -> dict[ElementPath, str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 #: Names of the SI base units of an SSP `BaseUnit`, in the order of `Unit.exponents`.
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")

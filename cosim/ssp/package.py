@@ -10,9 +10,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from cosim.errors import InputError
 from cosim.fmu.extraction import unpack
 from cosim.ssp.namespaces import DEFAULT_SSD
+from cosim.unit.errors import InputError
 
 #: The earliest time that a zip entry can carry; equal contents then give equal files.
 _EPOCH = (1980, 1, 1, 0, 0, 0)

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from cosim.errors import InputError
 from cosim.ssp import package
 from cosim.ssp.annotations import other_step, own_settings
 from cosim.ssp.document import Document, parse, validate
@@ -39,6 +38,7 @@ from cosim.ssp.namespaces import (
     tag,
 )
 from cosim.ssp.read_parameters import Definitions, is_true, read_mapping, read_parameter_set, transformation
+from cosim.unit.errors import InputError
 
 #: Systems and packages inside each other deeper than this are refused: a package may refer to itself.
 MAXIMUM_DEPTH = 20
@@ -83,9 +83,17 @@ class _Reader:
         system = self._system(top.find(tag(SSD, "System")), self._depth)
         start, stop = (self._time(experiment, key) for key in ("startTime", "stopTime"))
         return Structure(
-            top.get("name"), version, top.get("description", ""), system, start, stop,
-            own_settings(self.document, experiment), other_step(top), tuple(self._notes), self.document.place(top),
-        )  # fmt: skip
+            top.get("name"),
+            version,
+            top.get("description", ""),
+            system,
+            start,
+            stop,
+            own_settings(self.document, experiment),
+            other_step(top),
+            tuple(self._notes),
+            self.document.place(top),
+        )
 
     def _time(self, experiment: Any, key: str) -> float | None:
         text = None if experiment is None else experiment.get(key)
@@ -117,9 +125,14 @@ class _Reader:
             self._expect_type(dictionary, SSB_TYPE)
             validate(*self._referred(dictionary, dictionary), tag(SSB, "SignalDictionary"))
         return System(
-            element.get("name"), self._connectors(element), self._bindings(element), place, elements,
-            tuple(self._connection(c) for c in connections), frozenset(d.get("name") for d in dictionaries),
-        )  # fmt: skip
+            element.get("name"),
+            self._connectors(element),
+            self._bindings(element),
+            place,
+            elements,
+            tuple(self._connection(c) for c in connections),
+            frozenset(d.get("name") for d in dictionaries),
+        )
 
     def _element(self, element: Any, depth: int) -> Element:
         if element.tag == tag(SSD, "System"):
@@ -132,9 +145,15 @@ class _Reader:
             return self._nested(element, kind, uri, depth)
         source = None if uri is None else self._resolved(element, uri)
         return Component(
-            name, self._connectors(element), self._bindings(element), place, kind, source,
-            element.get("implementation", "any"), own_settings(self.document, element),
-        )  # fmt: skip
+            name,
+            self._connectors(element),
+            self._bindings(element),
+            place,
+            kind,
+            source,
+            element.get("implementation", "any"),
+            own_settings(self.document, element),
+        )
 
     def _nested(self, element: Any, kind: str, uri: str, depth: int) -> System:
         """A component that refers to another SSD or SSP: its system, with the component's name and bindings on top."""
@@ -159,9 +178,14 @@ class _Reader:
             system = _Reader(self._path, self._root, file, self._notes, depth + 1).structure().system
         bindings = system.bindings + self._bindings(element)
         return System(
-            element.get("name"), system.connectors, bindings, place, system.elements, system.connections,
+            element.get("name"),
+            system.connectors,
+            bindings,
+            place,
+            system.elements,
+            system.connections,
             system.dictionaries,
-        )  # fmt: skip
+        )
 
     def _unpack(self, element: Any, file: Path, folder: Path) -> None:
         try:
@@ -203,9 +227,12 @@ class _Reader:
                 )
             ends.append(End(element.get(f"{side}Element") or None, element.get(f"{side}Connector"), numbers))
         return Connection(
-            ends[0], ends[1], is_true(element, "suppressUnitConversion"), transformation(self.document, element),
+            ends[0],
+            ends[1],
+            is_true(element, "suppressUnitConversion"),
+            transformation(self.document, element),
             self.document.place(element),
-        )  # fmt: skip
+        )
 
     def _bindings(self, element: Any) -> tuple[Binding, ...]:
         listed = element.iterfind(f"{tag(SSD, 'ParameterBindings')}/{tag(SSD, 'ParameterBinding')}")

@@ -8,9 +8,9 @@ from typing import Any
 
 from cosim.components import ProgrammeComponent
 from cosim.connection import Connection
-from cosim.quantity import PhysicalValue
 from cosim.ssp.export_parts import Part, Port
 from cosim.ssp.model import IDENTITY, End, Linear
+from cosim.unit.quantity import PhysicalValue
 
 
 class Replaced:

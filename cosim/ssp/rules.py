@@ -21,17 +21,37 @@ _NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?INF|NaN"
 _TRUTH = "true|false|1|0"
 #: Name of a kind of attribute to its text as a regular expression.
 _KINDS = {
-    "text": r"(?s:.*)", "number": _NUMBER, "whole": r"[-+]?\d{1,40}", "size": r"\+?\d{1,18}", "truth": _TRUTH,
-    "numbers": rf"(({_NUMBER})(\s+|$))+", "wholes": r"([-+]?\d{1,40}(\s+|$))+", "truths": rf"(({_TRUTH})(\s+|$))+",
-    "indices": r"(\d{1,18}(\s+|$))+", "bytes": "([0-9A-Fa-f]{2})*", "version": r"2\.\d+(\S*)",
+    "text": r"(?s:.*)",
+    "number": _NUMBER,
+    "whole": r"[-+]?\d{1,40}",
+    "size": r"\+?\d{1,18}",
+    "truth": _TRUTH,
+    "numbers": rf"(({_NUMBER})(\s+|$))+",
+    "wholes": r"([-+]?\d{1,40}(\s+|$))+",
+    "truths": rf"(({_TRUTH})(\s+|$))+",
+    "indices": r"(\d{1,18}(\s+|$))+",
+    "bytes": "([0-9A-Fa-f]{2})*",
+    "version": r"2\.\d+(\S*)",
     "kind": "input|output|inout|parameter|calculatedParameter|structuralParameter|constant|local|unspecified",
-    "base": "SSD|component", "interface": "any|CoSimulation|ModelExchange|ScheduledExecution",
-}  # fmt: skip
+    "base": "SSD|component",
+    "interface": "any|CoSimulation|ModelExchange|ScheduledExecution",
+}
 
-_PASSED_OVER = frozenset({
-    tag(SSD, name) for name in ("Annotations", "ElementGeometry", "SystemGeometry", "ConnectionGeometry",
-                                "ConnectorGeometry", "GraphicalElements")
-} | {tag(n, "Annotations") for n in (SSC, SSV, SSM, SSB)} | {tag(SSC, "MetaData"), tag(SSC, "Signature")})  # fmt: skip
+_PASSED_OVER = frozenset(
+    {
+        tag(SSD, name)
+        for name in (
+            "Annotations",
+            "ElementGeometry",
+            "SystemGeometry",
+            "ConnectionGeometry",
+            "ConnectorGeometry",
+            "GraphicalElements",
+        )
+    }
+    | {tag(n, "Annotations") for n in (SSC, SSV, SSM, SSB)}
+    | {tag(SSC, "MetaData"), tag(SSC, "Signature")}
+)
 
 
 @dataclass(frozen=True)
@@ -62,14 +82,21 @@ _TOP = _BASE | dict.fromkeys(
 )
 _SOURCE = {"type": "text", "source": "text", "sourceBase": "base"}
 _TYPES = FLOAT_TYPES | INTEGER_TYPES | {"Boolean", "String", "Enumeration", "Binary"}
-_TRANSFORMATIONS = _tags(SSC, *(f"{n}Transformation" for n in ("Linear", "BooleanMapping", "IntegerMapping",
-                                                               "EnumerationMapping")))  # fmt: skip
+_TRANSFORMATIONS = _tags(
+    SSC, *(f"{n}Transformation" for n in ("Linear", "BooleanMapping", "IntegerMapping", "EnumerationMapping"))
+)
 _ELEMENTS = _tags(SSD, "Component", "SignalDictionaryReference", "System")
 _INSIDE = _tags(SSD, "Connectors", "ParameterBindings")
 _CLOCK = {
-    "intervalVariability": "text", "intervalDecimal": "number", "shiftDecimal": "number", "supportsFraction": "truth",
-    "resolution": "size", "intervalCounter": "size", "shiftCounter": "size", "priority": "size",
-}  # fmt: skip
+    "intervalVariability": "text",
+    "intervalDecimal": "number",
+    "shiftDecimal": "number",
+    "supportsFraction": "truth",
+    "resolution": "size",
+    "intervalCounter": "size",
+    "shiftCounter": "size",
+    "priority": "size",
+}
 
 
 def _list_of(*names: str, namespace: str = SSD) -> Rule:
@@ -78,12 +105,12 @@ def _list_of(*names: str, namespace: str = SSD) -> Rule:
 
 _RULES: dict[str, Rule] = {
     tag(SSD, "SystemStructureDescription"): Rule(
-        {"version": "version", **_NAME}, _TOP, _tags(SSD, "System", "Enumerations", "Units", "DefaultExperiment"),
+        {"version": "version", **_NAME},
+        _TOP,
+        _tags(SSD, "System", "Enumerations", "Units", "DefaultExperiment"),
         _tags(SSD, "System"),
     ),
-    tag(SSD, "System"): Rule(
-        _NAME, _BASE, _INSIDE | _tags(SSD, "Elements", "Connections", "SignalDictionaries")
-    ),
+    tag(SSD, "System"): Rule(_NAME, _BASE, _INSIDE | _tags(SSD, "Elements", "Connections", "SignalDictionaries")),
     tag(SSD, "Component"): Rule(
         _NAME, _BASE | {"type": "text", "source": "text", "implementation": "interface"}, _INSIDE
     ),
@@ -96,8 +123,14 @@ _RULES: dict[str, Rule] = {
     tag(SSD, "SignalDictionary"): Rule(_NAME, _BASE | _SOURCE, None),
     tag(SSD, "Connection"): Rule(
         {"startConnector": "text", "endConnector": "text"},
-        _BASE | {"startElement": "text", "endElement": "text", "startIndices": "indices", "endIndices": "indices",
-                 "suppressUnitConversion": "truth"},
+        _BASE
+        | {
+            "startElement": "text",
+            "endElement": "text",
+            "startIndices": "indices",
+            "endIndices": "indices",
+            "suppressUnitConversion": "truth",
+        },
         _TRANSFORMATIONS,
     ),
     tag(SSD, "Connector"): Rule(
@@ -122,10 +155,14 @@ _RULES: dict[str, Rule] = {
     **{tag(SSC, name): Rule() for name in INTEGER_TYPES | {"Boolean", "String"}},
     tag(SSC, "Binary"): Rule({}, {"mime-type": "text"}),
     tag(SSC, "LinearTransformation"): Rule({}, {"factor": "number", "offset": "number"}),
-    **{tag(SSC, f"{name}MappingTransformation"): _list_of("MapEntry", namespace=SSC)
-       for name in ("Boolean", "Integer", "Enumeration")},
+    **{
+        tag(SSC, f"{name}MappingTransformation"): _list_of("MapEntry", namespace=SSC)
+        for name in ("Boolean", "Integer", "Enumeration")
+    },
     tag(SSV, "ParameterSet"): Rule(
-        {"version": "version", **_NAME}, _TOP, _tags(SSV, "Parameters", "Enumerations", "Units"),
+        {"version": "version", **_NAME},
+        _TOP,
+        _tags(SSV, "Parameters", "Enumerations", "Units"),
         _tags(SSV, "Parameters"),
     ),
     tag(SSV, "Parameters"): Rule(children=_tags(SSV, "Parameter")),
@@ -145,10 +182,12 @@ _RULES: dict[str, Rule] = {
         {"version": "version"}, _TOP, _tags(SSB, "DictionaryEntry", "Enumerations", "Units")
     ),
     tag(SSB, "DictionaryEntry"): Rule(_NAME, _BASE, _tags(SSC, *_TYPES, "Clock", "Dimension")),
-}  # fmt: skip
+}
 #: Kind of both attributes of a MapEntry, by the table that it stands in.
-_ENTRIES = {tag(SSC, f"{n}MappingTransformation"): k
-            for n, k in {"Boolean": "truth", "Integer": "whole", "Enumeration": "text"}.items()}  # fmt: skip
+_ENTRIES = {
+    tag(SSC, f"{n}MappingTransformation"): k
+    for n, k in {"Boolean": "truth", "Integer": "whole", "Enumeration": "text"}.items()
+}
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import Any
 import fmpy
 from lxml import etree
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 _NAMED: ContextVar[Path | None] = ContextVar("ssp_schemas", default=None)
 
@@ -25,8 +25,12 @@ def named_schemas(folder: Path | None) -> Iterator[None]:
         InputError: There are none in it.
     """
     if folder is not None and not (folder / "SystemStructureDescription.xsd").is_file():
-        raise InputError(folder, "", "there is no SystemStructureDescription.xsd in it",
-                         "give the folder `schema` of the SSP 2.0 standard's files")  # fmt: skip
+        raise InputError(
+            folder,
+            "",
+            "there is no SystemStructureDescription.xsd in it",
+            "give the folder `schema` of the SSP 2.0 standard's files",
+        )
     token = _NAMED.set(folder)
     try:
         yield

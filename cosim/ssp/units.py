@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from cosim.quantity import cycles_and_angles, parse_unit, registry
 from cosim.ssp.model import BASE_UNITS, Unit
+from cosim.unit.quantity import cycles_and_angles, parse_unit, registry
 
 _PINT_NAMES = ("kilogram", "meter", "second", "ampere", "kelvin", "mole", "candela", "radian")
 
@@ -43,7 +43,8 @@ def convert(source: Unit, target: Unit) -> tuple[float, float]:
     """(factor, offset) with value in target = factor * value in source + offset.
 
     Exponents of rad are not compared: rad is 1 (BIPM SI Brochure, 9th edition, table 4); tools differ in writing it.
-    Where one unit is named with Hz and the other has rad in its place, a cycle is 2 pi rad (`cosim.quantity.turns`).
+    Where one unit is named with Hz and the other has rad in its place, a cycle is 2 pi rad
+    (`cosim.unit.quantity.turns`).
 
     Raises:
         UnitFault: They measure different things.

@@ -108,8 +108,9 @@ class Bindings:
         value = replace(value, unit=unit, is_changed=True) if entry.suppress_unit_conversion else value.in_unit(unit)
         if isinstance(entry.transformation, Linear):
             if parameter.type not in FLOAT_TYPES:
-                raise entry.place.error(f"a linear transformation of a value of type {parameter.type}",
-                                        "it is for floating point only")  # fmt: skip
+                raise entry.place.error(
+                    f"a linear transformation of a value of type {parameter.type}", "it is for floating point only"
+                )
             return value.scaled(entry.transformation.factor, entry.transformation.offset, value.unit)
         if isinstance(entry.transformation, Table):
             entries = entry.transformation.entries
@@ -130,8 +131,10 @@ class Bindings:
 
     def _carry(self, edge: Edge, value: Value) -> None:
         if edge.source_indices is not None or edge.target_indices is not None:
-            raise edge.place.error("a parameter value cannot go through a connection of single elements",
-                                   "bind the value to the component itself")  # fmt: skip
+            raise edge.place.error(
+                "a parameter value cannot go through a connection of single elements",
+                "bind the value to the component itself",
+            )
         value = value.in_unit(self._graph.unit(edge.source))
         if value.parameter.type in FLOAT_TYPES:
             behind = self._graph.through(edge, Flow(edge.source, value.unit, edge.place))

@@ -12,12 +12,12 @@ import numpy as np
 from scipy.stats import norm, qmc
 
 from cosim.components import FabricComponent, FmuComponent, PendulumComponent
-from cosim.errors import InputError
 from cosim.parameters import Resolved, resolve
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
 from cosim.sweep.file import MOST_RUNS, Axis, Keyed, Range, Sobol, Spread, Starts, SweepFile
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue
 
 #: Least distance of a drawn share from 0 and 1: the normal distribution is infinite there.
 _EDGE = 1e-12
@@ -91,13 +91,21 @@ def axes_of(sweep: SweepFile, scenario: Scenario, source: Path) -> list[Points]:
     keys = [c.key for p in found for c in p.columns]
     twice = sorted({k for k in keys if keys.count(k) > 1})
     if twice:
-        raise InputError(source, "axes", f"`{twice[0]}` is set twice, so that one value would never be used",
-                         "let one axis set it; keys that change together belong into one `zip`")  # fmt: skip
+        raise InputError(
+            source,
+            "axes",
+            f"`{twice[0]}` is set twice, so that one value would never be used",
+            "let one axis set it; keys that change together belong into one `zip`",
+        )
     runs = int(np.prod([float(p.size) for p in found]))
     if runs > MOST_RUNS:
         sizes = " x ".join(f"{p.size} ({p.name})" for p in found)
-        raise InputError(source, "axes", f"{sizes} are {runs} runs, more than {MOST_RUNS}",
-                         "take fewer values, or draw them with `sobol`")  # fmt: skip
+        raise InputError(
+            source,
+            "axes",
+            f"{sizes} are {runs} runs, more than {MOST_RUNS}",
+            "take fewer values, or draw them with `sobol`",
+        )
     return found
 
 
@@ -168,11 +176,19 @@ def _starts(name: str, given: Starts, scenario: Scenario) -> Points:
         raise ValueError(f"starts: `{given.component}` is no fabric of the scenario (there: {fabrics})")
     numbers = np.arange(given.first, given.first + given.count, dtype=np.float64)
     place = f"components.{given.component}.parameters"
-    return Points(name, "starts", (
-        Column(f"{place}.start_number", tuple(int(n) for n in numbers), numbers, ""),
-        Column(f"{place}.start_speed", (str(given.speed),) * given.count, np.full(given.count, given.speed.number),
-               given.speed.unit),
-    ))  # fmt: skip
+    return Points(
+        name,
+        "starts",
+        (
+            Column(f"{place}.start_number", tuple(int(n) for n in numbers), numbers, ""),
+            Column(
+                f"{place}.start_speed",
+                (str(given.speed),) * given.count,
+                np.full(given.count, given.speed.number),
+                given.speed.unit,
+            ),
+        ),
+    )
 
 
 @dataclass(frozen=True)
@@ -230,8 +246,10 @@ def _drawn(entry: Any, scenario: Scenario) -> list[_Drawn]:
             raise ValueError(f"stated: `{entry.key}` is no parameter; write `component.parameters.name`")
         stated = _stated(pieces[0], scenario)
         if pieces[2] not in stated:
-            raise ValueError(f"stated: the parameter set states no uncertainty of `{pieces[2]}` "
-                             f"(stated: {', '.join(stated) or 'none'})")  # fmt: skip
+            raise ValueError(
+                f"stated: the parameter set states no uncertainty of `{pieces[2]}` "
+                f"(stated: {', '.join(stated) or 'none'})"
+            )
         return [stated[pieces[2]]]
     found = _stated(entry.component, scenario)
     if not found:

@@ -21,7 +21,6 @@ from cosim.compute.cluster import Place
 from cosim.compute.package import Packer
 from cosim.compute.progress import Progress, duration
 from cosim.compute.result import Task
-from cosim.errors import InputError
 from cosim.run_folder import replacing, versions, write_atomically, writing
 from cosim.scenario import Scenario, scenario_of_data
 from cosim.sweep.axes import Points, axes_of, grid
@@ -32,6 +31,7 @@ from cosim.sweep.one_run import Shared, simulate
 from cosim.sweep.result import Made, dataset, failures_table, indices_table, reasons, table
 from cosim.sweep.sensitivity import sobol_indices
 from cosim.sweep.travel import packed_text, run_key
+from cosim.unit.errors import InputError
 
 #: Exit codes: as of the command line.
 FAILED = 1
@@ -72,8 +72,12 @@ def plan(path: Path) -> Plan:
             first = scenario
             _assembled(scenario)
         elif sweep.series and scenario.time != first.time:
-            raise InputError(path, "series", "the runs have different times, so their series have no common axis",
-                             "leave `series` out, or do not change `time`")  # fmt: skip
+            raise InputError(
+                path,
+                "series",
+                "the runs have different times, so their series have no common axis",
+                "leave `series` out, or do not change `time`",
+            )
         texts.append(packed_text(scenario, packer))
     files = packer.files()
     shared = Shared(files, sweep.outputs, sweep.series)
@@ -95,8 +99,12 @@ def _scenario(
         raise InputError(path, "axes", str(error), "write the path of a key of the scenario") from error
     except InputError as error:
         at = ", ".join(f"{a.name} = {a.columns[0].values[i]}" for a, i in zip(axes, place))
-        raise InputError(path, "axes", f"with {at} the scenario is wrong: {error.key}: {error.problem}",
-                         error.remedy or "correct the axis") from error  # fmt: skip
+        raise InputError(
+            path,
+            "axes",
+            f"with {at} the scenario is wrong: {error.key}: {error.problem}",
+            error.remedy or "correct the axis",
+        ) from error
 
 
 def sweep(path: Path, out: Path, place: Place, resume: bool, progress: Progress | None = None) -> int:
@@ -129,12 +137,23 @@ def sweep(path: Path, out: Path, place: Place, resume: bool, progress: Progress 
         made = Made(planned.sweep, planned.axes, results)
         files = write(made, out)
         with writing(out):
-            write_atomically(out / "summary.json", json.dumps({
-                "title": planned.sweep.title, "runs": len(results), "made now": batches.made,
-                "failed": sum(not r.is_complete for r in results),
-                "wall_time_s": {"now": clock.perf_counter() - begin, "all runs": sum(r.seconds for r in results)},
-                "versions": versions(),
-            }, indent=2).encode())  # fmt: skip
+            write_atomically(
+                out / "summary.json",
+                json.dumps(
+                    {
+                        "title": planned.sweep.title,
+                        "runs": len(results),
+                        "made now": batches.made,
+                        "failed": sum(not r.is_complete for r in results),
+                        "wall_time_s": {
+                            "now": clock.perf_counter() - begin,
+                            "all runs": sum(r.seconds for r in results),
+                        },
+                        "versions": versions(),
+                    },
+                    indent=2,
+                ).encode(),
+            )
     _tell(made, out, files)
     return FAILED if any(not r.is_complete for r in results) else 0
 
@@ -142,8 +161,12 @@ def sweep(path: Path, out: Path, place: Place, resume: bool, progress: Progress 
 def _check_folder(out: Path, resume: bool) -> None:
     is_begun = (out / "sweep.yaml").exists() or (out / "runs").exists()
     if is_begun and not resume:
-        raise InputError(out, "", "this folder already holds a sweep",
-                         "go on from it with `--resume`, or give another folder with `--out`")  # fmt: skip
+        raise InputError(
+            out,
+            "",
+            "this folder already holds a sweep",
+            "go on from it with `--resume`, or give another folder with `--out`",
+        )
     if resume and not is_begun:
         raise InputError(out, "", "there is no sweep to resume here", "leave `--resume` out, or give its folder")
 
@@ -163,8 +186,10 @@ def write(made: Made, out: Path) -> list[Path]:
         write_atomically(out / "failures.csv", failures_table(made.results).encode())
         if indices:
             write_atomically(out / "indices.csv", indices_table(indices).encode())
-        return [*draw(out / "figures", data, made.axes, list(made.sweep.outputs)),
-                *draw_all_indices(out / "figures", indices)]  # fmt: skip
+        return [
+            *draw(out / "figures", data, made.axes, list(made.sweep.outputs)),
+            *draw_all_indices(out / "figures", indices),
+        ]
 
 
 def _write_netcdf(data: xr.Dataset, path: Path) -> None:

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.figures.style import figure
+from cosim.figure_style import figure
 from cosim.sweep.axes import Points
 from cosim.sweep.sensitivity import Indices
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Kinds of axes along which runs scatter; along the others a value is chosen.
 _SCATTER = ("starts", "sobol", "indices")
@@ -171,5 +171,7 @@ def _percentile(rows: Array, percent: float) -> Array:
 
 def draw_all_indices(folder: Path, found: Mapping[tuple[str, str], tuple[Sequence[str], Indices]]) -> list[Path]:
     """One figure for every output and axis that has indices."""
-    return [draw_indices(folder / f"{output}_indices.png", output, keys, indices)
-            for (output, _), (keys, indices) in found.items()]  # fmt: skip
+    return [
+        draw_indices(folder / f"{output}_indices.png", output, keys, indices)
+        for (output, _), (keys, indices) in found.items()
+    ]

@@ -9,9 +9,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, StrictBool, StrictInt, StrictStr, model_validator
 
 from cosim.components import AnyQuantity, Count, Strict, Time
-from cosim.errors import InputError
-from cosim.quantity import In, PhysicalValue
 from cosim.scenario import find_scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import In, PhysicalValue
 from cosim.yaml_file import parse_yaml, read_model, read_text
 
 _REMEDY = "docs/sweeps.md explains every key"
@@ -123,8 +123,10 @@ class Axis(Strict):
     def _check(self) -> Axis:
         given = [n for n in ("key", "zip", "sobol", "starts") if getattr(self, n) is not None]
         if len(given) != 1:
-            raise ValueError("an axis has one of `key`, `zip`, `sobol` and `starts`"
-                             + (f", not {' and '.join(given)}" if given else ""))  # fmt: skip
+            raise ValueError(
+                "an axis has one of `key`, `zip`, `sobol` and `starts`"
+                + (f", not {' and '.join(given)}" if given else "")
+            )
         if self.key is not None:
             Keyed(key=self.key, values=self.values, range=self.range)
         elif self.values is not None or self.range is not None:

@@ -10,11 +10,11 @@ import numpy as np
 
 from cosim.compute.package import Files, unpacked
 from cosim.compute.result import Result
-from cosim.errors import InputError
 from cosim.run import RunStopped, run
 from cosim.scenario import parse_scenario
 from cosim.sweep.file import Output, Recorded
 from cosim.sweep.outputs import number, series
+from cosim.unit.errors import InputError
 
 
 @dataclass(frozen=True)

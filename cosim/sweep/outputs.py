@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from cosim.quantity import conversion
 from cosim.sweep.file import Output, Recorded
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import conversion
 
 #: Quantities that are computed here, beside the recorded ones.
 ENERGY, TIP_SAG = "energy", "tip_sag"

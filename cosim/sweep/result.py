@@ -98,8 +98,11 @@ def table(made: Made) -> str:
     buffer = io.StringIO()
     writer = csv.writer(buffer)
     units = units_of(made)
-    heads = [(f"{a.name}.{c.key}" if len(a.columns) > 1 else a.name, c, i)
-             for i, a in enumerate(made.axes) for c in a.columns]  # fmt: skip
+    heads = [
+        (f"{a.name}.{c.key}" if len(a.columns) > 1 else a.name, c, i)
+        for i, a in enumerate(made.axes)
+        for c in a.columns
+    ]
     outputs = [f"{n} [{units[n]}]" if units.get(n) else n for n in made.sweep.outputs]
     writer.writerow(["run", *(h for h, _, _ in heads), *outputs, "failure"])
     for number, (place, result) in enumerate(zip(np.ndindex(*made.shape), made.results), start=1):

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 @dataclass(frozen=True)

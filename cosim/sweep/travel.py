@@ -9,12 +9,12 @@ from typing import Any
 
 from cosim.components import FmuComponent
 from cosim.compute.package import Packer
-from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
 from cosim.parameters import Resolved, resolve
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
 from cosim.sweep.one_run import Shared
+from cosim.unit.errors import InputError
 
 
 def packed_text(scenario: Scenario, packer: Packer) -> str:
@@ -43,8 +43,12 @@ def _sets(scenario: Scenario) -> dict[str, Any]:
 
 def run_key(shared: Shared, text: str) -> str:
     """Hash of files, program, scenario, shipped FMUs, and what is read off the run."""
-    asked = json.dumps([{n: o.model_dump(mode="json", by_alias=True) for n, o in part.items()}
-                        for part in (shared.outputs, shared.series)])  # fmt: skip
+    asked = json.dumps(
+        [
+            {n: o.model_dump(mode="json", by_alias=True) for n, o in part.items()}
+            for part in (shared.outputs, shared.series)
+        ]
+    )
     return hashlib.sha256(f"{shared.files.digest} {asked} {text} {_shipped(text)}".encode()).hexdigest()
 
 

@@ -1,7 +1,7 @@
-/* The coils of the bank as the model of an FMU: heat, added states, stiffness. The circuit and the load are other units.
+/* The coils of the network as the model of an FMU: heat, added states, stiffness. The circuit and the load are other units.
  *
- * A step is that of the bank with everything taken at its begin (is_midpoint = 0), so that the model that was fitted is
- * the model that runs. Generated before this text: the bank's own functions with the hooks of the terms, `bind`,
+ * A step is that of the network with everything taken at its begin (is_midpoint = 0), so that the model that was fitted is
+ * the model that runs. Generated before this text: the network's own functions with the hooks of the terms, `bind`,
  * `fill_fields` and `take_inputs`.
  */
 

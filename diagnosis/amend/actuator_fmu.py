@@ -16,17 +16,22 @@ from diagnosis.amend.fmu_source import (
 )
 from diagnosis.amend.parts import Port, names_in
 from diagnosis.amend.table import Row
-from diagnosis.bank.layout import COIL_FIELDS, BankLayout
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, CoilNetworkLayout
 
-#: Fields of the bank that parameters of the same name give.
+#: Fields of the network that parameters of the same name give.
 _DIRECT = {
-    "reference_resistance": "POSITIVE", "resistance_temperature_coefficient": "ANY",
-    "reference_temperature": "POSITIVE", "power_gain": "NON_NEGATIVE", "cooling_rate": "NON_NEGATIVE",
-    "off_power": "NON_NEGATIVE", "initial_temperature": "POSITIVE",
-    "initial_loop_position": "NON_NEGATIVE", "cycles_before": "NON_NEGATIVE",
+    "reference_resistance": "POSITIVE",
+    "resistance_temperature_coefficient": "ANY",
+    "reference_temperature": "POSITIVE",
+    "power_gain": "NON_NEGATIVE",
+    "cooling_rate": "NON_NEGATIVE",
+    "off_power": "NON_NEGATIVE",
+    "initial_temperature": "POSITIVE",
+    "initial_loop_position": "NON_NEGATIVE",
+    "cycles_before": "NON_NEGATIVE",
     **{f"{branch}_{letter}": "POSITIVE" for branch in ("heating", "cooling") for letter in "abcd"},
-}  # fmt: skip
+}
 #: Inputs that terms may need beside power and ambient temperature: array of the step to unit and meaning.
 _NEIGHBOURS = {
     "extension": ("m", "Elongation of each coil beyond its rest length"),
@@ -43,7 +48,7 @@ def neighbour_inputs(terms: Sequence[CandidateTerm]) -> list[str]:
 
 
 def actuator_source(
-    terms: Sequence[CandidateTerm], layout: BankLayout, ports: Sequence[Port], inputs: Sequence[str]
+    terms: Sequence[CandidateTerm], layout: CoilNetworkLayout, ports: Sequence[Port], inputs: Sequence[str]
 ) -> Source:
     """Sources of the coils.
 
@@ -57,15 +62,25 @@ def actuator_source(
     rows = [
         *first_rows(),
         Row("power", "INPUT", "W", description="Electrical power turned into heat in each coil"),
-        Row("ambient_temperature", "INPUT", "K", "295.15", "Temperature of the surrounding air or bath",
-            is_scalar=True, limit="POSITIVE", nominal=300.0),
+        Row(
+            "ambient_temperature",
+            "INPUT",
+            "K",
+            "295.15",
+            "Temperature of the surrounding air or bath",
+            is_scalar=True,
+            limit="POSITIVE",
+            nominal=300.0,
+        ),
         *(Row(name, "INPUT", *_NEIGHBOURS[name][:1], description=_NEIGHBOURS[name][1]) for name in inputs),
         *_outputs(terms, inputs),
-        *(Row(f"port_{p.array}", "OUTPUT", p.unit, description=p.meaning, name=p.name, depends="@ambient_temperature")
-          for p in shown),
+        *(
+            Row(f"port_{p.array}", "OUTPUT", p.unit, description=p.meaning, name=p.name, depends="@ambient_temperature")
+            for p in shown
+        ),
         *state_rows(terms, "@ambient_temperature"),
         *_parameters(),
-    ]  # fmt: skip
+    ]
     takes = "".join(take(name, name) for name in inputs)
     from_load = "".join(take(name, name) for name in inputs if name != "current")
     before = take_before() if "extension" in inputs else ""
@@ -99,15 +114,32 @@ def _outputs(terms: Sequence[CandidateTerm], inputs: Sequence[str]) -> list[Row]
     start = "@ambient_temperature" + (" @tension" if "tension" in inputs else "")
     return [
         Row("temperature", "OUTPUT", "K", description="Temperature of each coil", limit="POSITIVE", nominal=300.0),
-        Row("stiffness", "OUTPUT", "N/m", description="Spring constant of each coil", limit="POSITIVE", depends=start,
-            nominal=200.0),
+        Row(
+            "stiffness",
+            "OUTPUT",
+            "N/m",
+            description="Spring constant of each coil",
+            limit="POSITIVE",
+            depends=start,
+            nominal=200.0,
+        ),
         Row("rest_length", "OUTPUT", "m", description="Length of each coil without load", nominal=0.01),
-        Row("resistance", "OUTPUT", "ohm", description="Electrical resistance of each coil", limit="POSITIVE",
-            depends=" ".join([start, *direct])),
+        Row(
+            "resistance",
+            "OUTPUT",
+            "ohm",
+            description="Electrical resistance of each coil",
+            limit="POSITIVE",
+            depends=" ".join([start, *direct]),
+        ),
         Row("stored_energy", "OUTPUT", "J", description="Heat stored in each coil since the start"),
-        Row("convected_energy", "OUTPUT", "J",
-            description="Electrical energy that is not stored in the coil: given away, or to what the terms add"),
-    ]  # fmt: skip
+        Row(
+            "convected_energy",
+            "OUTPUT",
+            "J",
+            description="Electrical energy that is not stored in the coil: given away, or to what the terms add",
+        ),
+    ]
 
 
 def _parameters() -> list[Row]:
@@ -126,9 +158,14 @@ def _parameters() -> list[Row]:
         rows.append(Row(name, "PARAMETER", unit, repr(value), f"Of each coil: {name.replace('_', ' ')}", limit=limit))
     return [
         *rows,
-        Row("use_regressed_cooling_rate", "FLAG", start="1", is_scalar=True,
-            description="Whether a coil that is switched off cools with cooling_rate instead of h A / C"),
-    ]  # fmt: skip
+        Row(
+            "use_regressed_cooling_rate",
+            "FLAG",
+            start="1",
+            is_scalar=True,
+            description="Whether a coil that is switched off cools with cooling_rate instead of h A / C",
+        ),
+    ]
 
 
 def _fill() -> str:

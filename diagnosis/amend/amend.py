@@ -22,8 +22,8 @@ from diagnosis.amend.scenario_file import Files, actuator_inputs, amended_data, 
 from diagnosis.amend.sensors import sensor_entries
 from diagnosis.amend.written import write_scenario
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.search.problem import Point
-from diagnosis.simulator.bank_model import BankModel
 
 #: FMI versions that are built; the scenario runs the first.
 VERSIONS = (3,)
@@ -59,7 +59,7 @@ class AmendedModel:
 
 
 def amend(
-    scenario: Scenario, model: BankModel, point: Point, folder: Path, versions: Sequence[int] = VERSIONS
+    scenario: Scenario, model: CoilNetworkModel, point: Point, folder: Path, versions: Sequence[int] = VERSIONS
 ) -> AmendedModel:
     """Write an amended scenario.
 
@@ -82,7 +82,7 @@ def amend(
 
 def write_amended(
     scenario: Scenario, changes: Changes, folder: Path, versions: Sequence[int] = VERSIONS
-) -> AmendedModel:  # fmt: skip
+) -> AmendedModel:
     """Write an amended scenario from its changes; see `amend`."""
     files = Files(
         f"amended_actuator_fmi{versions[0]}.fmu" if needs_own_fmu(changes) else None,
@@ -123,9 +123,7 @@ def amend_like(other: AmendedModel, changes: Changes, folder: Path) -> AmendedMo
     return _write(other.original, changes, files, folder, amended_data(other.original, changes, files))
 
 
-def _write(
-    scenario: Scenario, changes: Changes, files: Files, folder: Path, data: dict[str, Any]
-) -> AmendedModel:  # fmt: skip
+def _write(scenario: Scenario, changes: Changes, files: Files, folder: Path, data: dict[str, Any]) -> AmendedModel:
     folder.mkdir(parents=True, exist_ok=True)
     take_along(scenario, data, folder)
     amended = write_scenario(data, _comment(scenario, changes), folder / "scenario.yaml")

@@ -9,17 +9,17 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from diagnosis.amend.parts import Part, part_of
-from diagnosis.bank.layout import QUANTITY_FIELDS, Array
-from diagnosis.bank.parameters import BankParameters
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.kernel.layout import QUANTITY_FIELDS, Array
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.translate import Translation, translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.shares import is_own
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.translate import Translation, translate
 
-#: Fields of the bank that are moved by an amount and not by a factor: the room, and the start.
+#: Fields of the network that are moved by an amount and not by a factor: the room, and the start.
 OFFSETS = ("ambient_offset", "initial_temperature")
 #: Values this close to each other are one value: what is written has ten digits.
 SAME = 1e-10
@@ -52,8 +52,8 @@ class Changes:
     """What a point changes.
 
     Args:
-        translation: The scenario as a bank.
-        factors: Base parameter of the bank to the factor that the fit found, a number or one per element.
+        translation: The scenario as a network.
+        factors: Base parameter of the network to the factor that the fit found, a number or one per element.
         terms: Terms in the order of the catalogue.
         sensors: Base parameters of the sensors (how late the clock of every quantity is) with their values.
         offsets: Those of `OFFSETS` that all recordings share, and by how much they are moved [K].
@@ -74,12 +74,12 @@ class Changes:
         return [t for t in self.terms if t.part is part]
 
     def value(self, field: str) -> Array:
-        """Recalibrated value of a base parameter of the bank, SI."""
+        """Recalibrated value of a base parameter of the network, SI."""
         nominal = np.asarray(self.translation.parameters.base[field], dtype=np.float64)
         return np.asarray(nominal * self.factors.get(field, np.ones(())))
 
 
-def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
+def changes_of(scenario: Scenario, model: CoilNetworkModel, point: Point) -> Changes:
     """What a fitted point changes in a scenario.
 
     The scenario becomes the rig after the last recording: what has set in is there from the start, and what every day
@@ -90,10 +90,10 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
     """
     lasting = np.array([0.0 if is_own(p.name) else z for p, z in zip(model.parameters, point.base)], dtype=np.float64)
-    nominal = model.bank_parameters(Point(np.zeros(len(lasting))), 0)
-    fitted = model.bank_parameters(Point(lasting), 0)
+    nominal = model.network_parameters(Point(np.zeros(len(lasting))), 0)
+    fitted = model.network_parameters(Point(lasting), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}
-    known, point = model.bank.terms, point.lasting
+    known, point = model.network.terms, point.lasting
     every = known_terms(known, [model.terms_at(point, s) for s in (*model.seats, model.timeline.afterwards)])
 
     def terms_in(recording: Recording) -> list[FittedTerm]:
@@ -112,8 +112,8 @@ def changes_of(scenario: Scenario, model: BankModel, point: Point) -> Changes:
     )
 
 
-def _offsets(nominal: BankParameters, fitted: BankParameters) -> dict[str, float]:
-    """Shared by all coils: `diagnosis.simulator.free`."""
+def _offsets(nominal: CoilNetworkParameters, fitted: CoilNetworkParameters) -> dict[str, float]:
+    """Shared by all coils: `diagnosis.models.coil_network.free`."""
     found = {}
     for name in OFFSETS:
         amount = np.asarray(fitted.base.get(name, 0.0)) - np.asarray(nominal.base.get(name, 0.0))
@@ -129,11 +129,11 @@ def known_terms(
 
     Args:
         catalogue: All terms.
-        seen: Terms as the bank takes them, at several times.
+        seen: Terms as the network takes them, at several times.
     """
     found: dict[str, FittedTerm] = {}
     for terms in seen:
-        for fitted in fitted_terms(catalogue, BankParameters({}, terms)):
+        for fitted in fitted_terms(catalogue, CoilNetworkParameters({}, terms)):
             found.setdefault(fitted.term.identifier, fitted)
     return [found[t.identifier] for t in catalogue if t.identifier in found]
 
@@ -142,7 +142,7 @@ def as_in(
     every: Sequence[FittedTerm], catalogue: Sequence[CandidateTerm], there: Mapping[str, Mapping[str, float | Array]]
 ) -> list[FittedTerm]:
     """All of the terms, those that are there with their values, the others with the strength 0."""
-    known = {f.term.identifier: f for f in fitted_terms(catalogue, BankParameters({}, there))}
+    known = {f.term.identifier: f for f in fitted_terms(catalogue, CoilNetworkParameters({}, there))}
     found = []
     for one in every:
         name = one.term.amplitude.name
@@ -151,7 +151,7 @@ def as_in(
     return found
 
 
-def _factors(nominal: BankParameters, fitted: BankParameters) -> dict[str, Array]:
+def _factors(nominal: CoilNetworkParameters, fitted: CoilNetworkParameters) -> dict[str, Array]:
     factors = {}
     for name, value in fitted.base.items():
         before, after = (np.asarray(v, dtype=np.float64) for v in (nominal.base.get(name, 0.0), value))
@@ -164,8 +164,8 @@ def _factors(nominal: BankParameters, fitted: BankParameters) -> dict[str, Array
     return factors
 
 
-def fitted_terms(terms: Sequence[CandidateTerm], parameters: BankParameters) -> list[FittedTerm]:
-    """Terms that are switched on, with the values that the bank takes where none is given."""
+def fitted_terms(terms: Sequence[CandidateTerm], parameters: CoilNetworkParameters) -> list[FittedTerm]:
+    """Terms that are switched on, with the values that the network takes where none is given."""
     found = []
     for term in terms:
         given = parameters.terms.get(term.identifier)

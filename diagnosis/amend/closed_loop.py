@@ -9,9 +9,9 @@ import yaml
 from cosim.scenario import Scenario
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.written import comment_of, write_scenario
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.search.cosim_run import changed
 from diagnosis.search.problem import Point
-from diagnosis.simulator.closed_loop import ClosedLoopModel
 
 
 def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, folder: Path) -> Path:

@@ -1,4 +1,4 @@
-"""C source of a generated FMU: the bank's own functions with the lines of the terms, behind our FMI layer."""
+"""C source of a generated FMU: the network's own functions with the lines of the terms, behind our FMI layer."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 
 from diagnosis.amend.parts import Port, step_arrays
 from diagnosis.amend.table import Row, config
-from diagnosis.bank.layout import COIL_FIELDS, BankLayout
-from diagnosis.bank.source import generate, words
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, CoilNetworkLayout
+from diagnosis.models.coil_network.kernel.source import generate, words
 
 _FOLDER = Path(__file__).resolve().parent
-_HEAD = """/* Generated from the coil bank and the terms that were found; see docs/amended-models.md. */
+_HEAD = """/* Generated from the coil network and the terms that were found; see docs/amended-models.md. */
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-variable"
@@ -82,10 +82,18 @@ def first_rows() -> list[Row]:
 def state_rows(terms: Sequence[CandidateTerm], depends: str) -> list[Row]:
     """States that the terms add, as outputs."""
     return [
-        Row(f"shown_{t.identifier}_{s.name}", "OUTPUT", s.unit, description=f"State of {t.name}", depends=depends,
-            name=f"{t.identifier}_{s.name}", is_scalar=s.kind == "shared")
-        for t in terms for s in t.states
-    ]  # fmt: skip
+        Row(
+            f"shown_{t.identifier}_{s.name}",
+            "OUTPUT",
+            s.unit,
+            description=f"State of {t.name}",
+            depends=depends,
+            name=f"{t.identifier}_{s.name}",
+            is_scalar=s.kind == "shared",
+        )
+        for t in terms
+        for s in t.states
+    ]
 
 
 def show_states(terms: Sequence[CandidateTerm]) -> str:
@@ -110,19 +118,25 @@ def give(port: Port) -> str:
 
 
 def fields_in(terms: Sequence[CandidateTerm]) -> list[str]:
-    """Base parameters of the bank that the lines of terms read."""
+    """Base parameters of the network that the lines of terms read."""
     used = {w for t in terms for text in (*t.lines.values(), *(s.start for s in t.states)) for w in words(text)}
     used -= {p.name for t in terms for p in t.parameters}
     return [name for name in COIL_FIELDS if name in used]
 
 
 def term_rows(terms: Sequence[CandidateTerm]) -> list[Row]:
-    """Parameters of the terms, one after the other: the bank reads them as one block."""
+    """Parameters of the terms, one after the other: the network reads them as one block."""
     return [
-        Row(parameter_name(t, p.name), "PARAMETER", p.unit, "0" if p.is_amplitude else repr(p.starts[0]),
-            f"{t.name}: {p.name} in {t.law}")
-        for t in terms for p in t.parameters
-    ]  # fmt: skip
+        Row(
+            parameter_name(t, p.name),
+            "PARAMETER",
+            p.unit,
+            "0" if p.is_amplitude else repr(p.starts[0]),
+            f"{t.name}: {p.name} in {t.law}",
+        )
+        for t in terms
+        for p in t.parameters
+    ]
 
 
 def _states(terms: Sequence[CandidateTerm]) -> list[str]:
@@ -130,7 +144,7 @@ def _states(terms: Sequence[CandidateTerm]) -> list[str]:
 
 
 def hidden_rows(terms: Sequence[CandidateTerm]) -> list[Row]:
-    """Fields, arrays and states of the bank, part of the saved state of the FMU."""
+    """Fields, arrays and states of the network, part of the saved state of the FMU."""
     names = [f"field_{n}" for n in COIL_FIELDS] + [f"step_{n}" for n in _arrays()]
     names += [f"state_{n}" for n in _states(terms)] + [f"rate_{n}" for n in _states(terms)]
     return [Row(n, "HIDDEN") for n in names] + [Row("last_step", "HIDDEN", is_scalar=True)]
@@ -141,8 +155,13 @@ def _arrays() -> list[str]:
 
 
 def assemble_source(
-    part: str, what: str, rows: Sequence[Row], terms: Sequence[CandidateTerm], layout: BankLayout, functions: Functions
-) -> Source:  # fmt: skip
+    part: str,
+    what: str,
+    rows: Sequence[Row],
+    terms: Sequence[CandidateTerm],
+    layout: CoilNetworkLayout,
+    functions: Functions,
+) -> Source:
     """All of it.
 
     Args:
@@ -160,7 +179,7 @@ def assemble_source(
     return Source(config(f"amended_{part}", what, table), model, _page(what, terms))
 
 
-def _bind(terms: Sequence[CandidateTerm], layout: BankLayout) -> str:
+def _bind(terms: Sequence[CandidateTerm], layout: CoilNetworkLayout) -> str:
     """C function that points the arrays of a step into the block of values of an instance."""
     offsets = "".join(
         f"    bound->offset[{n}] = (int64_t)model->offset[VAR_{parameter_name(t, t.parameters[0].name)}];\n"
@@ -213,7 +232,8 @@ def _page(what: str, terms: Sequence[CandidateTerm]) -> str:
     )
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{_html(what)}</title></head><body>\n'
-        f"<h1>{_html(what)}</h1>\n<p>Co-Simulation. A step has the equations of the coil bank with inputs held.</p>\n"
+        f"<h1>{_html(what)}</h1>\n<p>Co-Simulation. A step has the equations of the coil network with inputs "
+        "held.</p>\n"
         f"<table><tr><th>term</th><th>law</th><th>source</th></tr>\n{rows}</table>\n</body></html>\n"
     )
 

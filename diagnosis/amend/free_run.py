@@ -11,29 +11,29 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.amend.amend import AmendedModel
 from diagnosis.amend.changes import Changes, FittedTerm
 from diagnosis.amend.circuit_elements import circuit_elements
 from diagnosis.amend.parts import Part
 from diagnosis.amend.scenario_file import term_parameters
-from diagnosis.bank.bank import Bank
-from diagnosis.bank.inputs import BankInputs
-from diagnosis.bank.layout import QUANTITIES
-from diagnosis.bank.parameters import BankParameters, Packing, active_terms, pack
-from diagnosis.bank.plan import Plan
-from diagnosis.bank.source import reads_current
 from diagnosis.candidates.registry import catalogue
+from diagnosis.models.coil_network.kernel.inputs import CoilNetworkInputs
+from diagnosis.models.coil_network.kernel.layout import QUANTITIES
+from diagnosis.models.coil_network.kernel.network import CoilNetwork
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters, Packing, active_terms, pack
+from diagnosis.models.coil_network.kernel.plan import Plan
+from diagnosis.models.coil_network.kernel.source import reads_current
+from diagnosis.models.coil_network.translate import Translation, translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import series_of
 from diagnosis.search.cosim_run import shifted
-from diagnosis.simulator.translate import Translation, translate
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Start:
     position: Array
 
 
-def start_of(parameters: BankParameters) -> Start:
-    """The start in parameters of the bank."""
+def start_of(parameters: CoilNetworkParameters) -> Start:
+    """The start in parameters of the network."""
     ambient, temperature, position = (
         np.asarray(parameters.base.get(n, 0.0), dtype=np.float64)
         for n in ("ambient_offset", "initial_temperature", "initial_loop_position")
@@ -68,7 +68,7 @@ def free_run(
     Args:
         amended: The model.
         recording: Whose conditions (programmes, ambient, first temperature) hold; nothing of what it measured is used.
-        times: Quantity of the bank to sample times [s], rising.
+        times: Quantity of the network to sample times [s], rising.
         start: Its room and start, where they were estimated; None: as it says, and off by what every day is off.
 
     Returns:
@@ -107,7 +107,7 @@ def started(scenario: Scenario, plain: Scenario, translation: Translation, start
     Args:
         scenario: What is to run, under the conditions of the recording.
         plain: What was diagnosed, under the same conditions: its room is the one that the recording says.
-        translation: The same as a bank.
+        translation: The same as a network.
         start: Of the recording.
     """
     components: dict[str, Any] = dict(scenario.components)
@@ -146,41 +146,47 @@ def _own_terms(recording: Recording, amended: AmendedModel) -> Sequence[FittedTe
 
 def read_run(
     results: xr.Dataset, translation: Translation, times: Mapping[str, Array], changes: Changes | None = None
-) -> dict[str, Array]:  # fmt: skip
-    """Samples of a run, through the sensors of the bank.
+) -> dict[str, Array]:
+    """Samples of a run, through the sensors of the network.
 
     Args:
         results: Of `cosim.run`.
-        translation: The scenario as a bank, under the same conditions.
+        translation: The scenario as a network, under the same conditions.
         times: Quantity to sample times [s], rising.
         changes: What was found, the sensors' part of which is applied; None: ideal sensors.
     """
     inputs = translation.drive.on_grid(np.asarray(results["time"].values, dtype=np.float64))
     plan = Plan(translation.layout, inputs, times, is_midpoint=True)
     terms = tuple(t for t in catalogue() if t.axis == "channel")
-    parameters = BankParameters()
+    parameters = CoilNetworkParameters()
     if changes is not None:
         found = {s.term.identifier: dict(s.values) for s in changes.of(Part.SENSOR)}
-        parameters = BankParameters(dict(changes.sensors), found)
+        parameters = CoilNetworkParameters(dict(changes.sensors), found)
     active = active_terms(terms, parameters)
     is_current_read = any(reads_current(t) for t in terms if t.identifier in active)
     wanted = {*plan.times, *(("current",) if is_current_read and translation.circuit is not None else ())}
     traces = {q: _trace(results, translation, q, inputs) for q in wanted}
     packing = Packing(translation.layout, terms, active)
-    # The bank reads these traces in place of its own, so that both go through the same sensors.
+    # The network reads these traces in place of its own, so that both go through the same sensors.
     plan.read_traces(traces)
-    out = Bank(translation.layout, terms).run(plan, packing, pack(packing, terms, parameters)[None])
+    out = CoilNetwork(translation.layout, terms).run(plan, packing, pack(packing, terms, parameters)[None])
     return {q: values[0] for q, values in plan.split(out).items()}
 
 
-def _trace(results: xr.Dataset, translation: Translation, quantity: str, inputs: BankInputs) -> Array:
+def _trace(results: xr.Dataset, translation: Translation, quantity: str, inputs: CoilNetworkInputs) -> Array:
     """A quantity over the run, shape (outputs, elements); a flow stands in the row that its step ends with."""
     owner = {
-        "temperature": translation.actuator, "stiffness": translation.actuator, "resistance": translation.actuator,
-        "current": translation.circuit, "supply_current": translation.circuit, "power": translation.circuit,
-        "extension": translation.load, "length": translation.load, "tension": translation.load,
+        "temperature": translation.actuator,
+        "stiffness": translation.actuator,
+        "resistance": translation.actuator,
+        "current": translation.circuit,
+        "supply_current": translation.circuit,
+        "power": translation.circuit,
+        "extension": translation.load,
+        "length": translation.load,
+        "tension": translation.load,
         "voltage": translation.circuit,
-    }.get(quantity)  # fmt: skip
+    }.get(quantity)
     if quantity in _MADE:
         return _made(results, translation, quantity)
     if owner is None and quantity == "power":
@@ -242,7 +248,7 @@ def carried(recording: Recording, amended: AmendedModel) -> Recording:
 
 def _own_circuit(
     recording: Recording, given: Mapping[str, Any], terms: Sequence[FittedTerm], amended: AmendedModel
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """The circuit of a recording, with the elements of its own terms in place of those of the scenario's."""
     original = amended.original
     assert original.path is not None, "the scenario was read from a file"

@@ -12,31 +12,35 @@ import numpy as np
 from cosim.compute.steps import counted
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.amend.free_run import free_run, free_run_of, start_of
-from diagnosis.fabric.amended import BY_BULLET, amend_fabric
-from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import Predictions, channel_fits, differences, predictions
 from diagnosis.judge.spread import spread_over_recordings
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.systems.model import SystemModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.wrapped import WrappedModel
-from diagnosis.systems.model import SystemModel
 
 BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 
 
 def judged(
-    diagnosis: Diagnosis, scenario: Scenario, models: tuple[DiagnosisModel, DiagnosisModel | None],
-    points: tuple[Mapping[str, Point], Mapping[str, Point]], held_out: Sequence[Recording], folder: Path,
-) -> Diagnosis:  # fmt: skip
+    diagnosis: Diagnosis,
+    scenario: Scenario,
+    models: tuple[DiagnosisModel, DiagnosisModel | None],
+    points: tuple[Mapping[str, Point], Mapping[str, Point]],
+    held_out: Sequence[Recording],
+    folder: Path,
+) -> Diagnosis:
     """Write the amended model, and take the fits of held-out recordings from free runs of it.
 
     Args:
@@ -61,9 +65,13 @@ def judged(
 
 
 def _judged(
-    diagnosis: Diagnosis, scenario: Scenario, models: tuple[DiagnosisModel, DiagnosisModel | None],
-    points: tuple[Mapping[str, Point], Mapping[str, Point]], held_out: Sequence[Recording], folder: Path,
-) -> Diagnosis:  # fmt: skip
+    diagnosis: Diagnosis,
+    scenario: Scenario,
+    models: tuple[DiagnosisModel, DiagnosisModel | None],
+    points: tuple[Mapping[str, Point], Mapping[str, Point]],
+    held_out: Sequence[Recording],
+    folder: Path,
+) -> Diagnosis:
     training, judge = models
     inner, fitted = unwrapped(training, points[0])
     if isinstance(inner, ClosedLoopModel):
@@ -80,7 +88,7 @@ def _judged(
             by = "; ".join(filter(None, (by, f"there is no amended scenario: {reason}")))
             return replace(diagnosis, held_out_by=by)
         return replace(diagnosis, amended_model=str(path), held_out_by=by)
-    if not isinstance(inner, BankModel):
+    if not isinstance(inner, CoilNetworkModel):
         return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
     try:
         amended = _amended(scenario, inner, fitted, folder)
@@ -99,9 +107,12 @@ def _judged(
     fits = [f for f in diagnosis.fit if not f.is_held_out]
     fits += channel_fits(judge, held_out, points[1], is_held_out=True, predicted=free)
     return replace(
-        diagnosis, fit=tuple(fits), spread=spread_over_recordings(fits), held_out_by=BY_FREE_RUNS,
+        diagnosis,
+        fit=tuple(fits),
+        spread=spread_over_recordings(fits),
+        held_out_by=BY_FREE_RUNS,
         differences=differences(judge, held_out, fast, free),
-    )  # fmt: skip
+    )
 
 
 def _by_compiled_code(judge: DiagnosisModel, points: Mapping[str, Point]) -> str:
@@ -127,8 +138,8 @@ def unwrapped(model: DiagnosisModel, points: Mapping[str, Point]) -> tuple[Diagn
 
 
 def _amended(
-    scenario: Scenario, model: BankModel, points: Mapping[str, Point], folder: Path
-) -> dict[str, AmendedModel]:  # fmt: skip
+    scenario: Scenario, model: CoilNetworkModel, points: Mapping[str, Point], folder: Path
+) -> dict[str, AmendedModel]:
     """`after`, and `recalibrated` in a folder beside it with the same FMUs, their terms switched off."""
     after = write_amended(scenario, changes_of(scenario, model, points["after"]), folder)
     changes = changes_of(scenario, model, points["recalibrated"])
@@ -136,20 +147,24 @@ def _amended(
 
 
 def _free(
-    judge: DiagnosisModel, points: Mapping[str, Point], fast: Predictions, scenario: Scenario,
-    amended: Mapping[str, AmendedModel], held_out: Sequence[Recording],
-) -> dict[str, list[list[Array]]]:  # fmt: skip
+    judge: DiagnosisModel,
+    points: Mapping[str, Point],
+    fast: Predictions,
+    scenario: Scenario,
+    amended: Mapping[str, AmendedModel],
+    held_out: Sequence[Recording],
+) -> dict[str, list[list[Array]]]:
     """Predictions of free runs, with what wrapped models add to their sensors.
 
     They begin as the judge's point says, be it estimated from a first stretch (`beginning`) or known of the same day.
     """
     inner, own = unwrapped(judge, points)
-    assert isinstance(inner, BankModel)
+    assert isinstance(inner, CoilNetworkModel)
     simulated = predictions(inner, own)
     found: dict[str, list[list[Array]]] = {stage: [] for stage in points}
     order = [(stage, n, recording) for stage in points for n, recording in enumerate(held_out)]
     for stage, n, recording in counted(order, "recordings that judge simulated freely"):
-        run, start = inner.runs[n], start_of(inner.bank_parameters(own[stage], n))
+        run, start = inner.runs[n], start_of(inner.network_parameters(own[stage], n))
         if stage in amended:
             values = free_run(amended[stage], recording, run.times, start)
         else:

@@ -1,7 +1,7 @@
 /* What hangs below the coils, with the terms of the mechanical unit; the coils themselves are another FMU.
  *
- * The functions are those of the bank. Added states follow what the coils were over the step and how stiff they were at
- * its begin, as in the bank; then force and extension are found at the end of the step.
+ * The functions are those of the network. Added states follow what the coils were over the step and how stiff they were at
+ * its begin, as in the network; then force and extension are found at the end of the step.
  */
 
 bool model_start(Model *model, char *message, size_t size)

@@ -16,8 +16,8 @@ from diagnosis.amend.fmu_source import (
 )
 from diagnosis.amend.parts import Port, load_ports, names_in
 from diagnosis.amend.table import Row
-from diagnosis.bank.layout import COIL_FIELDS, BankLayout
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, CoilNetworkLayout
 
 #: Fields that the load has itself.
 _OWN = ("load", "rest_length")
@@ -28,7 +28,7 @@ def load_fields(terms: Sequence[CandidateTerm]) -> list[str]:
     return [name for name in fields_in(terms) if name not in _OWN]
 
 
-def load_source(terms: Sequence[CandidateTerm], layout: BankLayout) -> Source:
+def load_source(terms: Sequence[CandidateTerm], layout: CoilNetworkLayout) -> Source:
     """Sources of the load.
 
     Args:
@@ -48,9 +48,11 @@ def load_source(terms: Sequence[CandidateTerm], layout: BankLayout) -> Source:
         *state_rows(terms, every),
         Row("mass", "PARAMETER", "kg", "0.1", "Mass below each coil", limit="NON_NEGATIVE"),
         Row("gravity", "PARAMETER", "m/s^2", "9.81", "Gravity", is_scalar=True, limit="NON_NEGATIVE", nominal=10.0),
-        *(Row(n, "PARAMETER", COIL_FIELDS[n][1], repr(COIL_FIELDS[n][0]), f"Of each coil: {n.replace('_', ' ')}")
-          for n in load_fields(terms)),
-    ]  # fmt: skip
+        *(
+            Row(n, "PARAMETER", COIL_FIELDS[n][1], repr(COIL_FIELDS[n][0]), f"Of each coil: {n.replace('_', ' ')}")
+            for n in load_fields(terms)
+        ),
+    ]
     copies = {False: "", True: take("stiffness", "stiffness") + _REST_LENGTH}
     for p in ports:
         copies[p.is_late] += take(p.array, f"port_{p.array}")

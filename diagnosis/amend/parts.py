@@ -9,9 +9,9 @@ from enum import Enum
 from functools import cache
 from pathlib import Path
 
-from diagnosis.bank.source import READABLE, words
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.hooks import NAMES
+from diagnosis.models.coil_network.kernel.source import READABLE, words
 
 
 class Part(Enum):
@@ -37,7 +37,7 @@ class Port:
     """A quantity of the coils that one generated FMU gives to another.
 
     Args:
-        array: Field of `Step` in the bank's C.
+        array: Field of `Step` in the network's C.
         name: Name of the variable in both FMUs.
         unit: SI unit.
         meaning: For people.
@@ -109,9 +109,9 @@ def load_ports(terms: Sequence[CandidateTerm]) -> list[Port]:
 @cache
 def step_arrays() -> tuple[str, ...]:
     """Names of the arrays of `Step` in plan.h that a step works on."""
-    import diagnosis.bank.source as bank_source
+    import diagnosis.models.coil_network.kernel.source as network_source
 
-    text = (Path(bank_source.__file__).parent / "plan.h").read_text(encoding="utf-8")
+    text = (Path(network_source.__file__).parent / "plan.h").read_text(encoding="utf-8")
     block = re.search(r"typedef struct \{([^}]*)\} Step;", text)
     assert block is not None, "plan.h defines Step"
     without_comments = re.sub(r"/\*.*?\*/", "", block[1], flags=re.DOTALL)

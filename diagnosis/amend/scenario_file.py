@@ -11,8 +11,8 @@ import numpy as np
 from cosim.actuator.resolve import default_parameter_set
 from cosim.components import FmuComponent, ProgrammeOutput
 from cosim.parameters import resolve
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
+from cosim.unit.quantity import PhysicalValue
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.amend.actuator_fmu import neighbour_inputs
 from diagnosis.amend.changes import SAME, CannotAmend, Changes, FittedTerm
@@ -20,17 +20,19 @@ from diagnosis.amend.circuit_elements import circuit_elements, quantity
 from diagnosis.amend.fmu_source import parameter_name
 from diagnosis.amend.load_fmu import load_fields
 from diagnosis.amend.parts import Part, load_ports
-from diagnosis.bank.layout import COIL_FIELDS, Array
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, Array
+from diagnosis.models.coil_network.translate import GRAVITY
 from diagnosis.search.cosim_run import shifted
-from diagnosis.simulator.translate import GRAVITY
 
-#: Parameters of the FMU's coils with their units, by the field of the bank that they give.
+#: Parameters of the FMU's coils with their units, by the field of the network that they give.
 _BRANCH = {"a": "N/m", "b": "1", "c": "1/K", "d": "N/m"}
 _DIRECT = {
-    "reference_resistance": "ohm", "cooling_rate": "1/s", "resistance_temperature_coefficient": "1/K",
+    "reference_resistance": "ohm",
+    "cooling_rate": "1/s",
+    "resistance_temperature_coefficient": "1/K",
     **{f"heating_{letter}": unit for letter, unit in _BRANCH.items()},
     **{f"cooling_{letter}": unit for letter, unit in _BRANCH.items()},
-}  # fmt: skip
+}
 #: Start values of thermal_stiffness that are needed where neither the set nor the scenario gives them.
 _DEFAULTS = {"area": (97.85e-6, "m^2"), "density": (6450.0, "kg/m^3"), "specific_heat": (837.0, "J/(kg*K)")}
 
@@ -147,7 +149,7 @@ def _actuator(scenario: Scenario, given: dict[str, Any], changes: Changes, files
 
 def _coil_parameters(
     scenario: Scenario, component: FmuComponent, parameter_set: str | None, changes: Changes
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Recalibrated parameters of the coils, by the names of the FMU."""
     assert scenario.path is not None
     known = resolve(parameter_set, component.parameters, scenario.path).values

@@ -8,8 +8,8 @@ import numpy as np
 
 from diagnosis.amend.changes import Changes
 from diagnosis.amend.parts import Part
-from diagnosis.bank.layout import QUANTITIES, QUANTITY_FIELDS, BankLayout
-from diagnosis.bank.places import channel_label
+from diagnosis.models.coil_network.kernel.layout import QUANTITIES, QUANTITY_FIELDS, CoilNetworkLayout
+from diagnosis.models.coil_network.kernel.places import channel_label
 
 
 def sensor_entries(changes: Changes) -> list[dict[str, Any]]:
@@ -25,8 +25,9 @@ def sensor_entries(changes: Changes) -> list[dict[str, Any]]:
         term = fitted.term
         for n, strength in enumerate(fitted.values[term.amplitude.name]):
             if strength != 0.0:
-                numbers = {p.name: f"{float(fitted.values[p.name][n]):.10g} {_unit(p.unit)}".strip()
-                           for p in term.parameters}  # fmt: skip
+                numbers = {
+                    p.name: f"{float(fitted.values[p.name][n]):.10g} {_unit(p.unit)}".strip() for p in term.parameters
+                }
                 found.append({"channel": names[n], "effect": term.identifier, "law": term.law, "parameters": numbers})
     return found
 
@@ -35,6 +36,6 @@ def _unit(unit: str) -> str:
     return "" if unit in ("1", "unit of the channel") else unit
 
 
-def channel_names(layout: BankLayout) -> list[str]:
-    """Names of the bank's channels in their order."""
+def channel_names(layout: CoilNetworkLayout) -> list[str]:
+    """Names of the network's channels in their order."""
     return [channel_label(layout, q, n) for q in QUANTITIES for n in range(layout.elements(q))]

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from cosim.quantity import parse_unit, registry
 from cosim.shipped import FMUS
+from cosim.unit.quantity import parse_unit, registry
 
 #: SI base units in the order of the table of units in fmus/fmi/describe.c, as pint names their dimensions.
 _BASES = ("[mass]", "[length]", "[time]", "[current]", "[temperature]")
@@ -46,9 +46,17 @@ class Row:
         """The row of the X-macro."""
         extent = "SCALAR" if self.is_scalar else "PER_COIL"
         fields = (
-            self.identifier, f'"{self.name or self.identifier}"', self.role, extent, f'"{self.unit}"', self.start,
-            self.limit, f"{self.nominal:g}", f'"{self.depends}"', f'"{_plain(self.description)}"',
-        )  # fmt: skip
+            self.identifier,
+            f'"{self.name or self.identifier}"',
+            self.role,
+            extent,
+            f'"{self.unit}"',
+            self.start,
+            self.limit,
+            f"{self.nominal:g}",
+            f'"{self.depends}"',
+            f'"{_plain(self.description)}"',
+        )
         return f"V({', '.join(fields)})"
 
 
@@ -67,8 +75,18 @@ def config(identifier: str, description: str, rows: Sequence[Row]) -> str:
 
 def _plain(text: str) -> str:
     """Text that may stand in a C string, a C comment and an XML attribute."""
-    return re.sub(r"\s+", " ", text.replace("&", "and").replace("<", "under").replace(">", "over").replace('"', "'")
-                  .replace("\\", "/").replace("*/", "* /").replace("/*", "/ *").replace("%", "percent"))  # fmt: skip
+    return re.sub(
+        r"\s+",
+        " ",
+        text.replace("&", "and")
+        .replace("<", "under")
+        .replace(">", "over")
+        .replace('"', "'")
+        .replace("\\", "/")
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
+        .replace("%", "percent"),
+    )
 
 
 @cache

@@ -11,7 +11,7 @@ from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SCALES, SMALLEST, 
 
 Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
 #: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other; `powered`: all
-#: coils of a bank without a circuit, whose power is given.
+#: coils of a network without a circuit, whose power is given.
 PlaceKind = Literal[
     "coil",
     "string",
@@ -36,11 +36,23 @@ Physical = Literal["", "change", "rate", "reading"]
 
 #: Hooks over one axis each, in the order in which a step comes to them.
 HOOK_AXES: Mapping[str, Axis] = {
-    "resistance": "coil", "source": "source", "string": "string", "supply": "source", "pairs": "coil",
-    "heat": "coil", "state": "coil", "gather": "coil", "shared": "coil",
-    "stiffness": "coil", "play": "coil", "load": "coil", "length": "coil",
-    "accept": "coil", "channel": "channel", "sensor": "channel",
-}  # fmt: skip
+    "resistance": "coil",
+    "source": "source",
+    "string": "string",
+    "supply": "source",
+    "pairs": "coil",
+    "heat": "coil",
+    "state": "coil",
+    "gather": "coil",
+    "shared": "coil",
+    "stiffness": "coil",
+    "play": "coil",
+    "load": "coil",
+    "length": "coil",
+    "accept": "coil",
+    "channel": "channel",
+    "sensor": "channel",
+}
 
 
 #: Quantities of which at least one must be measured for a law of a unit to be told from one of another unit.
@@ -55,7 +67,7 @@ NEEDS: Mapping[Unit, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Parameter:
-    """One number of a candidate; in the bank an array over the axis of the candidate.
+    """One number of a candidate; in the network an array over the axis of the candidate.
 
     Args:
         name: As used in the C lines and in the law.

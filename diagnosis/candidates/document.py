@@ -70,7 +70,7 @@ _ADD = """## A candidate of your own
    (`needs`, by default those of its unit), how many coils it takes (`fewest`), and the lines.
    Write a term so that strength 0 changes no bit: `x += a * ...` or `x *= 1.0 + a * ...`.
 3. A loss of heat belongs into `conductance`, which the step solves exactly, rather than into `heat`.
-4. `python -m pytest tests/diagnosis_bank` tries it: formula, zero, what it moves, passivity. Add a closed form of its
+4. `python -m pytest tests/coil_network` tries it: formula, zero, what it moves, passivity. Add a closed form of its
    own.
 """
 

@@ -83,6 +83,6 @@ FUNCTIONS: Mapping[str, str] = {
     "most(a, b)": "the greater",
     "clip(x, low, high)": "x, not below low and not above high",
     "share_after(instant, begin, end)": "share of the step after an instant, from 0 to 1",
-    "bank_relaxation(x)": "(1 - exp(-x)) / x, 1 at 0",
+    "network_relaxation(x)": "(1 - exp(-x)) / x, 1 at 0",
     "gompertz(a, b, c, d, celsius)": "a branch of equation (2)",
 }

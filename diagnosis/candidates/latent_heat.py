@@ -33,7 +33,7 @@ CANDIDATE = CandidateTerm(
         "heat": """
             heat -= dt > 0.0 ? owed / dt : 0.0;
             const double reach = dt / capacity * (P + heat - conductance * (T_begin - T_ambient)) *
-                                 bank_relaxation(conductance / capacity * dt);
+                                 network_relaxation(conductance / capacity * dt);
             double change = reach;
             used = 0.0;
             #pragma GCC unroll 4

@@ -58,7 +58,7 @@ CANDIDATE = CandidateTerm(
     lines={
         # The mass follows within the step, as in second_mass; `apart` is the part of g that it cannot follow.
         "heat": """
-            const double held = bank_relaxation((g + loss) / C2 * dt);
+            const double held = network_relaxation((g + loss) / C2 * dt);
             const double apart = (loss + g * held) / (g + loss + 1e-300);
             conductance += g * apart;
             heat += g * held * (mass_begin - T_ambient);

@@ -45,7 +45,7 @@ CANDIDATE = CandidateTerm(
     lines={
         # The mass follows within the step: its mean is what counts, so that no time constant is too short for the step.
         "heat": """
-            const double held = bank_relaxation(g / C2 * dt);
+            const double held = network_relaxation(g / C2 * dt);
             conductance += g * held;
             heat += g * held * (mass_begin - T_ambient);
         """,

@@ -55,7 +55,7 @@ CANDIDATE = CandidateTerm(
     lines={
         # The layer follows within the step, as in second_mass; `apart` is the part of g that it cannot follow.
         "heat": """
-            const double held = bank_relaxation((g + conductance) / C2 * dt);
+            const double held = network_relaxation((g + conductance) / C2 * dt);
             const double apart = (conductance + g * held) / (g + conductance);
             conductance = conductance * (1.0 - share) + share * g * apart;
             heat += share * g * held * (layer_begin - T_ambient);

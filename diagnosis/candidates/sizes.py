@@ -19,8 +19,9 @@ from collections.abc import Mapping
 ONE_SIGN, EITHER_SIGN = 3, 2
 #: Share of the limit at which a ladder begins where nothing says below which size it is no finding.
 SMALLEST = 0.01
-#: What limits may be multiples of: value of the paper's coil (`diagnosis.bank.layout.COIL_FIELDS`, under 0.1 kg), and
-#: the same in words. A rig's own values take their place.
+#: What limits may be multiples of: value of the paper's coil under 0.1 kg
+#: (`diagnosis.models.coil_network.kernel.layout.COIL_FIELDS`), and the same in words. A rig's own values take their
+#: place.
 _CONDUCTANCE, _CAPACITY, _STIFFNESS, _LOAD = 90.0 * 97.85e-6, 6450.0 * 7.328e-9 * 837.0, 157.1, 0.1 * 9.80665
 SCALES: Mapping[str, tuple[float, str]] = {
     "conductance": (_CONDUCTANCE, "the coil's h A"),

@@ -66,7 +66,7 @@ class Target:
 
     Args:
         unit: Part of the model.
-        hook: Hook of the bank.
+        hook: Hook of the network.
         line: C line that adds `a * phi`.
         law: Formula of the same.
         amplitude: Unit of the amplitude.
@@ -98,59 +98,129 @@ class Target:
 
 TARGETS: Mapping[str, Target] = {
     "heat": Target(
-        "thermal", "heat", "heat += a * ({phi});", "heat = a * ({phi})", "W", 2.0, 1.0, "heat", _SECOND,
+        "thermal",
+        "heat",
+        "heat += a * ({phi});",
+        "heat = a * ({phi})",
+        "W",
+        2.0,
+        1.0,
+        "heat",
+        _SECOND,
         "change of the heat into a coil" + AT_SCALE,
         {
-            "excess": ("square", "cube", "saturating"), "power": ("square", "saturating"),
-            "rate": ("linear", "absolute"), "time": ("linear", "square"),
-            "energy": ("linear", "saturating"), "stretch": ("linear", "square"),
-            "phase": ("linear", "square"), "amperes": ("linear",),
+            "excess": ("square", "cube", "saturating"),
+            "power": ("square", "saturating"),
+            "rate": ("linear", "absolute"),
+            "time": ("linear", "square"),
+            "energy": ("linear", "saturating"),
+            "stretch": ("linear", "square"),
+            "phase": ("linear", "square"),
+            "amperes": ("linear",),
         },
-        (("excess", "time"), ("excess", "energy"), ("excess", "stretch"), ("excess", "phase"), ("excess", "power"),
-         ("excess", "rate"), ("power", "time"), ("power", "energy"), ("power", "phase")),
+        (
+            ("excess", "time"),
+            ("excess", "energy"),
+            ("excess", "stretch"),
+            ("excess", "phase"),
+            ("excess", "power"),
+            ("excess", "rate"),
+            ("power", "time"),
+            ("power", "energy"),
+            ("power", "phase"),
+        ),
         ("excess", "power", "stretch", "phase"),
     ),
     "resistance": Target(
-        "electrical", "resistance", "R += a * reference_resistance * ({phi});",
-        "R = R_0 + a * reference_resistance * ({phi})", "1", 0.5, 0.3, "", _THIRD,
+        "electrical",
+        "resistance",
+        "R += a * reference_resistance * ({phi});",
+        "R = R_0 + a * reference_resistance * ({phi})",
+        "1",
+        0.5,
+        0.3,
+        "",
+        _THIRD,
         "change of the resistance, as a share of the reference resistance," + AT_SCALE,
         {
-            "excess": ("square", "saturating"), "rate": ("linear",), "time": ("linear", "square"),
-            "energy": ("linear", "saturating"), "stretch": ("linear", "square"), "power": ("linear",),
-            "phase": ("square",), "amperes": ("linear", "square"), "pull": ("linear",),
+            "excess": ("square", "saturating"),
+            "rate": ("linear",),
+            "time": ("linear", "square"),
+            "energy": ("linear", "saturating"),
+            "stretch": ("linear", "square"),
+            "power": ("linear",),
+            "phase": ("square",),
+            "amperes": ("linear", "square"),
+            "pull": ("linear",),
         },
         (("excess", "phase"), ("excess", "stretch"), ("excess", "time"), ("stretch", "phase")),
         ("excess", "stretch", "phase"),
     ),
     "stiffness": Target(
-        "stiffness", "stiffness", "added += a * ({phi});", "stiffness = stiffness_0 + a * ({phi})", "N/m", 100.0,
-        0.3, "stiffness", _THIRD, "change of the stiffness" + AT_SCALE,
+        "stiffness",
+        "stiffness",
+        "added += a * ({phi});",
+        "stiffness = stiffness_0 + a * ({phi})",
+        "N/m",
+        100.0,
+        0.3,
+        "stiffness",
+        _THIRD,
+        "change of the stiffness" + AT_SCALE,
         {
-            "excess": ("linear", "square"), "rate": ("linear",), "time": ("linear",), "energy": ("linear",),
-            "stretch": ("linear", "square"), "power": ("linear",), "phase": ("linear", "square"), "pull": ("linear",),
+            "excess": ("linear", "square"),
+            "rate": ("linear",),
+            "time": ("linear",),
+            "energy": ("linear",),
+            "stretch": ("linear", "square"),
+            "power": ("linear",),
+            "phase": ("linear", "square"),
+            "pull": ("linear",),
         },
         (("excess", "phase"), ("excess", "time"), ("stretch", "phase")),
         ("excess", "phase"),
     ),
     "length": Target(
-        "mechanical", "length", "extension += a * ({phi});", "extension = extension_0 + a * ({phi})", "m", 0.01,
-        0.3, "stretch", _THIRD, "change of the extension" + AT_SCALE,
+        "mechanical",
+        "length",
+        "extension += a * ({phi});",
+        "extension = extension_0 + a * ({phi})",
+        "m",
+        0.01,
+        0.3,
+        "stretch",
+        _THIRD,
+        "change of the extension" + AT_SCALE,
         {
-            "excess": ("square",), "rate": ("linear",), "time": ("linear", "square"), "energy": ("linear",),
-            "power": ("linear",), "phase": ("linear", "square"), "stretch": ("square",), "pull": ("square",),
+            "excess": ("square",),
+            "rate": ("linear",),
+            "time": ("linear", "square"),
+            "energy": ("linear",),
+            "power": ("linear",),
+            "phase": ("linear", "square"),
+            "stretch": ("square",),
+            "pull": ("square",),
         },
         (("excess", "phase"), ("excess", "stretch")),
         ("excess", "stretch", "phase"),
     ),
-}  # fmt: skip
+}
 
 
 def _term(equation: str, name: str, phi: str, words: str, delay: Parameter | None = None) -> CandidateTerm:
     target = TARGETS[equation]
     amplitude = Parameter(
-        "a", target.amplitude, -target.bound, target.bound, SIGN_REASON, is_amplitude=True,
-        plausible=target.plausible, of=target.of, plausible_reason=target.plausible_reason, meaning=target.meaning,
-    )  # fmt: skip
+        "a",
+        target.amplitude,
+        -target.bound,
+        target.bound,
+        SIGN_REASON,
+        is_amplitude=True,
+        plausible=target.plausible,
+        of=target.of,
+        plausible_reason=target.plausible_reason,
+        meaning=target.meaning,
+    )
     lines = {target.hook: target.line.format(phi="delayed" if delay else phi)}
     law = target.law.format(phi="delayed" if delay else phi.replace("fabs", "abs"))
     if delay:
@@ -199,10 +269,17 @@ def _terms(equation: str) -> Iterator[CandidateTerm]:
 def _between_neighbours() -> CandidateTerm:
     """Heat that goes from coil to coil: what one loses the other gains."""
     amplitude = Parameter(
-        "a", "W", 0.0, 3.0, "heat flows from hot to cold", is_amplitude=True,
-        plausible=3.0, of="heat", plausible_reason="coils that touch pass less than a few times what they lose",
+        "a",
+        "W",
+        0.0,
+        3.0,
+        "heat flows from hot to cold",
+        is_amplitude=True,
+        plausible=3.0,
+        of="heat",
+        plausible_reason="coils that touch pass less than a few times what they lose",
         meaning="heat between two coils that touch, at a difference of 30 K",
-    )  # fmt: skip
+    )
     return CandidateTerm(
         identifier="unnamed_heat_neighbour",
         name="unnamed term in heat: difference of temperature to coils that touch",

@@ -66,7 +66,7 @@ class Equation:
 
     Args:
         unit: Part of the model.
-        hook: Hook of the bank.
+        hook: Hook of the network.
         line: C line that adds `a * phi`.
         law: Formula of the same.
         amplitude: Its number.
@@ -83,11 +83,20 @@ class Equation:
 
 def _amplitude(
     unit: str, bound: float, plausible: float, of: str, why: str, meaning: str, negligible: float = 0.0
-) -> Parameter:  # fmt: skip
+) -> Parameter:
     return Parameter(
-        "a", unit, -bound, bound, SIGN_REASON, is_amplitude=True, negligible=negligible,
-        plausible=plausible, of=of, plausible_reason=why, meaning=meaning,
-    )  # fmt: skip
+        "a",
+        unit,
+        -bound,
+        bound,
+        SIGN_REASON,
+        is_amplitude=True,
+        negligible=negligible,
+        plausible=plausible,
+        of=of,
+        plausible_reason=why,
+        meaning=meaning,
+    )
 
 
 def _equations() -> dict[str, Equation]:
@@ -102,15 +111,34 @@ def _equations() -> dict[str, Equation]:
         for name, t in TARGETS.items()
     }
     found["shift"] = Equation(
-        "stiffness", "stiffness", "shift += a * ({phi});", "shift = a * ({phi})",
-        _amplitude("K", 40.0, 20.0, "", "neighbouring alloys of one series differ by 20 K",
-                   "shift of the transformation temperatures" + AT_SCALE, 0.5),
-    )  # fmt: skip
+        "stiffness",
+        "stiffness",
+        "shift += a * ({phi});",
+        "shift = a * ({phi})",
+        _amplitude(
+            "K",
+            40.0,
+            20.0,
+            "",
+            "neighbouring alloys of one series differ by 20 K",
+            "shift of the transformation temperatures" + AT_SCALE,
+            0.5,
+        ),
+    )
     found["force"] = Equation(
-        "mechanical", "load", "tension += a * ({phi});", "tension = load + a * ({phi})",
-        _amplitude("N", 1.0, 0.5, "load", "what holds more than half of the load lets nothing move",
-                   "change of the force" + AT_SCALE),
-    )  # fmt: skip
+        "mechanical",
+        "load",
+        "tension += a * ({phi});",
+        "tension = load + a * ({phi})",
+        _amplitude(
+            "N",
+            1.0,
+            0.5,
+            "load",
+            "what holds more than half of the load lets nothing move",
+            "change of the force" + AT_SCALE,
+        ),
+    )
     return found
 
 
@@ -135,9 +163,17 @@ def _term(
         lines["state"] = f"delayed_inflow = ({phi}) / tau;\ndelayed_rate = 1.0 / tau;"
         law += f"; tau * d(delayed) = {_as_law(phi)} - delayed"
         tau = Parameter(
-            "tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
-            count=2, meaning="time constant of the delay",
-        )  # fmt: skip
+            "tau",
+            "s",
+            0.05,
+            1e4,
+            "a delay is positive",
+            plausible=30.0,
+            of="time",
+            plausible_reason=DELAY_REASON,
+            count=2,
+            meaning="time constant of the delay",
+        )
         shape = (*shape, tau)
     return CandidateTerm(
         identifier=f"unnamed_{equation}_{name}",
@@ -161,13 +197,29 @@ def _ramp(variable: str, widths: int) -> tuple[str, tuple[Parameter, ...]]:
     bound = 1e3 if knots.of == "heat" else {"K": 500.0, "K/s": 500.0, "m": 0.2, "1": 1.0, "A": 100.0}[knots.unit]
     of_what = VARIABLES[variable][1] + " "
     onset = Parameter(
-        "onset", knots.unit, -bound if knots.is_signed else 0.0, bound, _INSIDE,
-        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, is_position=True, meaning=of_what + _FIRST,
-    )  # fmt: skip
+        "onset",
+        knots.unit,
+        -bound if knots.is_signed else 0.0,
+        bound,
+        _INSIDE,
+        plausible=knots.reach,
+        of=knots.of,
+        plausible_reason=_INSIDE,
+        is_position=True,
+        meaning=of_what + _FIRST,
+    )
     width = Parameter(
-        "width", knots.unit, 1e-3 * min(bound, 1.0), bound, "a function has no jump",
-        plausible=knots.reach, of=knots.of, plausible_reason=_INSIDE, count=widths, meaning=of_what + _WIDTH,
-    )  # fmt: skip
+        "width",
+        knots.unit,
+        1e-3 * min(bound, 1.0),
+        bound,
+        "a function has no jump",
+        plausible=knots.reach,
+        of=knots.of,
+        plausible_reason=_INSIDE,
+        count=widths,
+        meaning=of_what + _WIDTH,
+    )
     return f"clip(({knots.formula} - onset) / width, 0.0, 1.0)", (onset, width)
 
 
@@ -213,18 +265,29 @@ def _of_value() -> Iterator[CandidateTerm]:
     departure = "change of the reading from its pivot, in typical departures, "
     reach = "six typical departures are all that a channel shows"
     onset = Parameter(
-        "onset", "1", 0.0, 100.0, _INSIDE, plausible=6.0, plausible_reason=reach, is_position=True,
+        "onset",
+        "1",
+        0.0,
+        100.0,
+        _INSIDE,
+        plausible=6.0,
+        plausible_reason=reach,
+        is_position=True,
         meaning=departure + _FIRST,
-    )  # fmt: skip
+    )
     width = Parameter(
         "width", "1", 1e-3, 100.0, "no jump", plausible=6.0, plausible_reason=reach, count=2, meaning=departure + _WIDTH
     )
     for name, words, phi, shape in (
-        ("spline", "the reading itself, piecewise linear", f"clip(({reading} - onset) / width, 0.0, 1.0)",
-         (onset, width)),
+        (
+            "spline",
+            "the reading itself, piecewise linear",
+            f"clip(({reading} - onset) / width, 0.0, 1.0)",
+            (onset, width),
+        ),
         ("times_time", "the reading itself times time", f"{reading} * t / 60.0", ()),
         ("square_time", "time, square", "t * t / 3600.0", ()),
-    ):  # fmt: skip
+    ):
         yield CandidateTerm(
             identifier=f"unnamed_value_{name}",
             name=f"unnamed term in value: {words}",

@@ -17,8 +17,17 @@ _SOURCE = "J. H. Friedman, Annals of Statistics 19 (1991) 1-67; M. Brokate and J
 _SOURCE += "Transitions, Springer 1996, chapter 2"
 _PASSIVE = "it only takes energy"
 _EVERY: tuple[PlaceKind, ...] = (*LOCAL, "row_gradient", "column_gradient", "string_ends", "outer_strings", "edge")
-_TAU = Parameter("tau", "s", 0.05, 1e4, "a delay is positive", plausible=30.0, of="time", plausible_reason=DELAY_REASON,
-    meaning="time constant of the delay")  # fmt: skip
+_TAU = Parameter(
+    "tau",
+    "s",
+    0.05,
+    1e4,
+    "a delay is positive",
+    plausible=30.0,
+    of="time",
+    plausible_reason=DELAY_REASON,
+    meaning="time constant of the delay",
+)
 _HEAT = "a coil that loses or gains twice what it loses at 30 K is another coil"
 _COOLING = Parameter(
     "a",
@@ -64,9 +73,14 @@ _WARMTH = "(T - reference_temperature) / 30.0"
 
 
 def _amplitude(
-    unit: str, bound: float, plausible: tuple[float, str, str], is_passive: bool = False, negligible: float = 0.0,
-    meaning: str = "", physical: Physical = "",
-) -> Parameter:  # fmt: skip
+    unit: str,
+    bound: float,
+    plausible: tuple[float, str, str],
+    is_passive: bool = False,
+    negligible: float = 0.0,
+    meaning: str = "",
+    physical: Physical = "",
+) -> Parameter:
     """The strength of a term; `plausible` is the largest size that is believed, the scale it counts in, and why."""
     most, of, why = plausible
     return Parameter(

@@ -12,14 +12,14 @@ import xarray as xr
 from scipy.linalg.blas import dtbsv
 
 from cosim.components import FabricComponent, ProgrammeComponent, nanoseconds
-from cosim.errors import InputError
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
-from diagnosis.systems.run import run_quickly
 
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
 MOST_STEPS = 400_000

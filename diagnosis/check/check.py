@@ -86,7 +86,16 @@ def _outside(one: Compared) -> list[Doubt]:
             )
             remedy = "correct `zero` and `unit` of its clock, or `time` under `overrides`"
             found.append(
-                Doubt(one.recording.title, channel.name, "clock", text, remedy, True, float(channel.times[0]),
-                      float(channel.times[-1]), float(FEWEST_VALUES))
-            )  # fmt: skip
+                Doubt(
+                    one.recording.title,
+                    channel.name,
+                    "clock",
+                    text,
+                    remedy,
+                    True,
+                    float(channel.times[0]),
+                    float(channel.times[-1]),
+                    float(FEWEST_VALUES),
+                )
+            )
     return found

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, direct, lagged
 from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
 from diagnosis.check.quantiles import chi_square_beyond
@@ -139,9 +139,7 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     return []
 
 
-def _decided(
-    compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]
-) -> Doubt:  # fmt: skip
+def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:
     """The doubt where no lag competes."""
     low, high = sorted(abs(v) for v in found.interval)
     weight = f"no lag explains as much: it gains {found.gained:.3g} in -2 log likelihood"
@@ -160,9 +158,7 @@ def _decided(
     return Doubt(*where, text, remedy, True, *over)
 
 
-def _late(
-    compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]
-) -> Doubt:  # fmt: skip
+def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:
     """The doubt where the response comes late: a dead time and many lags in series make it late too."""
     low, high = found.interval
     text = (

@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from cosim.errors import InputError
 from cosim.loading import load_scenario
 from cosim.run_folder import write_atomically, writing
+from cosim.unit.errors import InputError
 
 app = typer.Typer(
     no_args_is_help=True, help="Recordings: begin one from a table or from tracks, and check it against a scenario."
@@ -52,10 +52,10 @@ def import_tracks(
     out: Annotated[Path, typer.Option(help="Folder for the recording; nothing in it is overwritten.")],
 ) -> None:
     """Make a recording of markers that another tool tracked."""
-    from cosim.camera.import_file import load_import
-    from cosim.camera.importing import imported
-    from cosim.camera.imports import read_tracks
-    from cosim.camera.output import refuse_recording, write_tracks
+    from chainmail.camera.import_file import load_import
+    from chainmail.camera.importing import imported
+    from chainmail.camera.imports import read_tracks
+    from chainmail.camera.output import refuse_recording, write_tracks
 
     refuse_recording(out)
     loaded = load_import(given)
@@ -65,8 +65,10 @@ def import_tracks(
         print(note)
     tracks = found.tracks
     gaps = float((tracks.share == 0.0).mean())
-    print(f"{out}: {len(channels)} channels, {len(tracks.times)} rows from {tracks.times[0]:.6g} s to "
-          f"{tracks.times[-1]:.6g} s, {100.0 * gaps:.1f} % gaps")  # fmt: skip
+    print(
+        f"{out}: {len(channels)} channels, {len(tracks.times)} rows from {tracks.times[0]:.6g} s to "
+        f"{tracks.times[-1]:.6g} s, {100.0 * gaps:.1f} % gaps"
+    )
 
 
 @app.command()

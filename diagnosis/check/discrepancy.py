@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Ratios of discrepancy to noise that are tried: what the discrepancy does over the recording, in noises of a reading.
 RATIOS = np.geomspace(5.0, 2e4, 5)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.clock_shift import asked, order, thinned
 from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener
@@ -88,11 +88,7 @@ def edge_doubts(compared: Compared) -> list[Doubt]:
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     z = float(np.sqrt(2.0 * np.log(found.odds)))
     over = compared.begin, compared.end, z
-    return [
-        Doubt(
-            compared.recording.title, driver(compared), "programme", text, remedy, found.odds >= SERIOUS, *over
-        )
-    ]  # fmt: skip
+    return [Doubt(compared.recording.title, driver(compared), "programme", text, remedy, found.odds >= SERIOUS, *over)]
 
 
 def edges(compared: Compared) -> Edges | None:

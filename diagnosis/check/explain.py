@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.optimize import nnls
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside
 from diagnosis.recording.series import sample
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, compare
 from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
 from diagnosis.check.inputs import Course, InputComparison, compare_inputs, set_beside
@@ -82,11 +82,16 @@ def voltages(compared: Compared) -> list[InputComparison]:
         course = _held(channel)
         found.append(
             set_beside(
-                compared.recording.title, channel.name, channel.unit,
+                compared.recording.title,
+                channel.name,
+                channel.unit,
                 (course, partial(_interpolated, series.times, series.values)),
-                (compared.begin, compared.end), margin, True, "programme",
+                (compared.begin, compared.end),
+                margin,
+                True,
+                "programme",
             )
-        )  # fmt: skip
+        )
     return found
 
 
@@ -133,7 +138,7 @@ def _where(one: InputComparison) -> str:
 
 def _doubt(
     compared: Compared, one: InputComparison, evidence: float, shares: tuple[float, float], is_wrong: bool
-) -> Doubt:  # fmt: skip
+) -> Doubt:
     whose = "this recording's `overrides`" if one.is_stated else "the scenario"
     text = (
         f"the recorded input {how(one)}, compared with the programme of {whose}; they differ in "
@@ -167,7 +172,7 @@ def _voltage(compared: Compared, one: InputComparison) -> Doubt:
 
 def _told(
     compared: Compared, one: InputComparison, kind: str, text: str, remedy: str, is_serious: bool, z: float
-) -> Doubt:  # fmt: skip
+) -> Doubt:
     begin = one.stretches[0][0] if one.stretches else compared.begin
     end = one.stretches[-1][1] if one.stretches else compared.end
     return Doubt(one.recording, one.name, kind, text, remedy, is_serious, begin, end, z, stretches=one.stretches)

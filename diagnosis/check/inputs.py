@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cosim.components import ProgrammeComponent, ProgrammeOutput, nanoseconds
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Compared
 from diagnosis.recording.conditions import scenario_of
 
@@ -84,10 +84,15 @@ def compare_inputs(compared: Compared) -> tuple[InputComparison, ...]:
             name = f"{one.component}.{one.output}" + (f"[{k + 1}]" if len(rows[0]) > 1 else "")
             found.append(
                 set_beside(
-                    recording.title, name, own.unit, (mine, theirs), (compared.begin, compared.end), margin, is_stated(
-                        recording.overrides, one.component, one.output)
+                    recording.title,
+                    name,
+                    own.unit,
+                    (mine, theirs),
+                    (compared.begin, compared.end),
+                    margin,
+                    is_stated(recording.overrides, one.component, one.output),
                 )
-            )  # fmt: skip
+            )
     return tuple(found)
 
 
@@ -127,9 +132,15 @@ def _course(times: Array, values: Array, is_linear: bool) -> Course:
 
 
 def set_beside(
-    recording: str, name: str, unit: str, courses: tuple[Course, Course], span: tuple[float, float], margin: float,
-    is_programme_stated: bool, used: str = "recorded",
-) -> InputComparison:  # fmt: skip
+    recording: str,
+    name: str,
+    unit: str,
+    courses: tuple[Course, Course],
+    span: tuple[float, float],
+    margin: float,
+    is_programme_stated: bool,
+    used: str = "recorded",
+) -> InputComparison:
     """Compare a recorded course with a programmed one.
 
     The first law that leaves no more than `LEFT` of the time is reported: equal, a factor, an offset, a shift, off for
@@ -175,9 +186,19 @@ def set_beside(
             # one level that stays is what a scenario says that leaves the course to the recordings
             kind = "part" if share <= MEANT and np.ptp(other) > tolerance else "other"
     return InputComparison(
-        recording, name, unit, kind, used, is_programme_stated, _runs(grid, plain), share, factor, offset, shift,
+        recording,
+        name,
+        unit,
+        kind,
+        used,
+        is_programme_stated,
+        _runs(grid, plain),
+        share,
+        factor,
+        offset,
+        shift,
         (_switches(grid, own, tolerance), _switches(grid, other, tolerance)),
-    )  # fmt: skip
+    )
 
 
 def _noise(own: Array, other: Array) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.figures.style import SWITCH, WITH_MODEL
+from cosim.figure_style import SWITCH, WITH_MODEL
 from cosim.run_folder import write_atomically
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.inputs import compare_inputs

@@ -11,11 +11,11 @@ import numpy as np
 import yaml
 
 from cosim.components import CircuitComponent, PendulumComponent, ProgrammeComponent, nanoseconds
-from cosim.errors import InputError
-from cosim.quantity import conversion
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario, parse_scenario
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import conversion
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.check.sniff import Sniffed
 from diagnosis.recording.channels import offered

@@ -10,7 +10,7 @@ from typing import cast
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, explained
 from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
@@ -496,9 +496,7 @@ def _fastest(values: Array, steps: Sequence[Jump]) -> float:
     return float(np.max(changes[kept], initial=0.0)) or float(np.min(changes[changes > 0.0], initial=np.inf))
 
 
-def _stretches(
-    compared: Compared, beside: Beside, every: Sequence[Jump], noise: float, calm: Array
-) -> list[Doubt]:  # fmt: skip
+def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise: float, calm: Array) -> list[Doubt]:
     """Steps that are undone later, and, of a temperature, steps that stay.
 
     Args:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.errors import InputError
-from cosim.quantity import conversion
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, Basis, Fit, basis, explains, gain
 from diagnosis.check.quantiles import chi_square_beyond

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from cosim.errors import InputError
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
 
 #: Lines before the header that are looked through.
 _MOST_HEADER = 60

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.quantity import conversion
+from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL
 from diagnosis.check.quantiles import normal_beyond

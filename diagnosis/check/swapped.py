@@ -11,7 +11,7 @@ from collections import defaultdict
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import Basis, Fit, basis, design, fit, gain
 from diagnosis.check.timing import critical, percent

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from cosim.components import nanoseconds
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, direct
 from diagnosis.check.explain import LEVEL, Fit, design, explained, explains, fit, gain
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
@@ -241,9 +241,7 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
 
 def _direct_gain(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> float:
     """What sensors gain that answer the inputs at once, beside their own course: their readings come early."""
-    with_inputs = [
-        fit(b.measured, design(b, b.times), b.tolerance, direct(compared, b.times).T) for b in leads
-    ]  # fmt: skip
+    with_inputs = [fit(b.measured, design(b, b.times), b.tolerance, direct(compared, b.times).T) for b in leads]
     return together(leads, own, np.array([gain(a, f) for a, f in zip(own, with_inputs)]))
 
 

@@ -8,18 +8,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import Array
-from diagnosis.bank.inputs import Drive
-from diagnosis.bank.parameters import BankParameters
-from diagnosis.bank.steps import USUAL
+from cosim.unit.protocol import Array
 from diagnosis.experiment.separation import Bordered, Separation, distance, root, separation
+from diagnosis.models.coil_network.kernel.inputs import Drive
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.kernel.steps import USUAL
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.runs import Run, deviation
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit
 from diagnosis.search.objective import STEP
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.shares import is_own
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.runs import Run, deviation
 
 #: Samples of a channel that a prediction uses; others count through the weight of these.
 SAMPLES = 60
@@ -67,7 +67,7 @@ class Belief:
     """What is known of an explanation after the recordings.
 
     Args:
-        point: Values of the coil bank's parameters and of the terms.
+        point: Values of the coil network's parameters and of the terms.
         covariance: Of these, shape (parameters + term parameters,) twice.
     """
 
@@ -82,7 +82,7 @@ class Belief:
 
         Args:
             fit: Of the recordings.
-            parameters: Of the coil bank.
+            parameters: Of the coil network.
         """
         lasts = [t.recording is None for t in fit.point.terms for _ in t.parameters]
         kept = np.r_[0:parameters, len(fit.point.base) + np.flatnonzero(lasts)]
@@ -100,9 +100,12 @@ class Bench:
     """
 
     def __init__(
-        self, model: BankModel, recordings: Sequence[Recording], beliefs: Sequence[Belief],
+        self,
+        model: CoilNetworkModel,
+        recordings: Sequence[Recording],
+        beliefs: Sequence[Belief],
         inflation: Array | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.model, self.recordings, self.beliefs = model, recordings, beliefs
         counts = np.cumsum([len(r.series) for r in model.runs])
         every = np.ones(int(counts[-1])) if inflation is None else inflation
@@ -115,14 +118,16 @@ class Bench:
         self._step = min(coarse, finest) if has_sensor else coarse
         self._roots = [root(self._spread(b)) for b in beliefs]
 
-    def repeat(self) -> BankModel:
+    def repeat(self) -> CoilNetworkModel:
         """The model of one more set of the same recordings."""
-        return self._with([
-            self._run(n, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])))
-            for n, r in enumerate(self.model.runs)
-        ])  # fmt: skip
+        return self._with(
+            [
+                self._run(n, Conditions(r.translation.drive, float(r.inputs.time[-1] - r.inputs.time[0])))
+                for n, r in enumerate(self.model.runs)
+            ]
+        )
 
-    def under(self, conditions: Conditions) -> BankModel:
+    def under(self, conditions: Conditions) -> CoilNetworkModel:
         """The model of an experiment."""
         return self._with([self._run(0, conditions)])
 
@@ -130,10 +135,10 @@ class Bench:
         """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time."""
         run = self._run(0, conditions)
         times = np.linspace(run.inputs.time[0], run.inputs.time[-1], count)
-        parameters = self._with([run]).bank_parameters(self._points[0], 0)
-        return np.asarray(self.model.bank.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
+        parameters = self._with([run]).network_parameters(self._points[0], 0)
+        return np.asarray(self.model.network.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
 
-    def contrasts(self, experiment: BankModel, log_odds: Sequence[float]) -> list[Contrast]:
+    def contrasts(self, experiment: CoilNetworkModel, log_odds: Sequence[float]) -> list[Contrast]:
         """What an experiment does to the first explanation and each other one.
 
         Args:
@@ -155,7 +160,7 @@ class Bench:
         return found
 
     @staticmethod
-    def _contrast(experiment: BankModel, difference: Array, parted: Separation) -> Contrast:
+    def _contrast(experiment: CoilNetworkModel, difference: Array, parted: Separation) -> Contrast:
         layout = experiment.layout
         strength = np.bincount(layout.channel, difference**2, minlength=len(layout.names))
         best = int(np.argmax(strength))
@@ -171,7 +176,7 @@ class Bench:
         if conditions.load is not None:
             base["load"] = conditions.load
         moved = replace(
-            translation, drive=conditions.drive, parameters=BankParameters(base, translation.parameters.terms)
+            translation, drive=conditions.drive, parameters=CoilNetworkParameters(base, translation.parameters.terms)
         )
         start, stop = translation.start, translation.start + conditions.duration
         corners = np.array(conditions.drive.switches())
@@ -180,12 +185,12 @@ class Bench:
             channel, weight = _sampled(series.channel, (start, stop), corners)
             channels[channel.name] = channel
             weights.append(weight / np.sqrt(inflation))
-        run = Run(moved, replace(recording, channels=channels, end=stop), self.model.bank, self._step)
+        run = Run(moved, replace(recording, channels=channels, end=stop), self.model.network, self._step)
         run.weight = run.weight * np.concatenate(weights)
         return run
 
-    def _with(self, runs: list[Run]) -> BankModel:
-        """A model of other runs; candidates, parameters and the compiled bank are shared."""
+    def _with(self, runs: list[Run]) -> CoilNetworkModel:
+        """A model of other runs; candidates, parameters and the compiled network are shared."""
         other = copy.copy(self.model)
         other.runs = runs
         other.seats = (self.model.timeline.afterwards,) * len(runs)
@@ -216,7 +221,7 @@ def _term_parameters(terms: Mapping[Term, tuple[float, ...]]) -> list[str]:
     return [p.name for t in terms for p in t.parameters]
 
 
-def _term_slopes(model: BankModel, point: Point, here: Array) -> Array:
+def _term_slopes(model: CoilNetworkModel, point: Point, here: Array) -> Array:
     """Derivatives of the residuals by the parameters of the terms, shape (residuals, term parameters)."""
     moved, steps = [], []
     for term, values in point.terms.items():
@@ -245,6 +250,12 @@ def _sampled(channel: Channel, span: tuple[float, float], corners: Array) -> tup
         is_kept |= near
         weight[near] = 1.0
     chosen = times[is_kept]
-    same = replace(channel, times=chosen, values=np.zeros(len(chosen)), deviation=deviation(channel),
-                   is_deviation_given=False, is_clipped=np.zeros(len(chosen), dtype=bool))  # fmt: skip
+    same = replace(
+        channel,
+        times=chosen,
+        values=np.zeros(len(chosen)),
+        deviation=deviation(channel),
+        is_deviation_given=False,
+        is_clipped=np.zeros(len(chosen), dtype=bool),
+    )
     return same, weight[is_kept]

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.compute.steps import counted
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.experiment.bench import Belief, Bench, Conditions, Contrast
 from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
@@ -19,14 +19,14 @@ from diagnosis.experiment.separation import DECISIVE
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.judge import UNSEPARATED, bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.translate import GRAVITY
+from diagnosis.models.wrappers.tempered import TemperedModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.tempered import TemperedModel
-from diagnosis.simulator.translate import GRAVITY
-from diagnosis.simulator.wrapped import WrappedModel
 
 #: Share of cases from which an experiment is said to decide: more often than not.
 LIKELY = 0.5
@@ -119,16 +119,20 @@ def _unearned(outcome: Outcome) -> Open | None:
 
 
 def next_experiment(
-    scenario: Scenario, model: DiagnosisModel, recordings: Sequence[Recording], outcome: Outcome, accepted: Accepted,
+    scenario: Scenario,
+    model: DiagnosisModel,
+    recordings: Sequence[Recording],
+    outcome: Outcome,
+    accepted: Accepted,
     limits: Mapping[str, float],
-) -> NextExperiment | None:  # fmt: skip
-    """What would decide about explanations that are left open, where the coil bank can simulate it; see `design`."""
+) -> NextExperiment | None:
+    """What would decide about explanations that are left open, where the coil network can simulate it; see `design`."""
     question = open_explanations(judged(outcome, accepted))
     inflation = None
     while isinstance(model, WrappedModel):
         inflation = model.inflation if isinstance(model, TemperedModel) else inflation
         model = model.inner
-    if question is None or not isinstance(model, BankModel):
+    if question is None or not isinstance(model, CoilNetworkModel):
         return None
     return design(scenario, SoFar(model, recordings, inflation), question, limits)
 
@@ -143,7 +147,7 @@ class SoFar:
         inflation: Of the variance, of every channel, where no model meets their noise.
     """
 
-    model: BankModel
+    model: CoilNetworkModel
     recordings: Sequence[Recording]
     inflation: Array | None = None
 
@@ -185,8 +189,11 @@ def design(
         rivals=tuple(Rival(_words(e), float(c)) for e, c in zip(question.explanations, question.chances)),
         courses=best.courses,
         duration=best.conditions.duration,
-        limits=(*driven.limits(), f"coils at most {HOTTER:g} K hotter than in the recordings",
-                f"at most three times as long as the recordings ({3.0 * longest:g} s)"),
+        limits=(
+            *driven.limits(),
+            f"coils at most {HOTTER:g} K hotter than in the recordings",
+            f"at most three times as long as the recordings ({3.0 * longest:g} s)",
+        ),
         log_bayes_factor=best.gain,
         repeat_log_bayes_factor=repeated[1],
         decides=best.decides,
@@ -195,7 +202,7 @@ def design(
         best_time=first.time,
         tried=len(tried),
         mass=(best.conditions.load or 0.0) / GRAVITY,
-    )  # fmt: skip
+    )
 
 
 def _words(explanation: Explanation) -> tuple[str, ...]:
@@ -207,8 +214,10 @@ def _weighed(contrasts: Sequence[Contrast], question: Open) -> tuple[float, floa
     if not contrasts:
         return 0.0, 0.0
     weights = question.chances[1:] / np.sum(question.chances[1:])
-    return (float(weights @ [c.separation.decides for c in contrasts]),
-            float(weights @ [c.separation.log_bayes_factor for c in contrasts]))  # fmt: skip
+    return (
+        float(weights @ [c.separation.decides for c in contrasts]),
+        float(weights @ [c.separation.log_bayes_factor for c in contrasts]),
+    )
 
 
 def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:

@@ -11,13 +11,13 @@ import numpy as np
 from cosim.assemble import assemble
 from cosim.components import HangingMassComponent
 from cosim.connection import Connection
-from cosim.errors import InputError
 from cosim.programme import Course, ProgrammeUnit
 from cosim.scenario import Scenario
-from cosim.unit import Array
-from diagnosis.bank.inputs import Drive, Programme
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
 from diagnosis.judge.next_experiment import Course as Driven
-from diagnosis.simulator.translate import Translation
+from diagnosis.models.coil_network.kernel.inputs import Drive, Programme
+from diagnosis.models.coil_network.translate import Translation
 
 Target = Literal["voltage", "power", "ambient"]
 _TARGETS: Mapping[str, Target] = {"supply_voltage": "voltage", "power": "power", "ambient_temperature": "ambient"}
@@ -122,10 +122,20 @@ def rig(scenario: Scenario, conditions: Sequence[Scenario], longest: float, limi
         raise InputError("--limit", unknown[0], "the scenario drives no such output", f"it has: {known}")
     if not drivers:
         return None
-    loads = [(n, c.mass.to("kg")) for s in (scenario, *conditions) for n, c in s.components.items()
-             if isinstance(c, HangingMassComponent)]  # fmt: skip
-    return Rig(tuple(drivers), loads[0][0] if loads else None, max((m for _, m in loads), default=0.0),
-               scenario.time.start.to("s"), scenario.time.macro_step.to("s"), longest)  # fmt: skip
+    loads = [
+        (n, c.mass.to("kg"))
+        for s in (scenario, *conditions)
+        for n, c in s.components.items()
+        if isinstance(c, HangingMassComponent)
+    ]
+    return Rig(
+        tuple(drivers),
+        loads[0][0] if loads else None,
+        max((m for _, m in loads), default=0.0),
+        scenario.time.start.to("s"),
+        scenario.time.macro_step.to("s"),
+        longest,
+    )
 
 
 def _drivers(scenario: Scenario) -> list[Driver]:
@@ -166,21 +176,45 @@ def _driver(source: tuple[str, str], course: Course, target: Target, ways: tuple
 def _wider(one: Driver, other: Driver) -> Driver:
     slews = [s for s in (one.slew, other.slew) if np.isfinite(s)]
     slew = max(slews) if slews and one.is_linear and other.is_linear else np.inf
-    return Driver(one.component, one.output, one.unit, one.target, one.columns, one.is_linear and other.is_linear,
-                  min(one.lowest, other.lowest), max(one.highest, other.highest), slew, one.connections)  # fmt: skip
+    return Driver(
+        one.component,
+        one.output,
+        one.unit,
+        one.target,
+        one.columns,
+        one.is_linear and other.is_linear,
+        min(one.lowest, other.lowest),
+        max(one.highest, other.highest),
+        slew,
+        one.connections,
+    )
 
 
 def _limited(driver: Driver, limits: Mapping[str, float]) -> Driver:
     highest = limits.get(driver.name, driver.highest)
     if not highest > driver.lowest:
-        raise InputError("--limit", driver.name, f"{highest:g} {driver.unit} leaves nothing to drive",
-                         f"give more than {driver.lowest:g} {driver.unit}")  # fmt: skip
-    return Driver(driver.component, driver.output, driver.unit, driver.target, driver.columns, driver.is_linear,
-                  driver.lowest, highest, driver.slew, driver.connections)  # fmt: skip
+        raise InputError(
+            "--limit",
+            driver.name,
+            f"{highest:g} {driver.unit} leaves nothing to drive",
+            f"give more than {driver.lowest:g} {driver.unit}",
+        )
+    return Driver(
+        driver.component,
+        driver.output,
+        driver.unit,
+        driver.target,
+        driver.columns,
+        driver.is_linear,
+        driver.lowest,
+        highest,
+        driver.slew,
+        driver.connections,
+    )
 
 
 def drive(rig: Rig, courses: Sequence[Driven], like: Translation) -> Drive:
-    """Programmes of a bank under given courses; what no course is given for stays as it is in `like`.
+    """Programmes of a network under given courses; what no course is given for stays as it is in `like`.
 
     Args:
         rig: What can be driven.
@@ -188,8 +222,10 @@ def drive(rig: Rig, courses: Sequence[Driven], like: Translation) -> Drive:
         like: A scenario of the same kind.
     """
     programmes: dict[Target, Programme | None] = {
-        "ambient": like.drive.ambient, "voltage": like.drive.voltage, "power": like.drive.power,
-    }  # fmt: skip
+        "ambient": like.drive.ambient,
+        "voltage": like.drive.voltage,
+        "power": like.drive.power,
+    }
     for target in ("ambient", "voltage", "power"):
         own = [(d, c) for d, c in zip(rig.drivers, courses) if d.target == target]
         if own:

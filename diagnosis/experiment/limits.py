@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from cosim.components import ProgrammeComponent
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 
 
 def parse_limits(texts: Sequence[str], scenario: Scenario) -> dict[str, float]:
@@ -20,16 +20,21 @@ def parse_limits(texts: Sequence[str], scenario: Scenario) -> dict[str, float]:
     Raises:
         InputError: One is no limit, names no output of a programme, or is in another unit.
     """
-    outputs = {f"{name}.{output}": given.unit for name, component in scenario.components.items()
-               if isinstance(component, ProgrammeComponent) for output, given in component.outputs.items()}  # fmt: skip
+    outputs = {
+        f"{name}.{output}": given.unit
+        for name, component in scenario.components.items()
+        if isinstance(component, ProgrammeComponent)
+        for output, given in component.outputs.items()
+    }
     found = {}
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals:
             raise InputError("--limit", text, "this is no limit", "write it as `component.output=12 V`")
         if name not in outputs:
-            raise InputError("--limit", name, "the scenario has no programme with this output",
-                             f"it has: {', '.join(outputs)}")  # fmt: skip
+            raise InputError(
+                "--limit", name, "the scenario has no programme with this output", f"it has: {', '.join(outputs)}"
+            )
         try:
             found[name] = PhysicalValue.parse(value).to(outputs[name])
         except ValueError as error:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.experiment.bench import Bench, Conditions
 from diagnosis.experiment.drivers import Driver, Rig, drive
 from diagnosis.experiment.programmes import Levels, Shape
@@ -80,9 +80,7 @@ class Planner:
         self._like = translations[0]
         ambient = self._like.drive.ambient.values
         self.ambient = float(np.min(ambient))
-        self.hottest = max(
-            float(bench.temperatures(Conditions(t.drive, rig.duration)).max()) for t in translations
-        )  # fmt: skip
+        self.hottest = max(float(bench.temperatures(Conditions(t.drive, rig.duration)).max()) for t in translations)
 
     def conditions(self, shape: Shape, load: float | None = None) -> tuple[tuple[Course, ...], Conditions] | None:
         """Programmes and what they do, scaled down where coils would get too hot; None where that does not help."""

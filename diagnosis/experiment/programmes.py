@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Levels of a staircase up and down again: each twice, so that history and temperature part.
 _STAIRS = (0.15, 0.3, 0.45, 0.6, 0.8, 1.0, 0.7, 0.5, 0.35, 0.2, 0.0)
@@ -102,9 +102,7 @@ def _steps(kind: str, levels: Sequence[float], duration: float, columns: int) ->
     return _same(kind, times, np.array([0.0, *levels]), duration, columns)
 
 
-def _same(
-    kind: str, times: Array, heat: Array, duration: float, columns: int, is_linear: bool = False
-) -> Shape:  # fmt: skip
+def _same(kind: str, times: Array, heat: Array, duration: float, columns: int, is_linear: bool = False) -> Shape:
     return Shape(kind, times, np.repeat(heat[:, None], columns, axis=1), duration, is_linear)
 
 

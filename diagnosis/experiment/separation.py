@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtr
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Odds at which a question counts as decided.
 DECISIVE = math.log(20.0)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.wrappers.wrapped import Scaled, WrappedModel, unscaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.score import Projection
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.wrapped import Scaled, WrappedModel, unscaled
 
 
 class LawsOnly(WrappedModel):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.score import LEAST_VISIBLE
 
@@ -97,7 +97,7 @@ def _blocks(matrix: Array, first: AnyArray, last: AnyArray) -> Array:
 
 def best_constant(
     residuals: Array, readings: Array, fewest: int, used: AnyArray, pieces: int
-) -> tuple[int, int, float] | None:  # fmt: skip
+) -> tuple[int, int, float] | None:
     """The interval in which a sensor that holds one value explains most: first sample, sample after the last, gain.
 
     Args:

@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.faults.law import AGAIN, INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
+from diagnosis.models.build import DiagnosisModel, Effect, Spot
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.wrapped import Scaled, WrappedModel, unscaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term, strength_slopes
 from diagnosis.search.score import Projection, Scoring
 from diagnosis.search.structure import structure
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.models import DiagnosisModel, Effect, Spot
-from diagnosis.simulator.wrapped import Scaled, WrappedModel, unscaled
 
 #: What the readings of a sensor do under each fault.
 _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
@@ -27,7 +27,7 @@ _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
 _LAWS = {law.identifier: law for law in (OFFSET, STUCK, INPUT)}
 #: Samples by which begin and end are moved to look for a better interval near the one found.
 _MOVES = (-8, -5, -3, -2, -1, 1, 2, 3, 5, 8)
-#: Pieces of a recording in which a change of an input is simulated: by the coil bank, and where a run takes seconds.
+#: Pieces of a recording in which a change of an input is simulated: by the coil network, and where a run takes seconds.
 PIECES, FEW_PIECES = 16, 12
 
 
@@ -55,7 +55,7 @@ class FaultyModel(WrappedModel):
         innermost = self._innermost()
         #: Faults of inputs, which the inner model simulates.
         self.input_terms: list[Term] = list(getattr(innermost, "input_terms", list)())
-        self._is_fast = isinstance(innermost, BankModel)
+        self._is_fast = isinstance(innermost, CoilNetworkModel)
 
     def _innermost(self) -> DiagnosisModel:
         found = self.inner

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.components import ProgrammeComponent, ProgrammeOutput, nanoseconds
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario
-from cosim.unit import AnyArray, Array
-from diagnosis.faults.bank_inputs import gain
+from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.faults.law import INPUT, Span, fault_term, occasion
+from diagnosis.faults.network_inputs import gain
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Term
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.law import Span
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import TermParameter
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.runs import deviation
-from diagnosis.simulator.wrapped import WrappedModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class Readings:
         deviation: Of their noise, SI.
         used: Which of them count, shape (samples,).
         share: Share of the sum of the residuals that is taken from each: the zero of the channel is unknown
-            (`diagnosis.bank.whiten`).
+            (`diagnosis.models.coil_network.kernel.whiten`).
     """
 
     number: int
@@ -83,28 +83,44 @@ class Readings:
     def offset(self) -> TermParameter:
         """Bounds of an offset: no larger than the readings are wide, and more than one reading scatters."""
         most = max(float(np.ptp(self.measured)), 10.0 * self.deviation)
-        return TermParameter("offset", self.unit, -most, most, (self.deviation,), negligible=self.deviation,
-                             meaning="change of the reading in the interval")  # fmt: skip
+        return TermParameter(
+            "offset",
+            self.unit,
+            -most,
+            most,
+            (self.deviation,),
+            negligible=self.deviation,
+            meaning="change of the reading in the interval",
+        )
 
 
 def readings_of(model: DiagnosisModel) -> list[Readings]:
     """Every channel of every recording of a model that compares sample by sample, in the order of its residuals."""
-    bank: object = model
-    while isinstance(bank, WrappedModel):
-        bank = bank.inner
+    network: object = model
+    while isinstance(network, WrappedModel):
+        network = network.inner
     found: list[Readings] = []
     begin = 0
     labels = _labels(model)
     for recording, run in enumerate(model.runs):
-        shares = bank.runs[recording].shares if isinstance(bank, BankModel) else np.zeros(len(run.series))
+        shares = network.runs[recording].shares if isinstance(network, CoilNetworkModel) else np.zeros(len(run.series))
         for series, share in zip(run.series, shares.tolist()):
             channel, count = series.channel, len(series.samples)
             times = channel.times[-count:] if count else np.zeros(0)
-            found.append(Readings(
-                len(found), recording, labels[len(found)], channel.unit, slice(begin, begin + count), _edges(times),
-                channel.values[-count:] if count else times, deviation(channel), np.asarray(series.used, dtype=bool),
-                share,
-            ))  # fmt: skip
+            found.append(
+                Readings(
+                    len(found),
+                    recording,
+                    labels[len(found)],
+                    channel.unit,
+                    slice(begin, begin + count),
+                    _edges(times),
+                    channel.values[-count:] if count else times,
+                    deviation(channel),
+                    np.asarray(series.used, dtype=bool),
+                    share,
+                )
+            )
             begin += count
     return found
 

@@ -6,14 +6,14 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
 from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET
 from diagnosis.faults.readings import Readings
+from diagnosis.models.wrappers.wrapped import Scaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.score import Projection, Score, Scoring
-from diagnosis.simulator.wrapped import Scaled
 
 #: Pieces of a channel whose ends are tried as begin and end of a fault; around the best of them every sample is tried.
 PIECES = 24

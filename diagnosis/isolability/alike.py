@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, strength_slopes
@@ -125,7 +125,7 @@ def _middle(term: Term) -> float:
 
 def _effect(
     term: Term, own: Sequence[int], gram: Array, sizes: Array, absorption: tuple[Array, Array, Sequence[str]]
-) -> Effect:  # fmt: skip
+) -> Effect:
     absorbing, across, names = absorption
     best = max(own, key=lambda n: gram[n, n])
     left = max(float(gram[best, best]), 0.0)
@@ -138,7 +138,7 @@ def _effect(
 
 def _alike(
     found: Mapping[Term, Effect], numbers: Mapping[Term, Sequence[int]], gram: Array, one: Term, other: Term
-) -> Alike:  # fmt: skip
+) -> Alike:
     """The angle between the directions of two effects over all their shapes; the gain is the smaller of both."""
     cosine = 0.0
     for a in numbers[one]:

@@ -8,26 +8,29 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.compute.steps import counted
-from diagnosis.bank.layout import QUANTITIES
-from diagnosis.bank.places import coil_label
 from diagnosis.isolability.alike import SHOWS, Alike, Effect, effects, widest
 from diagnosis.isolability.structure import VARIABLES, Analysis, Rig, analyse
 from diagnosis.judge.isolability import ExtraChannel, FaultClass, Isolability
+from diagnosis.models.coil_network.kernel.layout import QUANTITIES
+from diagnosis.models.coil_network.kernel.places import coil_label
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model, Term
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.wrapped import WrappedModel
 
 #: Quantities by which stretched coils are known.
 _LOADED = frozenset({"extension", "length", "stiffness", "tension"})
 #: Quantity that may be recorded in addition to its words.
 CHANNELS = {
-    "terminal_voltage": "the voltage at the supply's terminals", "supply_current": "the current of the supply",
-    "supply_power": "the power of the supply", "string_voltage": "the voltage of every string",
+    "terminal_voltage": "the voltage at the supply's terminals",
+    "supply_current": "the current of the supply",
+    "supply_power": "the power of the supply",
+    "string_voltage": "the voltage of every string",
     "voltage": "the voltage of every coil",
-    "current": "the current of every string", "second_temperature": "a second thermometer on every coil",
+    "current": "the current of every string",
+    "second_temperature": "a second thermometer on every coil",
     "second_extension": "a second sensor of every extension",
-}  # fmt: skip
+}
 #: Statements about single effects and pairs, at most.
 MOST = 6
 #: Effects of which the recalibration leaves less than this share are reported as absorbed.
@@ -44,10 +47,10 @@ def isolability(model: Model, fit: Fit, terms: Sequence[Term]) -> Isolability:
     """
     shown, alike = effects(model, fit, widest(terms))
     by_size = list(_by_size(shown, alike))
-    bank = _bank(model)
-    if bank is None:
+    network = _network(model)
+    if network is None:
         return Isolability(tuple(by_size))
-    rig = rig_of(bank)
+    rig = rig_of(network)
     now = analyse(rig)
     classes = _generic(rig, now)
     extra = extra_channels(rig, now)
@@ -55,13 +58,13 @@ def isolability(model: Model, fit: Fit, terms: Sequence[Term]) -> Isolability:
     return Isolability(tuple(statements), tuple(classes), tuple(extra))
 
 
-def _bank(model: object) -> BankModel | None:
+def _network(model: object) -> CoilNetworkModel | None:
     while isinstance(model, WrappedModel):
         model = model.inner
-    return model if isinstance(model, BankModel) else None
+    return model if isinstance(model, CoilNetworkModel) else None
 
 
-def rig_of(model: BankModel) -> Rig:
+def rig_of(model: CoilNetworkModel) -> Rig:
     """At most two strings of at most two coils that stand for the rest: those with the most and the fewest channels."""
     layout = model.coils
     measured = {(s.quantity, s.element) for run in model.runs for s in run.series}

@@ -1,4 +1,4 @@
-"""Structural model of a coil bank: which equation holds which variables, and where a fault would enter.
+"""Structural model of a coil network: which equation holds which variables, and where a fault would enter.
 
 Equations: docs/architecture.md (circuit, heat balance, stiffness, extension under a load). Faults are additive, one in
 each equation and one in each sensor. Analysis: canonical decomposition (Dulmage and Mendelsohn) as in M. Krysander and
@@ -12,30 +12,45 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 
 #: Quantity that a channel may measure to the variable of the model.
 VARIABLES: Mapping[str, str] = {
-    "supply_current": "supply_current", "current": "current", "resistance": "R", "power": "P", "temperature": "T",
-    "stiffness": "k", "extension": "x", "length": "x", "terminal_voltage": "V_terminal",
-    "voltage": "U", "string_voltage": "U_string", "supply_power": "P_supply",
-    "second_temperature": "T", "second_extension": "x",
-}  # fmt: skip
+    "supply_current": "supply_current",
+    "current": "current",
+    "resistance": "R",
+    "power": "P",
+    "temperature": "T",
+    "stiffness": "k",
+    "extension": "x",
+    "length": "x",
+    "terminal_voltage": "V_terminal",
+    "voltage": "U",
+    "string_voltage": "U_string",
+    "supply_power": "P_supply",
+    "second_temperature": "T",
+    "second_extension": "x",
+}
 #: Quantity to what its sensor is called, where that is not element and quantity.
 SENSORS: Mapping[str, str] = {
-    "terminal_voltage": "voltage at the supply's terminals", "string_voltage": "{}.voltage",
+    "terminal_voltage": "voltage at the supply's terminals",
+    "string_voltage": "{}.voltage",
     "supply_power": "supply.power",
-}  # fmt: skip
+}
 #: Kind of a fault to its words; `{}` is the element.
 WORDS: Mapping[str, str] = {
-    "supply": "voltage of {}", "string": "resistance in series with {}", "resistance": "resistance of {}",
-    "heat": "heat balance of {}", "stiffness": "stiffness of {}", "length": "force or extension of {}",
-}  # fmt: skip
+    "supply": "voltage of {}",
+    "string": "resistance in series with {}",
+    "resistance": "resistance of {}",
+    "heat": "heat balance of {}",
+    "stiffness": "stiffness of {}",
+    "length": "force or extension of {}",
+}
 
 
 @dataclass(frozen=True)
 class Rig:
-    """The part of a coil bank that stands for the whole.
+    """The part of a coil network that stands for the whole.
 
     Args:
         strings: Name of each string to the names of its coils; one string without name where power is given.
@@ -122,9 +137,14 @@ def analyse(rig: Rig) -> Analysis:
 
     equations = _equations(rig)
     model = DiagnosisModel(
-        {"type": "VarStruc", "x": list(equations.unknown), "f": list(equations.faults), "z": list(equations.known),
-         "rels": equations.relations},
-    )  # fmt: skip
+        {
+            "type": "VarStruc",
+            "x": list(equations.unknown),
+            "f": list(equations.faults),
+            "z": list(equations.known),
+            "rels": equations.relations,
+        },
+    )
     detectable, _ = model.DetectabilityAnalysis()
     mixed = np.asarray(model.IsolabilityAnalysis())
     seen = np.array([f in detectable for f in equations.faults])

@@ -16,11 +16,11 @@ from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
+from diagnosis.models.build import DiagnosisModel
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.search import Explanation, Outcome, shrink
-from diagnosis.simulator.models import DiagnosisModel
 
 #: Rivals that are compared on unfitted readings, and how far behind in training they may lie [-2 log posterior].
 RIVALS, BEHIND = 5, 30.0
@@ -108,10 +108,15 @@ class _Judge:
 
 
 def accept(
-    model: DiagnosisModel, outcome: Outcome, unfitted: Unfitted, training: Unfitted, is_local: Callable[[Term], bool],
-    local: Callable[[], Unfitted] | None = None, can_compare: bool = True,
+    model: DiagnosisModel,
+    outcome: Outcome,
+    unfitted: Unfitted,
+    training: Unfitted,
+    is_local: Callable[[Term], bool],
+    local: Callable[[], Unfitted] | None = None,
+    can_compare: bool = True,
     on_progress: Callable[[str], None] = lambda text: None,
-) -> Accepted:  # fmt: skip
+) -> Accepted:
     """Accept what gains on readings that it was not fitted to.
 
     Args:
@@ -165,17 +170,26 @@ def accept(
         on_progress("asking whether each law has the same strength in readings that it was not fitted to")
         strengths = unfitted.strengths(current.fit.point, after)
     return Accepted(
-        headline, current, reasons, gains, rivals, before, recalibrated, after,
-        gain(before, recalibrated, readings), found,
-        agreement(fitted.residuals, training.readings), agreement(before.residuals, readings),
-        agreement(recalibrated.residuals, readings), unfitted.basis, {t: judge.basis(is_local(t)) for t in gains},
+        headline,
+        current,
+        reasons,
+        gains,
+        rivals,
+        before,
+        recalibrated,
+        after,
+        gain(before, recalibrated, readings),
+        found,
+        agreement(fitted.residuals, training.readings),
+        agreement(before.residuals, readings),
+        agreement(recalibrated.residuals, readings),
+        unfitted.basis,
+        {t: judge.basis(is_local(t)) for t in gains},
         strengths,
-    )  # fmt: skip
+    )
 
 
-def _agreement(
-    unfitted: Unfitted, point: Point, predicted: Predicted, on_progress: Callable[[str], None]
-) -> Agreement:  # fmt: skip
+def _agreement(unfitted: Unfitted, point: Point, predicted: Predicted, on_progress: Callable[[str], None]) -> Agreement:
     """Of a fit with unfitted readings; where noise alone rejects it, within the error of what was fitted."""
     found = agreement(predicted.residuals, unfitted.readings)
     if not found.is_rejected:

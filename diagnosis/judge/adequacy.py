@@ -9,18 +9,21 @@ from diagnosis.judge.agreement import Agreement
 from diagnosis.judge.diagnosis import Adequacy, Left, Met, Moved
 from diagnosis.judge.held_out import root_mean_square
 from diagnosis.judge.unfitted import Predicted, Readings
+from diagnosis.models.coil_network.runs import deviation
 from diagnosis.search.problem import Parameter
 from diagnosis.search.shares import of_title
-from diagnosis.simulator.runs import deviation
 
 #: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
 
 
 def adequacy(
-    accepted: Accepted, readings: Readings, day: tuple[Moved, ...], is_recalibrated: bool = True,
+    accepted: Accepted,
+    readings: Readings,
+    day: tuple[Moved, ...],
+    is_recalibrated: bool = True,
     has_scatter: bool = False,
-) -> Adequacy:  # fmt: skip
+) -> Adequacy:
     """How right the accepted model is.
 
     Args:
@@ -86,9 +89,7 @@ def met(predicted: Predicted, readings: Readings) -> tuple[Met, ...]:
     return tuple(found)
 
 
-def moved_day(
-    predicted: Predicted, parameters: Sequence[Parameter], titles: Sequence[str] = ()
-) -> tuple[Moved, ...]:  # fmt: skip
+def moved_day(predicted: Predicted, parameters: Sequence[Parameter], titles: Sequence[str] = ()) -> tuple[Moved, ...]:
     """Numbers of the day that are taken to be farther from what is written down than `TOLD` of what is usual.
 
     Args:

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtr, chdtri
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings
-from diagnosis.simulator.runs import ZERO, deviation
+from diagnosis.models.coil_network.runs import ZERO, deviation
 
 #: Probability that noise alone is taken for a departure of the model.
 LEVEL = 0.001
@@ -193,12 +193,19 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         noise, scatter = deviation(channel), _scatter(own)
         found.append(
             ChannelAgreement(
-                channel.name, readings.titles[readings.of_channel[n]], channel.unit,
-                noise * float(np.sqrt(np.mean(own**2))), noise, total / count, limit, count,
-                noise * scatter, noise * _lasting(own, scatter),
+                channel.name,
+                readings.titles[readings.of_channel[n]],
+                channel.unit,
+                noise * float(np.sqrt(np.mean(own**2))),
+                noise,
+                total / count,
+                limit,
+                count,
+                noise * scatter,
+                noise * _lasting(own, scatter),
                 None if tested is None else float(tested.channels[n]) / count,
             )
-        )  # fmt: skip
+        )
         squares += total
         error += (count * own_error) ** 2
     samples = sum(c.samples for c in found)
@@ -206,6 +213,10 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         return Agreement(0.0, 1.0, 0, int(readings.is_wild.sum()), ())
     limit = float(chdtri(samples, LEVEL)) / samples + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
     return Agreement(
-        squares / samples, limit, samples, int(readings.is_wild.sum()), tuple(found),
+        squares / samples,
+        limit,
+        samples,
+        int(readings.is_wild.sum()),
+        tuple(found),
         None if tested is None else tested.total / samples,
-    )  # fmt: skip
+    )

@@ -11,19 +11,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray
+from cosim.unit.protocol import AnyArray
 from diagnosis.judge.own_numbers import OwnNumbers, own_numbers
+from diagnosis.models.build import DiagnosisModel, RecordedRun
+from diagnosis.models.wrappers.masked import MaskedModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
-from diagnosis.simulator.masked import MaskedModel
-from diagnosis.simulator.models import DiagnosisModel, RecordedRun
-from diagnosis.simulator.wrapped import WrappedModel
 
 
 @dataclass(frozen=True)
 class _Series:
-    """See `diagnosis.simulator.models.Series`."""
+    """See `diagnosis.models.build.Series`."""
 
     channel: Channel
     samples: AnyArray
@@ -32,7 +32,7 @@ class _Series:
 
 @dataclass(frozen=True)
 class _Run:
-    """See `diagnosis.simulator.models.RecordedRun`."""
+    """See `diagnosis.models.build.RecordedRun`."""
 
     series: tuple[_Series, ...]
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.parameter_error import Freedom, moved, without_whitening, zeroed
 from diagnosis.search.problem import Point, Term
 
@@ -60,9 +60,17 @@ def columns_by_terms(may: Freedom) -> Array:
 
 
 def constancy(
-    may: Freedom, columns: Array, by_terms: Array, term: Term, fitted: float, left: Callable[[Point], Array],
-    channel: AnyArray, block: AnyArray, has_zero: AnyArray, chosen: AnyArray,
-) -> Constancy:  # fmt: skip
+    may: Freedom,
+    columns: Array,
+    by_terms: Array,
+    term: Term,
+    fitted: float,
+    left: Callable[[Point], Array],
+    channel: AnyArray,
+    block: AnyArray,
+    has_zero: AnyArray,
+    chosen: AnyArray,
+) -> Constancy:
     """Estimate the strength of a law again from readings that it was not fitted to.
 
     Args:

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.judge.diagnosis import Estimate
+from diagnosis.models.build import DiagnosisModel, timeline_of
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.switches import costs_at
-from diagnosis.simulator.models import DiagnosisModel, timeline_of
 
 #: 95 % point of chi-square with one degree of freedom.
 RISE = 3.841458820694124
@@ -164,7 +164,7 @@ def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisM
 
 def local_estimates(
     estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
-) -> tuple[Estimate, ...]:  # fmt: skip
+) -> tuple[Estimate, ...]:
     """Estimates of a term with its instant and the interval of that on the clock of the recording in which it sets in.
 
     The interval is the wider one of what the curvature says and of `instant_interval`. One that reaches into the

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.search.posterior import HUBER
 

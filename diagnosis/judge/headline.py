@@ -18,9 +18,13 @@ LEAST_SHARE = 0.005
 
 
 def headline(
-    verdict: Verdict, found: Sequence[Finding], adequacy: Adequacy | None, reasons: Sequence[str] = (),
-    doubts: Sequence[Doubt] = (), units: Units = IN_SI,
-) -> str:  # fmt: skip
+    verdict: Verdict,
+    found: Sequence[Finding],
+    adequacy: Adequacy | None,
+    reasons: Sequence[str] = (),
+    doubts: Sequence[Doubt] = (),
+    units: Units = IN_SI,
+) -> str:
     """Both answers: what was found, and how right the model is now.
 
     Args:

@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import ChannelFit, Difference
+from diagnosis.models.build import DiagnosisModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.shares import is_carried
 from diagnosis.search.structure import WINDOWS
-from diagnosis.simulator.models import DiagnosisModel
 
 #: The three models that are compared.
 STAGES = ("before", "recalibrated", "after")
@@ -74,9 +74,17 @@ def channel_fits(
                 chi_square[stage] = _square(root_mean_square(scaled))
                 whiteness[stage] = _largest(scaled)
             found.append(
-                ChannelFit(recording.title, is_held_out, series.channel.name, series.channel.unit, rmse, chi_square,
-                           whiteness, int(np.count_nonzero(series.used)))
-            )  # fmt: skip
+                ChannelFit(
+                    recording.title,
+                    is_held_out,
+                    series.channel.name,
+                    series.channel.unit,
+                    rmse,
+                    chi_square,
+                    whiteness,
+                    int(np.count_nonzero(series.used)),
+                )
+            )
     return found
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import INPUT
 from diagnosis.judge.acceptance import Accepted
@@ -33,6 +33,8 @@ from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import has_bins, raw_residuals
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.wrappers.tempered import untempered
 from diagnosis.report.display import words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
@@ -40,8 +42,6 @@ from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.shares import departures, of_title
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.tempered import untempered
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -69,9 +69,13 @@ SHOWS = 0.1
 
 
 def verdict(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, moved: Sequence[Moved] = (),
+    outcome: Outcome,
+    found: Sequence[Finding],
+    adequacy: Adequacy,
+    searched: Searched,
+    moved: Sequence[Moved] = (),
     doubts: Sequence[Doubt] = (),
-) -> Verdict:  # fmt: skip
+) -> Verdict:
     """One word for a search.
 
     Args:
@@ -125,7 +129,7 @@ def _has_stopgap(accepted: Sequence[Finding]) -> bool:
 
 def why_open(
     outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
-) -> tuple[str, ...]:  # fmt: skip
+) -> tuple[str, ...]:
     """Why it cannot be told whether something is missing, or what; empty if the model agrees.
 
     It is asked where no physics is accepted, or none that has a name and could not as well be of a sensor.
@@ -237,9 +241,13 @@ def bends_into(rival: Explanation, best: Explanation) -> bool:
 
 
 def findings(
-    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, titles: Sequence[str], units: Units = IN_SI,
+    model: DiagnosisModel,
+    outcome: Outcome,
+    accepted: Accepted,
+    titles: Sequence[str],
+    units: Units = IN_SI,
     judge: DiagnosisModel | None = None,
-) -> tuple[Finding, ...]:  # fmt: skip
+) -> tuple[Finding, ...]:
     """Effects that were accepted, the largest gain first; then those that are suggested alone.
 
     Args:
@@ -284,15 +292,25 @@ def _without_name(finding: Finding, name: str) -> Finding:
     """The finding of a law of this name, told as one that has none."""
     place = finding.statement.removeprefix(statement(name, "", finding.standing, finding.ambiguous_with))
     return replace(
-        finding, is_named=False, standing=Standing.UNNAMED, doubts=(*finding.doubts, _BESIDE),
+        finding,
+        is_named=False,
+        standing=Standing.UNNAMED,
+        doubts=(*finding.doubts, _BESIDE),
         statement=statement(name, place, Standing.UNNAMED, ()),
-    )  # fmt: skip
+    )
 
 
 def _finding(
-    model: DiagnosisModel, outcome: Outcome, accepted: Accepted, explanation: Explanation, term: Term,
-    is_accepted: bool, titles: Sequence[str], units: Units, judge: DiagnosisModel | None,
-) -> Finding:  # fmt: skip
+    model: DiagnosisModel,
+    outcome: Outcome,
+    accepted: Accepted,
+    explanation: Explanation,
+    term: Term,
+    is_accepted: bool,
+    titles: Sequence[str],
+    units: Units,
+    judge: DiagnosisModel | None,
+) -> Finding:
     candidate, place = model.where(term)
     fit = explanation.fit
     alternatives, probability = _alternatives(outcome, accepted, term)

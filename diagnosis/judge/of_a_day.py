@@ -10,11 +10,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.unfitted import raw_residuals, readings_of
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.wrappers.tempered import untempered
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.tempered import untempered
 
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
 #: that are normally distributed one in 370 is larger.
@@ -45,7 +45,7 @@ def is_shown_there_alone(
     if judge is None:
         return is_of_a_day and (is_event or getattr(place, "day", None) is not None)
     # A fabric is not fitted where it judges; what it has with an instant or of a day belongs to its coils.
-    asked = judge.bank if isinstance(judge, FabricModel) else judge
+    asked = judge.network if isinstance(judge, FabricModel) else judge
     there = {str(t): t for t in asked.terms()} if asked is not None else {}
     if asked is None or str(term) not in there:
         return True

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.shares import is_carried
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.wrapped import WrappedModel
 
 
 def own_numbers(judge: DiagnosisModel, trained: DiagnosisModel) -> list[int]:

@@ -21,12 +21,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.search.objective import AT_BOUND, Objective
 from diagnosis.search.problem import Point
 from diagnosis.search.shares import is_carried
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.runs import ZERO
 
 #: Steps of the numbers, and halvings of one that does not lower the sum.
 STEPS, HALVINGS = 6, 6
@@ -178,8 +178,8 @@ def _columns(objective: Objective, x: Array, here: Array) -> Array:
 def without_whitening(model: DiagnosisModel, columns: Array) -> Array:
     """Derivatives of (measured - simulated) / noise, from those of a model's residuals.
 
-    A coil bank takes a share of the sum of each channel away (`diagnosis.bank.whiten`); s of n readings with that share
-    leaves 1 - n s of the sum.
+    A coil network takes a share of the sum of each channel away
+    (`diagnosis.models.coil_network.kernel.whiten`); s of n readings with that share leaves 1 - n s of the sum.
 
     Args:
         model: The model.
@@ -199,7 +199,7 @@ def without_whitening(model: DiagnosisModel, columns: Array) -> Array:
 
 def tested(
     may: Freedom, columns: Array, left: Callable[[Point], Array], channel: AnyArray, has_zero: AnyArray
-) -> Tested:  # fmt: skip
+) -> Tested:
     """What readings leave once the numbers moved within their own error.
 
     Args:
@@ -218,7 +218,7 @@ def tested(
 
 def moved(
     may: Freedom, columns: Array, left: Callable[[Point], Array], channel: AnyArray, has_zero: AnyArray
-) -> tuple[Array, Array, float]:  # fmt: skip
+) -> tuple[Array, Array, float]:
     """The move u that readings like best, what it leaves, its squares with the price: Gauss-Newton with halved steps.
 
     Args:

@@ -79,7 +79,7 @@ def unidentified(candidate: CandidateTerm, measured: Collection[str]) -> str:
 
     Args:
         candidate: The law.
-        measured: Quantities that were recorded, as `BankModel.measured`; `supply_current` is a current.
+        measured: Quantities that were recorded, as `CoilNetworkModel.measured`; `supply_current` is a current.
     """
     needs = candidate.needs or ()
     if not needs or any(q == need or q.endswith(f"_{need}") for q in measured for need in needs):

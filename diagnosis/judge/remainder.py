@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.location import Remainder
+from diagnosis.models.coil_network.runs import deviation
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Layout
 from diagnosis.search.structure import Structure, structure
-from diagnosis.simulator.runs import deviation
 
 #: Channels and groups that are reported.
 _TOLD = 8
@@ -19,7 +19,7 @@ _TOLD = 8
 
 def remainders(
     residuals: Array, layout: Layout, groups: Mapping[str, Array], channels: Sequence[Channel] = ()
-) -> tuple[Remainder, ...]:  # fmt: skip
+) -> tuple[Remainder, ...]:
     """Channels and groups of channels with structure left, the strongest first.
 
     Args:
@@ -34,10 +34,16 @@ def remainders(
     strong = sorted((f for f in found if abs(f[0].z) > limit), key=lambda f: -abs(f[0].z))
     is_known = len(channels) == len(layout.names)
     return tuple(
-        Remainder(s.channels, s.begin, s.end, s.z, limit,
-                  *(_mean(residuals, layout, members, s, channels) if is_known else ()))
+        Remainder(
+            s.channels,
+            s.begin,
+            s.end,
+            s.z,
+            limit,
+            *(_mean(residuals, layout, members, s, channels) if is_known else ()),
+        )
         for s, members in strong[:_TOLD]
-    )  # fmt: skip
+    )
 
 
 def _mean(

@@ -13,15 +13,15 @@ from functools import cached_property
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import Member
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.unfitted import raw_residuals
+from diagnosis.models.build import DiagnosisModel, timeline_of
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.tempered import untempered
 from diagnosis.search.problem import Point, Term, strength_slopes
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.models import DiagnosisModel, timeline_of
-from diagnosis.simulator.tempered import untempered
 
 #: Sum of squared differences, in deviations of the noise, that odds of 20 to 1 ask for: 2 ln 20.
 APART = 2.0 * float(np.log(20.0))
@@ -37,7 +37,7 @@ LIKE, MOST = 0.5, 12
 
 def same_response(
     model: DiagnosisModel, point: Point, term: Term, judge: DiagnosisModel | None = None
-) -> tuple[Member, ...]:  # fmt: skip
+) -> tuple[Member, ...]:
     """Members of the class of a term, without the term itself; empty where each simulation takes seconds.
 
     Args:
@@ -46,7 +46,7 @@ def same_response(
         term: One of its terms.
         judge: Model of the held-out recordings; None where there are none.
     """
-    if _bank(model) is None or term.recording is not None or term.unit == "measurement":
+    if _network(model) is None or term.recording is not None or term.unit == "measurement":
         return ()
     seen = _seen(model, point, term)
     own = _rows(model, [point, point.without(term)], seen)
@@ -54,10 +54,15 @@ def same_response(
     if float(np.sum((own[1] - own[0]) ** 2)) < APART:
         return ()  # its own response does not show: everything small would be like it
     others = [
-        t for t in model.terms()
-        if t != term and t.recording is None and t not in point.terms and t.unit == term.unit
-        and not t.is_completing and not _is_same_law(model, term, t)
-    ]  # fmt: skip
+        t
+        for t in model.terms()
+        if t != term
+        and t.recording is None
+        and t not in point.terms
+        and t.unit == term.unit
+        and not t.is_completing
+        and not _is_same_law(model, term, t)
+    ]
     found = []
     for other in _likely(model, point, term, others):
         values = _values(model, point, term, other, own, seen)
@@ -70,10 +75,10 @@ def same_response(
     return tuple(found)
 
 
-def _bank(model: object) -> BankModel | None:
+def _network(model: object) -> CoilNetworkModel | None:
     while hasattr(model, "inner"):
         model = model.inner
-    return model if isinstance(model, BankModel) else None
+    return model if isinstance(model, CoilNetworkModel) else None
 
 
 def _is_same_law(model: DiagnosisModel, one: Term, other: Term) -> bool:
@@ -127,7 +132,7 @@ def _rest(term: Term, other: Term, values: Sequence[float]) -> tuple[float, ...]
 
 def _values(
     model: DiagnosisModel, point: Point, term: Term, other: Term, own: Array, seen: Array
-) -> tuple[float, ...] | None:  # fmt: skip
+) -> tuple[float, ...] | None:
     """Values at which another law is most like a term; None where it differs in more than its strength."""
     values = point.terms[term]
     if other.identifier == term.identifier:
@@ -168,18 +173,18 @@ def _seen(model: DiagnosisModel, point: Point, term: Term) -> Array:
     Within a step a resistance is its mean: what sets in there is spread over the step, by each law in its own way, and
     that is an error of the fast simulation and nothing that a rig does.
     """
-    bank, seen = _bank(model), _used(model)
-    assert bank is not None
+    network, seen = _network(model), _used(model)
+    assert network is not None
     joint = next((v for p, v in zip(term.parameters, point.terms[term]) if p.is_instant), None)
     timeline = timeline_of(model)
     if joint is None or timeline is None:
         return seen
     number, instant = timeline.place(joint)
-    ends, begin = np.asarray(bank.runs[number].inputs.time), 0
+    ends, begin = np.asarray(network.runs[number].inputs.time), 0
     k = int(np.searchsorted(ends, instant))
     first, last = float(ends[max(k - 2, 0)]), float(ends[min(k + 1, len(ends) - 1)])
     for run in range(number + 1):
-        for series in bank.runs[run].series:
+        for series in network.runs[run].series:
             times = series.channel.times[-len(series.samples) :]
             if run == number:
                 seen[begin : begin + len(times)][(times >= first) & (times <= last)] = 0.0

@@ -13,9 +13,9 @@ from diagnosis.faults.law import AGAIN
 from diagnosis.faults.model import FaultyModel
 from diagnosis.judge.diagnosis import Domain, Searched
 from diagnosis.judge.doubts import MEASURED
+from diagnosis.models.build import DiagnosisModel
 from diagnosis.search.problem import Point, Term, strength_slopes
 from diagnosis.search.shares import is_own
-from diagnosis.simulator.models import DiagnosisModel
 
 
 def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], base: Point | None = None) -> Searched:

@@ -19,11 +19,18 @@ def spread_over_recordings(fits: Iterable[ChannelFit]) -> tuple[ChannelSpread, .
     for fit in fits:
         groups.setdefault((fit.is_held_out, fit.channel, fit.unit), []).append(fit)
     return tuple(
-        ChannelSpread(channel, unit, is_held_out, len(own), sum(f.samples for f in own),
-                      _over([f.rmse for f in own]), _over([f.chi_square for f in own]),
-                      _over([f.whiteness for f in own]))
+        ChannelSpread(
+            channel,
+            unit,
+            is_held_out,
+            len(own),
+            sum(f.samples for f in own),
+            _over([f.rmse for f in own]),
+            _over([f.chi_square for f in own]),
+            _over([f.whiteness for f in own]),
+        )
         for (is_held_out, channel, unit), own in groups.items()
-    )  # fmt: skip
+    )
 
 
 def _over(figures: Sequence[Mapping[str, float]]) -> dict[str, Spread]:

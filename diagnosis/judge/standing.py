@@ -21,7 +21,7 @@ UNKNOWN_SHARE = 0.9
 
 def standing_of(
     term: Term, doubts: Sequence[str], rivals: Sequence[str], is_trusted: bool, has_named_twin: bool = False
-) -> Standing:  # fmt: skip
+) -> Standing:
     """How far a finding may be called by its name.
 
     Args:

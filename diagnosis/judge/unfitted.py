@@ -12,12 +12,16 @@ from typing import Protocol
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.constancy import Constancy, columns_by_terms, constancy
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.own_numbers import own_numbers
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
+from diagnosis.models.build import DiagnosisModel, RecordedRun
+from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.wrappers.masked import MaskedModel
+from diagnosis.models.wrappers.tempered import BELIEVED, inflation, untempered
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
@@ -25,10 +29,6 @@ from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.shares import departures
 from diagnosis.search.validation import blocks
-from diagnosis.simulator.masked import MaskedModel
-from diagnosis.simulator.models import DiagnosisModel, RecordedRun
-from diagnosis.simulator.runs import deviation
-from diagnosis.simulator.tempered import BELIEVED, inflation, untempered
 
 #: Stretches of time in which the errors of a model are taken to be alike, per recording and quantity.
 STRETCHES = 10
@@ -100,9 +100,15 @@ def readings_of(runs: Sequence[RecordedRun], titles: Sequence[str]) -> Readings:
             owners.append(n)
             begin += len(own)
     return Readings(
-        np.concatenate(channel), np.concatenate(recording), np.concatenate(block), np.concatenate(wild),
-        np.concatenate(chosen), tuple(channels), tuple(owners), tuple(titles),
-    )  # fmt: skip
+        np.concatenate(channel),
+        np.concatenate(recording),
+        np.concatenate(block),
+        np.concatenate(wild),
+        np.concatenate(chosen),
+        tuple(channels),
+        tuple(owners),
+        tuple(titles),
+    )
 
 
 def wild_readings(values: Array, noise: float) -> AnyArray:
@@ -209,9 +215,12 @@ def _tested(model: DiagnosisModel, readings: Readings, kept: AnyArray, may: Free
     """
     chosen = readings.chosen[kept]
     return tested(
-        may, columns[chosen], lambda point: raw_residuals(model, point)[chosen], readings.channel[kept],
+        may,
+        columns[chosen],
+        lambda point: raw_residuals(model, point)[chosen],
+        readings.channel[kept],
         _has_zero(readings.channels),
-    )  # fmt: skip
+    )
 
 
 def _has_zero(channels: Sequence[Channel]) -> AnyArray:
@@ -277,11 +286,18 @@ class HeldOutReadings:
         chosen, channels = self.readings.chosen[kept], self.readings.channels
         return {
             term: constancy(
-                *found, by_terms, term, point.terms[term][0], lambda p: raw_residuals(self._judge, p)[chosen],
-                self.readings.channel[kept], self.readings.block[kept], _has_zero(channels), chosen,
+                *found,
+                by_terms,
+                term,
+                point.terms[term][0],
+                lambda p: raw_residuals(self._judge, p)[chosen],
+                self.readings.channel[kept],
+                self.readings.block[kept],
+                _has_zero(channels),
+                chosen,
             )
             for term in terms
-        }  # fmt: skip
+        }
 
     def _freedom(self, point: Point, predicted: Predicted) -> tuple[Freedom, Array] | None:
         """How the numbers of a fit may move, and the derivatives of all residuals; None where none can be moved.
@@ -345,9 +361,13 @@ class LeftOutReadings:
     """
 
     def __init__(
-        self, model: DiagnosisModel, titles: Sequence[str], parts: Sequence[AnyArray], basis: str,
+        self,
+        model: DiagnosisModel,
+        titles: Sequence[str],
+        parts: Sequence[AnyArray],
+        basis: str,
         on_progress: Callable[[str], None] = lambda text: None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._model, self._parts, self.basis = model, parts, basis
         self._inner = untempered(model)
         self._on_progress = on_progress

@@ -58,6 +58,6 @@ def _generic() -> list[Law]:
 
 def _law(
     identifier: str, name: str, role: Role, formula: str, of: str, constants: dict[str, tuple[str, float]] | None = None
-) -> Law:  # fmt: skip
+) -> Law:
     strength = Number("a", of, "strength", (0.05, -0.05), 1000.0, None)
     return Law(identifier, name, role, formula, (strength,), _FORM, constants or {}, is_named=False)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
-from diagnosis.bank.layout import COIL_FIELDS
-from diagnosis.bank.parameters import BankParameters
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.fitted import Fitted
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 
 #: Most steps of a course: matrices of responses grow with them. 100 s have steps of 0.25 s, shorter than any lag here.
 MOST_STEPS = 400
@@ -78,20 +78,31 @@ def course(model: Fitted, number: int) -> Course:
         number: Of the recording, from 0.
 
     Raises:
-        BankError: The model does not stay finite there.
+        CoilNetworkError: The model does not stay finite there.
     """
-    run, parameters = model.bank.runs[number], model.values(number)
+    run, parameters = model.network.runs[number], model.values(number)
     fine = run.inputs.time
     middle = 0.5 * (fine[1:] + fine[:-1])
     coils, strings = model.coils.coils, model.coils.strings
     wanted = {"temperature": fine, "power": middle, "stiffness": fine, "extension": fine, "resistance": fine[:1]}
     if strings:
         wanted["current"] = middle
-    found = model.bank.bank.simulate(parameters, run.inputs, wanted)
+    found = model.network.network.simulate(parameters, run.inputs, wanted)
     time = _coarse(fine)
     held = {n: _means(fine, time, v, n in ("power", "current")) for n, v in found.items() if n != "resistance"}
-    base = {n: _over(parameters, n, coils) for n in ("conductance", "capacity", "cooling_rate", "heating_a",
-                                                      "heating_d", "load", "ambient_offset", "off_power")}  # fmt: skip
+    base = {
+        n: _over(parameters, n, coils)
+        for n in (
+            "conductance",
+            "capacity",
+            "cooling_rate",
+            "heating_a",
+            "heating_d",
+            "load",
+            "ambient_offset",
+            "off_power",
+        )
+    }
     is_off = (held["power"] <= base["off_power"]) & (_over(parameters, "use_regressed_cooling_rate", coils) != 0.0)
     edges = np.stack([np.interp(time, fine, found["temperature"][:, c]) for c in range(coils)], axis=1)
     resistance = found["resistance"][0]
@@ -99,22 +110,30 @@ def course(model: Fitted, number: int) -> Course:
     ambient = _means(fine, time, run.inputs.ambient[:, None], is_flow=True) + base["ambient_offset"]
     current = held["current"][:, model.coils.string_of_coil] if strings else np.zeros((len(time) - 1, coils))
     return Course(
-        time=time, ambient=ambient, temperature=held["temperature"],
-        rate=np.diff(edges, axis=0) / np.diff(time)[:, None], current=current, power=held["power"],
-        energy=np.cumsum(held["power"] * np.diff(time)[:, None], axis=0), stiffness=held["stiffness"],
+        time=time,
+        ambient=ambient,
+        temperature=held["temperature"],
+        rate=np.diff(edges, axis=0) / np.diff(time)[:, None],
+        current=current,
+        power=held["power"],
+        energy=np.cumsum(held["power"] * np.diff(time)[:, None], axis=0),
+        stiffness=held["stiffness"],
         phase=np.clip((held["stiffness"] - base["heating_d"]) / base["heating_a"], 0.0, 1.0),
         extension=held["extension"],
         loss=np.where(is_off, base["cooling_rate"], base["conductance"] / base["capacity"]),
-        capacity=base["capacity"], resistance=resistance,
+        capacity=base["capacity"],
+        resistance=resistance,
         string_resistance=in_series + np.bincount(model.coils.string_of_coil, resistance, minlength=len(strings))
-        if strings else np.zeros(0),
-        load=base["load"], string_of_coil=model.coils.string_of_coil,
+        if strings
+        else np.zeros(0),
+        load=base["load"],
+        string_of_coil=model.coils.string_of_coil,
         since_switch=_since_switch(run.inputs.is_switch, fine, 0.5 * (time[1:] + time[:-1])),
-    )  # fmt: skip
+    )
 
 
-def _over(parameters: BankParameters, name: str, coils: int) -> Array:
-    """A parameter of every coil; what the bank was not given has the bank's default."""
+def _over(parameters: CoilNetworkParameters, name: str, coils: int) -> Array:
+    """A parameter of every coil; what the network was not given has the network's default."""
     value = np.asarray(parameters.base.get(name, COIL_FIELDS[name][0]), dtype=np.float64)
     return np.broadcast_to(value, (coils,)).copy()
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.panel import Panel
 from diagnosis.locate.statistic import Tested, calm, propagated
 

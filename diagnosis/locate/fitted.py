@@ -1,4 +1,4 @@
-"""A recalibrated coil bank with everything that the location needs of it."""
+"""A recalibrated coil network with everything that the location needs of it."""
 
 from __future__ import annotations
 
@@ -7,47 +7,47 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import Array
-from diagnosis.bank.layout import BankLayout
-from diagnosis.bank.parameters import BankParameters
+from cosim.unit.protocol import Array
+from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.tempered import TemperedModel
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Columns, Fit
 from diagnosis.search.problem import Model, Parameter, Point
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.tempered import TemperedModel
-from diagnosis.simulator.wrapped import WrappedModel
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A coil bank at its recalibrated point.
+    """A coil network at its recalibrated point.
 
     Args:
-        outer: The model that was fitted: the bank, also with biases or tempered.
-        bank: The model that simulates.
-        parameters: All that were fitted; those of the bank first, then biases of sensors.
+        outer: The model that was fitted: the network, also with biases or tempered.
+        network: The model that simulates.
+        parameters: All that were fitted; those of the network first, then biases of sensors.
         fit: Recalibrated, without terms.
         inflation: Of the variance of every channel, shape (channels,).
     """
 
     outer: Model
-    bank: BankModel
+    network: CoilNetworkModel
     parameters: Sequence[Parameter]
     fit: Fit
     inflation: Array
 
     @property
-    def coils(self) -> BankLayout:
+    def coils(self) -> CoilNetworkLayout:
         """Coils and strings."""
-        return self.bank.coils
+        return self.network.coils
 
     @property
     def point(self) -> Point:
-        """The recalibrated point as the bank knows it."""
-        return Point(self.fit.point.base[: len(self.bank.parameters)])
+        """The recalibrated point as the network knows it."""
+        return Point(self.fit.point.base[: len(self.network.parameters)])
 
-    def values(self, recording: int) -> BankParameters:
-        """Parameters of the bank for one recording."""
-        return self.bank.bank_parameters(self.point, recording)
+    def values(self, recording: int) -> CoilNetworkParameters:
+        """Parameters of the network for one recording."""
+        return self.network.network_parameters(self.point, recording)
 
     def moved(self, change: Array) -> Fitted | None:
         """The same at another point; None where the model cannot be simulated there.
@@ -65,10 +65,10 @@ class Fitted:
 
 
 def fitted(model: Model, fit: Fit) -> Fitted | None:
-    """The coil bank inside a model, or None where there is none.
+    """The coil network inside a model, or None where there is none.
 
     Args:
-        model: A coil bank, also with biases or tempered.
+        model: A coil network, also with biases or tempered.
         fit: Of this model, without terms.
     """
     inner: object = model
@@ -77,4 +77,4 @@ def fitted(model: Model, fit: Fit) -> Fitted | None:
         if isinstance(inner, TemperedModel):
             inflation = inner.inflation
         inner = inner.inner
-    return Fitted(model, inner, model.parameters, fit, inflation) if isinstance(inner, BankModel) else None
+    return Fitted(model, inner, model.parameters, fit, inflation) if isinstance(inner, CoilNetworkModel) else None

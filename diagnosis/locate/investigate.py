@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.location import Dependence, Location, Proposal, Waveform
 from diagnosis.locate.course import Course
 from diagnosis.locate.equation import Equation, Products
@@ -19,13 +19,19 @@ from diagnosis.locate.waveform import NORMAL_95, Estimates, estimate
 
 #: Unit of the model to the equations of the catalogue that act on it.
 TARGETS = {
-    "electrical": ("resistance",), "thermal": ("heat",), "stiffness": ("stiffness",), "mechanical": ("length",),
+    "electrical": ("resistance",),
+    "thermal": ("heat",),
+    "stiffness": ("stiffness",),
+    "mechanical": ("length",),
     "stiffness or mechanical": ("stiffness", "length"),
-}  # fmt: skip
+}
 #: Unit that an equation of the catalogue belongs to.
 UNIT_OF_TARGET = {
-    "resistance": "electrical", "heat": "thermal", "stiffness": "stiffness", "length": "mechanical",
-}  # fmt: skip
+    "resistance": "electrical",
+    "heat": "thermal",
+    "stiffness": "stiffness",
+    "length": "mechanical",
+}
 #: Variables that are named, at most, and the least correlation.
 MOST, LEAST = 4, 0.3
 
@@ -110,9 +116,13 @@ class _Laws:
     """Terms of one equation of the catalogue at a place."""
 
     def __init__(
-        self, tested: Tested, place: tuple[AnyArray | None, tuple[str, ...]], courses: Sequence[Course], target: str,
+        self,
+        tested: Tested,
+        place: tuple[AnyArray | None, tuple[str, ...]],
+        courses: Sequence[Course],
+        target: str,
         by_string: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._target = target
         equation = Equation(tested, *place)
         values = responses(equation, courses, target, by_string)

@@ -8,8 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from cosim.unit import Array
-from diagnosis.bank.places import coil_label
+from cosim.unit.protocol import Array
 from diagnosis.judge.location import WHOLE, Location, Proposal, Waveform
 from diagnosis.locate.course import Course, course
 from diagnosis.locate.fitted import Fitted, fitted
@@ -17,6 +16,7 @@ from diagnosis.locate.investigate import investigate
 from diagnosis.locate.panel import Panel, panels
 from diagnosis.locate.replay import ELECTRICAL, THERMAL, Replay, electrical, field_of, mechanical, thermal
 from diagnosis.locate.statistic import Tested, refitted, tested
+from diagnosis.models.coil_network.kernel.places import coil_label
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model
 from diagnosis.search.structure import structure
@@ -136,8 +136,8 @@ def _shares(model: Fitted, heated: UnitTest) -> list[Array]:
 def _unit_test(model: Fitted, unit: Unit, titles: Sequence[str], seed: int) -> list[UnitTest]:
     """A unit's tests, at the point that its own channels want: linearised again while its parameters move far."""
     for attempt in range(LINEARISED):
-        courses = [course(model, n) for n in range(len(model.bank.runs))]
-        found = [p for q in model.bank.measured for p in panels(model, q)]
+        courses = [course(model, n) for n in range(len(model.network.runs))]
+        found = [p for q in model.network.measured for p in panels(model, q)]
         replays = unit(model, courses, found)
         refits = [refitted(replay.panels, _prior(model, replay)) for replay in replays]
         change = np.zeros(len(model.parameters))
@@ -184,7 +184,7 @@ def _prior(model: Fitted, replay: Replay) -> Array:
 def _location(model: Fitted, replay: Replay, tested: Tested, titles: Sequence[str]) -> Location:
     peak = tested.peak
     panel = tested.panels[peak.panel]
-    names = [model.bank.layout.names[panel.channels[k]] for k in peak.members]
+    names = [model.network.layout.names[panel.channels[k]] for k in peak.members]
     return Location(
         unit=replay.unit,
         equation=f"{replay.equation}; driven by {replay.driven_by}",

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
-from diagnosis.bank.inputs import BankInputs
-from diagnosis.bank.layout import QUANTITIES
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.fitted import Fitted
-from diagnosis.simulator.runs import ZERO, Series, deviation
+from diagnosis.models.coil_network.kernel.inputs import CoilNetworkInputs
+from diagnosis.models.coil_network.kernel.layout import QUANTITIES
+from diagnosis.models.coil_network.runs import ZERO, Series, deviation
 
 #: Lags after which a sensor has followed a jump (to 5 %).
 SETTLED = 3.0
@@ -40,7 +40,7 @@ class Panel:
 
     Args:
         recording: Number of the recording, from 0.
-        quantity: Of the bank.
+        quantity: Of the network.
         times: Union of the sample times [s], shape (samples,).
         channels: Numbers of its channels in the layout, shape (elements,).
         elements: Coil, string (or 0 for the supply) of each, shape (elements,).
@@ -80,11 +80,11 @@ def panels(model: Fitted, quantity: str) -> list[Panel]:
 
     Args:
         model: Recalibrated.
-        quantity: Of the bank.
+        quantity: Of the network.
     """
     fit, rows = model.fit, model.fit.columns.values
     found, begin, number = [], 0, 0
-    for recording, run in enumerate(model.bank.runs):
+    for recording, run in enumerate(model.network.runs):
         members = []
         for series in run.series:
             end = begin + len(series.samples)
@@ -116,7 +116,7 @@ def panels(model: Fitted, quantity: str) -> list[Panel]:
 def _with_zero(values: Array, series: Series) -> Array:
     """Residuals or columns, shape (samples, ...), as they are where a channel's unknown zero is not whitened away.
 
-    See `diagnosis.simulator.runs.Run`: it takes a share of the mean away, by which the mean shrinks to
+    See `diagnosis.models.coil_network.runs.Run`: it takes a share of the mean away, by which the mean shrinks to
     1 / sqrt(1 + n ZERO^2) of itself.
     """
     count = max(int(np.count_nonzero(series.used)), 1)
@@ -133,7 +133,7 @@ def _zeros(recording: int, quantity: str, used: AnyArray, members: Sequence[Seri
     return Noise(("zero", recording, quantity), np.arange(count), used[:, :, None] * np.diag(sizes))
 
 
-def _is_settled(series: Series, inputs: BankInputs) -> Array:
+def _is_settled(series: Series, inputs: CoilNetworkInputs) -> Array:
     """Which samples of a flow lie so far from a jump that neither clock nor lag of its sensor matters."""
     found = np.ones(len(series.samples), dtype=bool)
     switches = inputs.time[:-1][inputs.is_switch]
@@ -166,6 +166,10 @@ def thinned(panel: Panel, most: int) -> Panel:
 
     times = np.bincount(group, panel.times) / np.bincount(group)
     return replace(
-        panel, times=times, residual=together(panel.residual), used=weight > 0, columns=together(panel.columns),
+        panel,
+        times=times,
+        residual=together(panel.residual),
+        used=weight > 0,
+        columns=together(panel.columns),
         deviation=panel.deviation[:1] / root,
-    )  # fmt: skip
+    )

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.locate.course import Course
 from diagnosis.locate.equation import Equation, Products
 from diagnosis.locate.statistic import Tested
@@ -127,8 +127,10 @@ def _confirmed(parts: Sequence[Products], chosen: Sequence[int]) -> float:
     total = 0.0
     for number, part in enumerate(parts):
         others = [p for n, p in enumerate(parts) if n != number]
-        together = Products(sum((p.gram for p in others), start=np.zeros_like(part.gram)),
-                            sum((p.along for p in others), start=np.zeros_like(part.along)))  # fmt: skip
+        together = Products(
+            sum((p.gram for p in others), start=np.zeros_like(part.gram)),
+            sum((p.along for p in others), start=np.zeros_like(part.along)),
+        )
         total += part.only(chosen).gain(_solve(together, chosen))
     return total
 

@@ -8,19 +8,17 @@ from functools import cache, partial
 
 import numpy as np
 
-from cosim.unit import Array
-from diagnosis.bank.places import coil_label
+from cosim.unit.protocol import Array
 from diagnosis.locate.course import Course
 from diagnosis.locate.fitted import Fitted
 from diagnosis.locate.panel import Noise, Panel
 from diagnosis.locate.response import heat_response, instant_response, interpolation, spread
 from diagnosis.locate.smooth import cosines, levels
+from diagnosis.models.coil_network.kernel.places import coil_label
 from diagnosis.search.problem import Parameter
 
 #: Parameters of the heat balance: nothing else depends on them once temperatures are given.
-THERMAL = frozenset(
-    {"conductance", "capacity", "cooling_rate", "ambient_offset", "initial_temperature", "power_gain"}
-)  # fmt: skip
+THERMAL = frozenset({"conductance", "capacity", "cooling_rate", "ambient_offset", "initial_temperature", "power_gain"})
 ELECTRICAL = frozenset({"reference_resistance", "resistance_temperature_coefficient"})
 #: Share of its largest value from which on a current flows.
 FLOWS = 0.02
@@ -46,7 +44,7 @@ class Replay:
 
 
 def field_of(parameter: Parameter) -> str:
-    """Name of the bank's parameter behind a parameter of the fit."""
+    """Name of the network's parameter behind a parameter of the fit."""
     return parameter.name.split(" of ")[0].rpartition(".")[2]
 
 
@@ -111,10 +109,15 @@ def thermal(
         else:
             panels.append(panel)
             by.append("simulated currents" if model.coils.strings else "the programme's power")
-    return [Replay(
-        "thermal", "heat balance of a coil: C * dT/dt = P - hA * (T - T_ambient) + u", "W",
-        ", ".join(dict.fromkeys(by)), tuple(panels),
-    )]  # fmt: skip
+    return [
+        Replay(
+            "thermal",
+            "heat balance of a coil: C * dT/dt = P - hA * (T - T_ambient) + u",
+            "W",
+            ", ".join(dict.fromkeys(by)),
+            tuple(panels),
+        )
+    ]
 
 
 def _heat_response(course: Course, times: Array, coil: int) -> Array:
@@ -214,9 +217,7 @@ def mechanical(model: Fitted, courses: Sequence[Course], found: Sequence[Panel])
     return replays
 
 
-def _at_recorded_temperature(
-    model: Fitted, courses: Sequence[Course], panel: Panel, found: Sequence[Panel]
-) -> Panel:  # fmt: skip
+def _at_recorded_temperature(model: Fitted, courses: Sequence[Course], panel: Panel, found: Sequence[Panel]) -> Panel:
     course = courses[panel.recording]
     panel = _with_uncertain_temperature(model, replace(panel, respond=partial(_load_response, course, panel)))
     warm = next((p for p in found if p.recording == panel.recording and p.quantity == "temperature"), None)
@@ -227,7 +228,7 @@ def _at_recorded_temperature(
     groups = _groups(model, warm)
     weight = np.where(warm.used, 1.0 / warm.deviation**2, 0.0)
     found_courses = levels(warm.residual * warm.deviation, weight, basis, size, groups)
-    on_grid = cosines(model.bank.runs[panel.recording].inputs.time, begin, end)[0]
+    on_grid = cosines(model.network.runs[panel.recording].inputs.time, begin, end)[0]
     departure = np.zeros((len(on_grid), model.coils.coils))
     for members, smoothed in zip(groups, found_courses):
         departure[:, warm.elements[members]] += (on_grid @ smoothed.mean)[:, None]
@@ -266,16 +267,16 @@ def _with_uncertain_temperature(model: Fitted, panel: Panel) -> Panel:
 
 def _stiffness_change(model: Fitted, panel: Panel, departure: Array) -> tuple[Array, Array]:
     """What recorded temperatures change at the samples, and the slope by the temperature, (samples, elements) each."""
-    run = model.bank.runs[panel.recording]
+    run = model.network.runs[panel.recording]
     parameters = model.values(panel.recording)
-    closed = model.bank.bank.simulate(parameters, run.inputs, {"temperature": run.inputs.time})["temperature"]
+    closed = model.network.network.simulate(parameters, run.inputs, {"temperature": run.inputs.time})["temperature"]
     step = 0.2  # K: small beside the width of the transformation (some 10 K), large beside rounding
     values = []
     for shift in (0.0, step, -step, None):
         given = closed if shift is None else closed + departure + shift
         inputs = replace(run.inputs, temperature=np.ascontiguousarray(given))
         values.append(
-            model.bank.bank.simulate(parameters, inputs, {panel.quantity: panel.times})[panel.quantity][
+            model.network.network.simulate(parameters, inputs, {panel.quantity: panel.times})[panel.quantity][
                 :, panel.elements
             ]
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.locate.course import Course
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Sizes of the departure that are tried [K].
 SIZES = (0.0, 0.05, 0.2, 0.7, 2.5, 8.0, 25.0)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.ndimage import median_filter
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.panel import Noise, Panel
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.structure import LEVEL, WINDOWS

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.candidates.unnamed import FORMS, TARGETS, VARIABLES
 from diagnosis.locate.course import Course
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.course import Course
 from diagnosis.locate.equation import Equation, Products
 from diagnosis.locate.terms import variables

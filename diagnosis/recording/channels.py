@@ -8,7 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.recording.quantity import SI_UNITS, parse_quantity
 
 #: Variable of the results to the channel that measures it: every coil, string, marker, or the whole.
@@ -71,7 +71,11 @@ def chosen(results: xr.Dataset, wanted: Sequence[str], source: Path) -> list[str
             expression = re.compile(re.escape(pattern).replace(r"\*", r"[\w,]*"))
             fitting = [name for name in available if expression.fullmatch(name)]
         if not fitting:
-            raise InputError(source, "--channels", f"`{pattern}` fits nothing that this scenario offers",
-                             f"it offers: {', '.join(available)}")  # fmt: skip
+            raise InputError(
+                source,
+                "--channels",
+                f"`{pattern}` fits nothing that this scenario offers",
+                f"it offers: {', '.join(available)}",
+            )
         found += [name for name in fitting if name not in found]
     return found

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from cosim.errors import InputError
 from cosim.loading import load_scenario
 from cosim.options import Changes, complete_scenario
 from cosim.run_folder import RunFolder
+from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,9 +73,9 @@ def record(
 
 def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str]) -> None:
     """Frames of a run, or of the markers of a CSV file."""
-    from cosim.camera.camera_file import load_camera  # late: OpenCV is an extra
-    from cosim.camera.opencv import opencv
-    from cosim.camera.rendered import motion_of_results, motion_of_table, write_video
+    from chainmail.camera.camera_file import load_camera  # late: OpenCV is an extra
+    from chainmail.camera.opencv import opencv
+    from chainmail.camera.rendered import motion_of_results, motion_of_table, write_video
 
     opencv()
     loaded_camera = load_camera(camera)
@@ -87,11 +87,18 @@ def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str
     console = Console(stderr=True)
     with console.status("rendering") if console.is_terminal else nullcontext() as status:
         count = write_video(
-            out, loaded_camera, camera, motion, seed, title,
+            out,
+            loaded_camera,
+            camera,
+            motion,
+            seed,
+            title,
             lambda done, total: status.update(f"{done} of {total} frames") if status else None,
-        )  # fmt: skip
-    print(f"{out}: {count} frames, rig.yaml and truth.csv; go on with: "
-          f"cosim track {out / 'frames'} --rig {out / 'rig.yaml'} --out RECORDING")  # fmt: skip
+        )
+    print(
+        f"{out}: {count} frames, rig.yaml and truth.csv; go on with: "
+        f"cosim track {out / 'frames'} --rig {out / 'rig.yaml'} --out RECORDING"
+    )
 
 
 def _results(scenario: str, changes: list[str]) -> tuple[Scenario, xr.Dataset]:

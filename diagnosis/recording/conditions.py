@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from cosim.components import nanoseconds
-from cosim.errors import InputError
 from cosim.scenario import Scenario, scenario_of_data
+from cosim.unit.errors import InputError
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
 from diagnosis.recording.units import WrongUnit, conversion_of_difference
@@ -65,17 +65,29 @@ def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: 
     key = f"inputs.{recorded.component}.{recorded.output}"
     component = data.get("components", {}).get(recorded.component)
     if not isinstance(component, dict) or component.get("kind") != "programme":
-        raise InputError(recording.path / "recording.yaml", key, f"the scenario has no programme {recorded.component}",
-                         "name an output of a programme of the scenario")  # fmt: skip
+        raise InputError(
+            recording.path / "recording.yaml",
+            key,
+            f"the scenario has no programme {recorded.component}",
+            "name an output of a programme of the scenario",
+        )
     output = component.get("outputs", {}).get(recorded.output)
     if output is None:
-        raise InputError(recording.path / "recording.yaml", key, f"the programme has no output {recorded.output}",
-                         f"it has: {', '.join(component.get('outputs', {}))}")  # fmt: skip
+        raise InputError(
+            recording.path / "recording.yaml",
+            key,
+            f"the programme has no output {recorded.output}",
+            f"it has: {', '.join(component.get('outputs', {}))}",
+        )
     try:
         conversion_of_difference(recorded.unit, str(output.get("unit", "1")))
     except WrongUnit as error:
-        raise InputError(recording.path / "recording.yaml", f"{key}.unit", f"the programme gives {recorded.output} in "
-                         f"{output.get('unit', '1')}: {error}", error.remedy) from error  # fmt: skip
+        raise InputError(
+            recording.path / "recording.yaml",
+            f"{key}.unit",
+            f"the programme gives {recorded.output} in {output.get('unit', '1')}: {error}",
+            error.remedy,
+        ) from error
     steps = np.round(recorded.times / macro).astype(np.int64)
     last = np.append(steps[1:] != steps[:-1], True)  # of several readings in one macro-step the latest one holds
     steps, values = steps[last], recorded.values[last]

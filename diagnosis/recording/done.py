@@ -8,7 +8,7 @@ from cosim.assemble import assemble
 from cosim.components import ParameterValue, ProgrammeComponent
 from cosim.fmu.unit import FmuUnit
 from cosim.scenario import Scenario
-from cosim.unit import Unit
+from cosim.unit.protocol import Unit
 from mechanics.pendulum import PendulumUnit
 
 #: Begin of the names of parameters that say how a component starts.

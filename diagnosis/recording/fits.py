@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.observers.trace import Trace
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import FEWEST_VALUES, Channel, Recording
 from diagnosis.recording.series import place_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 
 #: Quantiles 0.25 and 0.5 of |x| of a normal distribution with deviation 1.
 _QUARTER, _MEDIAN = 0.318639363964375, 0.674489750196082

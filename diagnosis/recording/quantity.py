@@ -35,10 +35,16 @@ _KINDS = {
     "link": ({"x", "y", "z", "length"}, {1}),
     "marker": ({"x", "y", "z"}, {1}),
     "fabric": ({"max_curvature", "length"}, {0}),
-}  # fmt: skip
+}
 #: SI unit to the part of a model that gives quantities in it; all others are mechanical.
-_DOMAINS = {"K": "thermal", "A": "electrical", "V": "electrical", "W": "electrical", "ohm": "electrical",
-            "N/m": "stiffness"}  # fmt: skip
+_DOMAINS = {
+    "K": "thermal",
+    "A": "electrical",
+    "V": "electrical",
+    "W": "electrical",
+    "ohm": "electrical",
+    "N/m": "stiffness",
+}
 _INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
 _NAME = re.compile(
     rf"^(?P<kind>[A-Za-z]\w*){_INDEX.format('index')}\.(?P<quantity>[A-Za-z]\w*){_INDEX.format('last')}$"

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.recording.channels import chosen
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.sensor import SensorFile, read_with

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue
-from cosim.unit import AnyArray, Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
 from diagnosis.recording.series import MOST
@@ -149,8 +149,12 @@ def load_recording(path: str | Path) -> Recording:
     given = Path(path)
     file = given if given.is_file() else given / "recording.yaml"
     if not file.is_file():
-        raise InputError(given, "", "there is no recording here: no recording.yaml",
-                         "see docs/recordings.md, or make one with `cosim record`")  # fmt: skip
+        raise InputError(
+            given,
+            "",
+            "there is no recording here: no recording.yaml",
+            "see docs/recordings.md, or make one with `cosim record`",
+        )
     return _Reader(file).recording()
 
 
@@ -166,10 +170,11 @@ def alike(channels: Mapping[str, Channel]) -> dict[str, Channel]:
             kinds.setdefault((c.target.kind, c.target.quantity), []).append(c.deviation)
     least = {kind: LIKE * float(np.median(values)) for kind, values in kinds.items()}
     return {
-        name: c if c.is_deviation_given
+        name: c
+        if c.is_deviation_given
         else replace(c, deviation=max(c.deviation, least[c.target.kind, c.target.quantity]))
         for name, c in channels.items()
-    }  # fmt: skip
+    }
 
 
 class _Reader:
@@ -193,10 +198,21 @@ class _Reader:
                 what = f"{channel.name} ends {length:.6g} s after its first value: nothing of it is left that judges"
                 raise InputError(self.file, "beginning", what, f"give less than {length:.6g} s")
         return Recording(
-            self.file.parent, sidecar.title, channels, inputs, sidecar.overrides, end,
-            sidecar.switch_margin.to("s"), sidecar.source, sidecar.uncertain, beginning, sidecar.day, sidecar.order,
-            float(sidecar.cycles_before), (*(c.unit for c in sidecar.channels.values()), sidecar.time.unit),
-        )  # fmt: skip
+            self.file.parent,
+            sidecar.title,
+            channels,
+            inputs,
+            sidecar.overrides,
+            end,
+            sidecar.switch_margin.to("s"),
+            sidecar.source,
+            sidecar.uncertain,
+            beginning,
+            sidecar.day,
+            sidecar.order,
+            float(sidecar.cycles_before),
+            (*(c.unit for c in sidecar.channels.values()), sidecar.time.unit),
+        )
 
     def _table(self, name: str | None) -> Table:
         chosen = name or self.sidecar.table
@@ -235,9 +251,11 @@ class _Reader:
         changes = int(np.count_nonzero(np.diff(values))) + 1
         if changes > MOST_CHANGES:
             raise InputError(
-                self.file, key, f"its column changes {changes} times; a programme holds at most {MOST_CHANGES} values",
+                self.file,
+                key,
+                f"its column changes {changes} times; a programme holds at most {MOST_CHANGES} values",
                 "average the column over as many rows as needed, or record the input at a lower rate",
-            )  # fmt: skip
+            )
         return Input(component, output, entry.unit, times, values)
 
     def _known(self, times: Array, column: Array, key: str) -> AnyArray:
@@ -279,12 +297,20 @@ class _Reader:
         if given and entry.quantum is None:  # a noise that is estimated holds the rounding already
             quantum = find_quantum(values)
         return Channel(
-            name, Target(target.kind, target.element, target.quantity, unit), times, values,
-            given or estimate_noise(times, values, quantum), bool(given), quantum, limits,
-            entry.lag_bound.to("s"), clock.offset_bound.to("s"),
+            name,
+            Target(target.kind, target.element, target.quantity, unit),
+            times,
+            values,
+            given or estimate_noise(times, values, quantum),
+            bool(given),
+            quantum,
+            limits,
+            entry.lag_bound.to("s"),
+            clock.offset_bound.to("s"),
             self._difference(entry.bias_bound, unit, f"{key}.bias_bound"),
-            _at_limit(values, limits, quantum), dropped,
-        )  # fmt: skip
+            _at_limit(values, limits, quantum),
+            dropped,
+        )
 
     def _own_noise(self, entry: ChannelEntry, key: str) -> Array | None:
         """Deviation of each reading as it stands in its column, shape (rows,)."""
@@ -314,16 +340,22 @@ class _Reader:
             sure = own[rows] <= UNCERTAIN * float(np.median(own[rows]))
             rows, vague = rows[sure], int(np.count_nonzero(~sure))
         if len(rows) < FEWEST_VALUES:
-            raise InputError(self.file, key, f"it has {len(rows)} values, fewer than {FEWEST_VALUES}",
-                             "leave the channel out, or correct begin, end and invalid")  # fmt: skip
+            raise InputError(
+                self.file,
+                key,
+                f"it has {len(rows)} values, fewer than {FEWEST_VALUES}",
+                "leave the channel out, or correct begin, end and invalid",
+            )
         self._check_times(times[rows], key)
         kept = _thinned(rows, len(raw))
         counts = {
-            "empty": int(np.count_nonzero(~filled & ~is_invalid)), "invalid": int(np.count_nonzero(is_invalid)),
-            "before begin": int(np.count_nonzero(early)), "after end": int(np.count_nonzero(late)),
+            "empty": int(np.count_nonzero(~filled & ~is_invalid)),
+            "invalid": int(np.count_nonzero(is_invalid)),
+            "before begin": int(np.count_nonzero(early)),
+            "after end": int(np.count_nonzero(late)),
             "uncertain": vague,
             "thinned": len(rows) - len(kept),
-        }  # fmt: skip
+        }
         return kept, {reason: count for reason, count in counts.items() if count}
 
     def _target(self, name: str, key: str) -> Target:
@@ -349,8 +381,12 @@ class _Reader:
                 remedy = error.remedy if isinstance(error, WrongUnit) else f"give it in {unit}"
                 raise InputError(self.file, f"{key}.{which}", f"{value}: {error}", remedy) from error
         if found[0] >= found[1]:
-            raise InputError(self.file, f"{key}.maximum", f"{entry.maximum} is not above the minimum, {entry.minimum}",
-                             "exchange the two, or correct them")  # fmt: skip
+            raise InputError(
+                self.file,
+                f"{key}.maximum",
+                f"{entry.maximum} is not above the minimum, {entry.minimum}",
+                "exchange the two, or correct them",
+            )
         return found[0], found[1]
 
     def _difference(self, value: PhysicalValue | None, unit: str, key: str) -> float:

@@ -11,8 +11,8 @@ import numpy as np
 from pydantic import Field, StrictBool, model_validator
 
 from cosim.components import AnyQuantity, Strict, Time
-from cosim.quantity import In, PhysicalValue, conversion
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import In, PhysicalValue, conversion
 from cosim.yaml_file import read_model
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.series import Series, sample

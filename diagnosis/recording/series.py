@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.errors import InputError
-from cosim.quantity import conversion
-from cosim.unit import AnyArray, Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.quantity import conversion
 from diagnosis.recording.quantity import Target
 
 #: Quantities that jump with the supply: nothing is drawn between two outputs but a straight line.
@@ -154,8 +154,9 @@ def _elements(results: xr.Dataset, values: xr.DataArray, target: Target, source:
     shape = values.shape[1:]
     if len(indices) != len(shape) or any(not 0 <= i < size for i, size in zip(indices, shape)):
         has = " x ".join(str(s) for s in shape) or "no"
-        raise InputError(source, f"channels.{target}", f"{values.name} has {has} elements, counted from 1",
-                         "name one of them")  # fmt: skip
+        raise InputError(
+            source, f"channels.{target}", f"{values.name} has {has} elements, counted from 1", "name one of them"
+        )
     return tuple(indices)
 
 
@@ -166,8 +167,12 @@ def _coil(results: xr.Dataset, values: xr.DataArray, string: int, place: int, ta
         strings = results["string_of_coil"].values
     of_string = np.flatnonzero(np.asarray(strings) == string)
     if not 1 <= place <= len(of_string):
-        raise InputError(source, f"channels.{target}", f"there is no coil {place} in string {string}",
-                         "strings and places are counted from 1")  # fmt: skip
+        raise InputError(
+            source,
+            f"channels.{target}",
+            f"there is no coil {place} in string {string}",
+            "strings and places are counted from 1",
+        )
     return int(of_string[place - 1]) + 1
 
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, StrictFloat, StrictInt, model_validator
 
 from cosim.components import AnyQuantity, Duration, Strict, Time
-from cosim.quantity import In, PhysicalValue
+from cosim.unit.quantity import In, PhysicalValue
 from cosim.yaml_file import read_model
 
 Number = StrictFloat | StrictInt

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 
-from cosim.errors import InputError
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
 
 
 class Table:
@@ -33,9 +33,12 @@ class Table:
         try:
             self._frame = self._read(header_lines, wanted)
         except Exception as error:  # pandas and pyarrow raise many unrelated kinds
-            raise InputError(file, "", f"it cannot be read as a table: {error}",
-                             "give a CSV file with one header row (see `header_lines`), or a Parquet file",
-                             ) from error  # fmt: skip
+            raise InputError(
+                file,
+                "",
+                f"it cannot be read as a table: {error}",
+                "give a CSV file with one header row (see `header_lines`), or a Parquet file",
+            ) from error
         if not len(self._frame):
             raise InputError(file, "", "the table has no rows", "give a table with values")
 
@@ -69,6 +72,10 @@ class Table:
         text = self._frame[name].notna().to_numpy() & np.isnan(values)
         if text.any():
             row = int(np.flatnonzero(text)[0])
-            raise InputError(self.file, key, f"`{self._frame[name].iloc[row]}` in row {row + 1} of column `{name}` is "
-                             "no number", "leave the place empty where nothing was measured")  # fmt: skip
+            raise InputError(
+                self.file,
+                key,
+                f"`{self._frame[name].iloc[row]}` in row {row + 1} of column `{name}` is no number",
+                "leave the place empty where nothing was measured",
+            )
         return np.asarray(values, dtype=np.float64)

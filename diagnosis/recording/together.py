@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from cosim.errors import InputError
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from diagnosis.recording.fits import fitting
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from cosim.quantity import conversion, parse_unit, registry
+from cosim.unit.quantity import conversion, parse_unit, registry
 
 #: Ends of the names of units that belong to screens and print; as lengths they are those of a printed page.
 _SCREEN = ("pixel", "pixels", "point", "pica", "didot", "cicero")

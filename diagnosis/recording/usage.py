@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.recording.recording import Channel, Recording
 
 #: With switches at more than this share of the readings the input is a recorded course, which always jumps; leaving
@@ -48,7 +48,7 @@ def usage(
 
     Args:
         recording: As it was loaded, or what `diagnosis.recording.fits.fitting` left of it.
-        switches: Instants at which an input jumps [s], of models that leave out what is near them (the coil bank);
+        switches: Instants at which an input jumps [s], of models that leave out what is near them (the coil network);
             others compare these readings too, and none are given.
         start: Begin of the simulated time [s].
         stop: End of the simulated time [s].

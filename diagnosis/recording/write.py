@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 import yaml
 
-from cosim.errors import InputError
 from cosim.run_folder import write_atomically, writing
+from cosim.unit.errors import InputError
 from diagnosis.recording.sensor import Reading, Sensor
 
 
@@ -82,9 +82,7 @@ def _tables(channels: Mapping[str, Recorded]) -> dict[str, dict[str, np.ndarray[
     return tables
 
 
-def _sidecar(
-    channels: Mapping[str, Recorded], tables: Mapping[str, Mapping[str, Any]], notes: Notes
-) -> dict[str, Any]:  # fmt: skip
+def _sidecar(channels: Mapping[str, Recorded], tables: Mapping[str, Mapping[str, Any]], notes: Notes) -> dict[str, Any]:
     main = next(iter(tables))
     table_of = {name: table for table, columns in tables.items() for name in columns if name != "time"}
     sidecar: dict[str, Any] = {"title": notes.title}

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.figures.style import COLD, HOT, WITH_MODEL
-from cosim.unit import Array
+from cosim.figure_style import COLD, HOT, WITH_MODEL
+from cosim.unit.protocol import Array
 from diagnosis.judge.location import Waveform
 from diagnosis.judge.next_experiment import Course, NextExperiment
 from diagnosis.report.display import clean, difference
@@ -60,8 +60,13 @@ def _paint_experiment(figure: Figure, experiment: NextExperiment) -> None:
     bars.barh([0, 1], shares, color=[COLD, WITH_MODEL], height=0.5)
     for y, share in enumerate(shares):
         is_inside = share > 70.0
-        bars.text(72.0 if is_inside else share + 2.0, y, f"{share:.0f} %", va="center",
-                  color="white" if is_inside else "black")  # fmt: skip
+        bars.text(
+            72.0 if is_inside else share + 2.0,
+            y,
+            f"{share:.0f} %",
+            va="center",
+            color="white" if is_inside else "black",
+        )
     bars.set_yticks([0, 1], ["a repeat", "this one"])
     bars.set(xlim=(0.0, 100.0), ylim=(-0.6, 1.6), xlabel="decides in so many cases [%]")
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.quantity import conversion, parse_unit
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import conversion, parse_unit
 
 #: SI unit to factor and unit for differences (RMSE, residuals): the same for all channels, so that rows compare.
 _DIFFERENCES = {"A": (1e3, "mA"), "V": (1e3, "mV"), "W": (1e3, "mW"), "m": (1e3, "mm")}
@@ -159,7 +159,7 @@ def user_value(value: float, unit: str, preferred: str, is_difference: bool = Fa
 
 def user_interval(
     value: float, lower: float, upper: float, unit: str, preferred: str, is_difference: bool = False
-) -> str:  # fmt: skip
+) -> str:
     """An estimate with its interval in the unit that the user wrote; see `interval`.
 
     >>> user_interval(3.1e-4, 2.8e-4, 3.4e-4, "m", "mm")

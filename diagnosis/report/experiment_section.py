@@ -44,9 +44,15 @@ def _commands(experiment: NextExperiment) -> Html:
     if experiment.scenario is None:
         return Html("")
     told = "Ready to run: "
-    return element("p", told, element("code", f"cosim run {experiment.scenario}"), " shows what the model expects. "
-                   "Carry it out on the rig, describe it by a recording.yaml, and give it as one more ",
-                   element("code", "--recording"), ".")  # fmt: skip
+    return element(
+        "p",
+        told,
+        element("code", f"cosim run {experiment.scenario}"),
+        " shows what the model expects. "
+        "Carry it out on the rig, describe it by a recording.yaml, and give it as one more ",
+        element("code", "--recording"),
+        ".",
+    )
 
 
 def isolability_section(told: Isolability) -> Html:
@@ -54,10 +60,14 @@ def isolability_section(told: Isolability) -> Html:
     parts: list[str] = [listing(told.statements) if told.statements else element("p", "No statement was made.")]
     if told.extra_channels:
         # Each statement calls its own channel the one that helps most; what it would tell follows the colon.
-        rows = [(clean(c.channel), str(c.classes), wrapped(c.statement.rpartition(": ")[2]))
-                for c in told.extra_channels[:_CHANNELS]]  # fmt: skip
-        parts += [element("p", "Channels that would help, the best first:"),
-                  table(("channel", "classes told apart", ""), rows)]  # fmt: skip
+        rows = [
+            (clean(c.channel), str(c.classes), wrapped(c.statement.rpartition(": ")[2]))
+            for c in told.extra_channels[:_CHANNELS]
+        ]
+        parts += [
+            element("p", "Channels that would help, the best first:"),
+            table(("channel", "classes told apart", ""), rows),
+        ]
     if told.classes:
         parts += _matrix(told.classes)
         parts.append(folded(f"All {len(told.classes)} classes", listing(_class(c) for c in told.classes)))
@@ -76,11 +86,14 @@ def _matrix(classes: tuple[FaultClass, ...]) -> list[Html]:
         *(element("th", element("abbr", str(n), title=clean(fault))) for n, (fault, _) in enumerate(faults, 1)),
     )
     rows = [
-        element("tr", element("th", f"{n}  {clean(fault)}", scope="row"),
-                element("td", "yes" if own.is_detectable else "no", class_="met" if own.is_detectable else "missed"),
-                *(_pair(fault, own, other, of) for other, of in faults))
+        element(
+            "tr",
+            element("th", f"{n}  {clean(fault)}", scope="row"),
+            element("td", "yes" if own.is_detectable else "no", class_="met" if own.is_detectable else "missed"),
+            *(_pair(fault, own, other, of) for other, of in faults),
+        )
         for n, (fault, own) in enumerate(faults, 1)
-    ]  # fmt: skip
+    ]
     note = (
         "Filled: by the structure of the equations these channels cannot tell the two apart. Open: they can. Columns "
         "are numbered as rows."

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Rectangle
 from numpy.typing import NDArray
 
-from cosim.figures.style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
-from cosim.unit import Array
+from cosim.figure_style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
+from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import Finding
 from diagnosis.judge.location import Remainder
 from diagnosis.report.display import clean
@@ -45,8 +45,13 @@ def colour(number: int) -> str:
 
 def drawn(paint: Callable[[Figure], None], width: float, height: float) -> str:
     """Data address of an SVG; the same drawing gives the same bytes."""
-    look = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "report",
-            "text.parse_math": False}  # fmt: skip
+    look = {
+        "font.size": 9,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "svg.hashsalt": "report",
+        "text.parse_math": False,
+    }
     with mpl.rc_context(cast(Any, look)):
         figure = Figure(figsize=(width, height), layout="constrained")
         FigureCanvasSVG(figure)
@@ -73,8 +78,14 @@ def _paint_network(axes: Axes, network: Network, findings: Sequence[Finding]) ->
         own = [n for n, m in enumerate(marks) if s in m.strings]
         for n in own:
             axes.add_patch(Rectangle((0.3, s - 0.42), longest + 0.4, 0.84, fc=colour(n), alpha=0.18, ec=colour(n)))
-        axes.text(longest + 1.0, s, f"string {s}", va="center", color=colour(own[0]) if own else "#4a5568",
-                  weight="bold" if own else "normal")  # fmt: skip
+        axes.text(
+            longest + 1.0,
+            s,
+            f"string {s}",
+            va="center",
+            color=colour(own[0]) if own else "#4a5568",
+            weight="bold" if own else "normal",
+        )
         for c in range(1, coils + 1):
             hit = [n for n, m in enumerate(marks) if (s, c) in m.coils]
             _paint_coil(axes, c, s, [colour(n) for n in hit])
@@ -82,18 +93,38 @@ def _paint_network(axes: Axes, network: Network, findings: Sequence[Finding]) ->
         axes.text(c, 0.35, str(c), ha="center", va="center", color="#4a5568")
     supply = next((colour(n) for n, m in enumerate(marks) if m.supply), None)
     middle = (1 + count) / 2
-    axes.plot([0.2, -0.6, -0.6, longest + 0.8, longest + 0.8], [middle, middle, count + 0.8, count + 0.8, count],
-              color=_WIRE, lw=1.2, zorder=1)  # fmt: skip
-    axes.text(-0.6, middle, "supply", ha="center", va="center", color="white" if supply else "black", zorder=3,
-              bbox={"boxstyle": "circle,pad=0.25", "fc": supply or "white", "ec": supply or _WIRE})  # fmt: skip
+    axes.plot(
+        [0.2, -0.6, -0.6, longest + 0.8, longest + 0.8],
+        [middle, middle, count + 0.8, count + 0.8, count],
+        color=_WIRE,
+        lw=1.2,
+        zorder=1,
+    )
+    axes.text(
+        -0.6,
+        middle,
+        "supply",
+        ha="center",
+        va="center",
+        color="white" if supply else "black",
+        zorder=3,
+        bbox={"boxstyle": "circle,pad=0.25", "fc": supply or "white", "ec": supply or _WIRE},
+    )
     axes.set(xlim=(-1.3, longest + 2.1), ylim=(count + 1.0, 0.1))
     axes.axis("off")
 
 
 def _paint_coil(axes: Axes, x: float, y: float, colours: Sequence[str]) -> None:
-    box = FancyBboxPatch((x - 0.3, y - 0.2), 0.6, 0.4, boxstyle="round,pad=0,rounding_size=0.12", zorder=2,
-                         fc=colours[0] if colours else _COIL, ec=colours[-1] if colours else _WIRE,
-                         lw=2.5 if len(colours) > 1 else 1.0)  # fmt: skip
+    box = FancyBboxPatch(
+        (x - 0.3, y - 0.2),
+        0.6,
+        0.4,
+        boxstyle="round,pad=0,rounding_size=0.12",
+        zorder=2,
+        fc=colours[0] if colours else _COIL,
+        ec=colours[-1] if colours else _WIRE,
+        lw=2.5 if len(colours) > 1 else 1.0,
+    )
     axes.add_patch(box)
     turns = np.linspace(-0.2, 0.2, 41)
     axes.plot(x + turns, y + 0.09 * np.sin(turns * 10 * np.pi), color="white" if colours else _WIRE, lw=0.8, zorder=3)
@@ -124,14 +155,14 @@ def _shortened(text: str, most: int = 44) -> str:
 
 def series_figure(
     series: Series, findings: Sequence[Finding], left: Sequence[Remainder] = (), units: Units = IN_SI
-) -> str:  # fmt: skip
+) -> str:
     """Measured values and the models' above, what the last two models leave below; shaded: findings, what is left."""
     return drawn(lambda f: _paint_series(f, series, findings, left, units), 8.4, 4.4)
 
 
 def _paint_series(
     figure: Figure, series: Series, findings: Sequence[Finding], left: Sequence[Remainder], units: Units
-) -> None:  # fmt: skip
+) -> None:
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     curves = series.curves
     scaled = units.axis(series.measured, series.unit)

@@ -80,5 +80,6 @@ def _confusions(finding: Finding) -> Html:
     rest = {e: text for e, text in finding.confused_with.items() if e not in finding.ambiguous_with}
     if not rest:
         return Html("")
-    return folded("Effects that often look alike, and what decides",
-                  listing(f"{words(e)}: {text}" for e, text in rest.items()))  # fmt: skip
+    return folded(
+        "Effects that often look alike, and what decides", listing(f"{words(e)}: {text}" for e, text in rest.items())
+    )

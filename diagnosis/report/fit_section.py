@@ -20,7 +20,7 @@ _GROUPS = (("RMSE", 3), ("chi-square per sample", 3), ("whiteness", 3))
 
 def fit_section(
     fits: Sequence[ChannelFit], spread: Sequence[ChannelSpread] = (), title: str = TITLE, units: Units = IN_SI
-) -> Html:  # fmt: skip
+) -> Html:
     """Section with a row for each recording and quantity; every channel for itself is folded away.
 
     Args:
@@ -43,14 +43,20 @@ def fit_section(
         "section",
         element("h2", title),
         warning,
-        table(("recording", "quantity", *_FIGURES, "after"),
-              [_grouped(r, units) for r in rows(fits)], (("", 2), *_GROUPS, ("RMSE by channel", 1))),
+        table(
+            ("recording", "quantity", *_FIGURES, "after"),
+            [_grouped(r, units) for r in rows(fits)],
+            (("", 2), *_GROUPS, ("RMSE by channel", 1)),
+        ),
         element("p", note, class_="note"),
-        folded(f"All {len(fits)} channels, the worst after recalibration first",
-               table(("recording", "channel", *_FIGURES), [_single(f, units) for f in worst_first(fits)],
-                     (("", 2), *_GROUPS))),
+        folded(
+            f"All {len(fits)} channels, the worst after recalibration first",
+            table(
+                ("recording", "channel", *_FIGURES), [_single(f, units) for f in worst_first(fits)], (("", 2), *_GROUPS)
+            ),
+        ),
         _over_recordings(spread, units),
-    )  # fmt: skip
+    )
 
 
 def _over_recordings(spread: Sequence[ChannelSpread], units: Units) -> Html:
@@ -60,11 +66,15 @@ def _over_recordings(spread: Sequence[ChannelSpread], units: Units) -> Html:
         return Html("")
     head = ("channel", "recordings", "samples", *STAGES, *STAGES)
     rows = [
-        [_part(s, units), str(s.recordings), str(s.samples),
-         *(_range(s.rmse.get(g), units.difference(s.unit)[0]) for g in STAGES),
-         *(_range(s.chi_square.get(g), 1.0) for g in STAGES)]
+        [
+            _part(s, units),
+            str(s.recordings),
+            str(s.samples),
+            *(_range(s.rmse.get(g), units.difference(s.unit)[0]) for g in STAGES),
+            *(_range(s.chi_square.get(g), 1.0) for g in STAGES),
+        ]
         for s in several
-    ]  # fmt: skip
+    ]
     groups = (("", 3), ("RMSE, mean (lowest to highest)", 3), ("chi-square per sample", 3))
     return folded("Spread over recordings", table(head, rows, groups))
 

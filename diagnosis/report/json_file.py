@@ -14,9 +14,9 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from cosim.errors import InputError
 from cosim.faults import words
 from cosim.run_folder import write_atomically
+from cosim.unit.errors import InputError
 from diagnosis.judge.diagnosis import Diagnosis
 
 _REMEDY = "give the diagnosis.json of this version's `cosim diagnose`; docs/diagnosis.schema.json tells its keys"

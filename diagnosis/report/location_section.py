@@ -35,15 +35,22 @@ def location_section(locations: Sequence[Location], units: Units = IN_SI) -> Htm
         f"{driven} z is the largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 "
         "recordings."
     )
-    return element("section", element("h2", title), table(head, rows), rest,
-                   element("p", note, class_="note"))  # fmt: skip
+    return element("section", element("h2", title), table(head, rows), rest, element("p", note, class_="note"))
 
 
 def _line(one: Location, units: Units) -> list[str]:
     goes = listed([f"{d.variable} ({d.correlation:+.2f})" for d in one.depends_on], 2) or UNKNOWN
     z = element("td", number(abs(one.z)), class_="met" if one.is_noise else "missed")
-    return [one.unit, wrapped(clean(one.equation)), clean(one.element), wrapped(clean(one.channel)),
-            units.span(one.begin, one.end), z, number(one.limit), wrapped(goes)]  # fmt: skip
+    return [
+        one.unit,
+        wrapped(clean(one.equation)),
+        clean(one.element),
+        wrapped(clean(one.channel)),
+        units.span(one.begin, one.end),
+        z,
+        number(one.limit),
+        wrapped(goes),
+    ]
 
 
 def waveform_section(waveforms: Sequence[Waveform]) -> Html:
@@ -55,8 +62,13 @@ def waveform_section(waveforms: Sequence[Waveform]) -> Html:
     for one in resolved[:_WAVEFORMS]:
         whose = f" (finding {one.finding})" if one.finding else ""
         caption = f"{clean(one.element)}: {clean(one.equation)}{whose}"
-        drawn.append(element("figure", element("figcaption", caption),
-                             image(waveform_figure(one), f"{caption}: estimate with 95 % band")))  # fmt: skip
+        drawn.append(
+            element(
+                "figure",
+                element("figcaption", caption),
+                image(waveform_figure(one), f"{caption}: estimate with 95 % band"),
+            )
+        )
     note = "The input that would have to be added for the unit to give what was measured, without any law assumed."
     if len(resolved) < len(waveforms):
         note += f" {len(waveforms) - len(resolved)} more cannot be told from 0 anywhere: see diagnosis.json."
@@ -75,5 +87,4 @@ def remainder_section(left: Sequence[Remainder], units: Units = IN_SI) -> Html:
         "z: standardised sums of what the last model leaves; noise alone stays below the limit in 99 of 100 recordings."
     )
     head = ("channel", "window", "measured - simulated, mean", "z", "limit")
-    return element("section", element("h2", "What is left"), table(head, rows),
-                   element("p", note, class_="note"))  # fmt: skip
+    return element("section", element("h2", "What is left"), table(head, rows), element("p", note, class_="note"))

@@ -78,20 +78,26 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
     # Where nothing was found, what is left is the answer.
     units = Units(diagnosis.units)
     left, is_first = [remainder_section(diagnosis.left, units)], not diagnosis.findings
-    sections, contents = anchored(joined([
-        _place_and_time(diagnosis, series, network),
-        *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
-        *left[:is_first],
-        _figures(diagnosis, series),
-        waveform_section(diagnosis.waveforms),
-        experiment_section(diagnosis.next_experiment),
-        *left[is_first:],
-        fit_section(diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits", units),
-        _certainty(diagnosis),
-        location_section(diagnosis.locations, units),
-        isolability_section(diagnosis.isolability),
-        _rests_on(diagnosis),
-    ]))  # fmt: skip
+    sections, contents = anchored(
+        joined(
+            [
+                _place_and_time(diagnosis, series, network),
+                *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
+                *left[:is_first],
+                _figures(diagnosis, series),
+                waveform_section(diagnosis.waveforms),
+                experiment_section(diagnosis.next_experiment),
+                *left[is_first:],
+                fit_section(
+                    diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits", units
+                ),
+                _certainty(diagnosis),
+                location_section(diagnosis.locations, units),
+                isolability_section(diagnosis.isolability),
+                _rests_on(diagnosis),
+            ]
+        )
+    )
     body = element("body", _answer(diagnosis, name, series), contents, sections, element("footer", effort(diagnosis)))
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 
@@ -110,8 +116,11 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
         note = model_note(diagnosis)
-        facts.append(("Model", f"{diagnosis.amended_model} ({note})") if note else
-                     ("Amended model", _command(diagnosis.amended_model)))  # fmt: skip
+        facts.append(
+            ("Model", f"{diagnosis.amended_model} ({note})")
+            if note
+            else ("Amended model", _command(diagnosis.amended_model))
+        )
     if diagnosis.adequacy is not None and not any(f.is_held_out for f in diagnosis.fit):
         facts.append(("Judged by", diagnosis.adequacy.basis))
     elif diagnosis.held_out_by:
@@ -120,18 +129,29 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
     return element(
         "header",
         element("h1", name),
-        element("p", element("span", verdict, class_=f"verdict {verdict.replace(' ', '-')}"), " ",
-                element("strong", diagnosis.statement), " ", ADVICE[diagnosis.verdict]),
-        element("div", element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)), beside,
-                class_="answer" if beside else "wide"),
-    )  # fmt: skip
+        element(
+            "p",
+            element("span", verdict, class_=f"verdict {verdict.replace(' ', '-')}"),
+            " ",
+            element("strong", diagnosis.statement),
+            " ",
+            ADVICE[diagnosis.verdict],
+        ),
+        element(
+            "div",
+            element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
+            beside,
+            class_="answer" if beside else "wide",
+        ),
+    )
 
 
 def _command(scenario: str) -> Html:
     """How the amended model is run."""
     folder = Path("runs") / Path(scenario).parent.name
-    return joined([element("code", f"cosim run {shlex.quote(scenario)} --out {shlex.quote(str(folder))}"),
-                   " simulates it."])  # fmt: skip
+    return joined(
+        [element("code", f"cosim run {shlex.quote(scenario)} --out {shlex.quote(str(folder))}"), " simulates it."]
+    )
 
 
 def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
@@ -142,8 +162,14 @@ def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
         return [*others, better]
     open_ones = [("Open", _each([ambiguity(f) for f in told]))] if any(f.ambiguous_with for f in told) else []
     times = [when(f, units=Units(diagnosis.units)) for f in told]
-    return [("Where", _each([where(f) for f in told])), ("When", _each(times)),
-            ("What", _each([what(f) for f in told])), *open_ones, *others, better]  # fmt: skip
+    return [
+        ("Where", _each([where(f) for f in told])),
+        ("When", _each(times)),
+        ("What", _each([what(f) for f in told])),
+        *open_ones,
+        *others,
+        better,
+    ]
 
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
@@ -179,8 +205,10 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         return Html("")
     parts: list[str] = []
     if network.strings:
-        parts += [image(network_figure(network, diagnosis.findings), "network of coils with what is concerned"),
-                  element("p", _caption(diagnosis, network), class_="note")]  # fmt: skip
+        parts += [
+            image(network_figure(network, diagnosis.findings), "network of coils with what is concerned"),
+            element("p", _caption(diagnosis, network), class_="note"),
+        ]
     begin, end = _extent(diagnosis, series)
     if end > begin:
         about = f"intervals in which each finding shows, {Units(diagnosis.units).span(begin, end)}"
@@ -239,8 +267,16 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
     if not diagnosis.recordings:
         return Html("")
     units = Units(diagnosis.units)
-    rows = [(clean(r.title), "held out" if r.is_held_out else "training", units.span(r.begin, r.end),
-             str(len(r.channels)), clean(r.path)) for r in diagnosis.recordings]  # fmt: skip
+    rows = [
+        (
+            clean(r.title),
+            "held out" if r.is_held_out else "training",
+            units.span(r.begin, r.end),
+            str(len(r.channels)),
+            clean(r.path),
+        )
+        for r in diagnosis.recordings
+    ]
     told = table(("recording", "part", "time", "channels", "folder"), rows)
     return _section("What it rests on", element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told)
 
@@ -251,5 +287,5 @@ def _certainty(diagnosis: Diagnosis) -> Html:
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))
     if moved:
-        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]  # fmt: skip
+        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]
     return _section("How sure", *parts)

@@ -84,8 +84,9 @@ def searched(diagnosis: Diagnosis) -> str:
 
 def decisive(finding: Finding) -> list[str]:
     """What would decide between a finding and those that the data cannot tell from it."""
-    return [f"{words(e)}: {clean(finding.confused_with[e])}"
-            for e in finding.ambiguous_with if e in finding.confused_with]  # fmt: skip
+    return [
+        f"{words(e)}: {clean(finding.confused_with[e])}" for e in finding.ambiguous_with if e in finding.confused_with
+    ]
 
 
 def improvement(diagnosis: Diagnosis) -> str:

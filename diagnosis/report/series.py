@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,9 @@ class Series:
             raise ValueError(f"{self.channel}: a series needs samples, not times of shape {self.times.shape}")
         for name in ("measured", "before", "recalibrated", "after"):
             if getattr(self, name).shape != self.times.shape:
-                raise ValueError(f"{self.channel}: {name} has shape {getattr(self, name).shape}, not "
-                                 f"{self.times.shape} as its times")  # fmt: skip
+                raise ValueError(
+                    f"{self.channel}: {name} has shape {getattr(self, name).shape}, not {self.times.shape} as its times"
+                )
 
     @property
     def curves(self) -> dict[str, Array]:

@@ -137,5 +137,11 @@ def _fit_row(row: Row, units: Units) -> str:
 
 def _wrapped(label: str, text: str, width: int, most: int) -> list[str]:
     """Lines with a label before the first; what is longer than `most` lines is cut."""
-    return textwrap.wrap(label + clean(text), width, subsequent_indent=" " * min(len(label), 9), max_lines=most,
-                         placeholder=" ...", drop_whitespace=True) or [label]  # fmt: skip
+    return textwrap.wrap(
+        label + clean(text),
+        width,
+        subsequent_indent=" " * min(len(label), 9),
+        max_lines=most,
+        placeholder=" ...",
+        drop_whitespace=True,
+    ) or [label]

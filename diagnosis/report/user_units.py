@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import Estimate
 from diagnosis.report import display
 from diagnosis.report.display import interval, number, user_scale, user_unit

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Most turns in which bounds are found that a step would pass.
 TURNS = 16

@@ -27,9 +27,13 @@ QUEUED = 80
 
 
 def completed(
-    model: Model, explanation: Explanation, terms: Sequence[Term], settings: Settings, margin: float,
+    model: Model,
+    explanation: Explanation,
+    terms: Sequence[Term],
+    settings: Settings,
+    margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
-) -> Explanation:  # fmt: skip
+) -> Explanation:
     """The explanation with generic terms beside it, as many as gain the margin each.
 
     Args:
@@ -68,7 +72,7 @@ def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) 
 
 def _at_places(
     model: Model, base: Fit, terms: Sequence[Term], generic: Sequence[Term], settings: Settings
-) -> list[Term]:  # fmt: skip
+) -> list[Term]:
     """Generic terms at the places at which something scores best, and at those that hold all elements."""
     near = [t for t in focus(model, base.residuals, terms) if not t.is_completing]
     ranked = _scored(model, base, near, settings)

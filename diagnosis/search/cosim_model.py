@@ -11,9 +11,9 @@ import xarray as xr
 from cosim.components import ProgrammeComponent
 from cosim.compute.batch import Batches
 from cosim.compute.result import Task
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.faults.programme import programme_inputs
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
@@ -59,9 +59,13 @@ class CosimModel:
     """
 
     def __init__(
-        self, scenario: Scenario, recordings: Sequence[Recording], free: Sequence[Free],
-        terms: Sequence[ComponentTerm] = (), batches: Batches | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        scenario: Scenario,
+        recordings: Sequence[Recording],
+        free: Sequence[Free],
+        terms: Sequence[ComponentTerm] = (),
+        batches: Batches | None = None,
+    ) -> None:
         self.recordings = list(recordings)
         self.scenarios = [scenario_of(scenario, r) for r in recordings]
         self.settings = [setting(s, r) for s, r in zip(self.scenarios, recordings)]

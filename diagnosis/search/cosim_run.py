@@ -21,13 +21,13 @@ import mechanics
 from cosim.assemble import assemble
 from cosim.components import AddedTermEntry, FmuComponent, ProgrammeOutput
 from cosim.compute.result import Result
-from cosim.errors import InputError
 from cosim.fmu_assembly import find_fmu
-from cosim.quantity import PhysicalValue
 from cosim.run import RunStopped, run
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.faults.programme import with_gain
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Recording

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import LinAlgError
 
 from cosim.compute.steps import share
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.bounded import bounded_step
 from diagnosis.search.objective import Objective
 from diagnosis.search.posterior import huber_weights
@@ -108,9 +108,13 @@ class Fit:
 
 
 def fit(
-    model: Model, start: Point, iterations: int = 60, near: Fit | None = None, widths: Array | None = None,
+    model: Model,
+    start: Point,
+    iterations: int = 60,
+    near: Fit | None = None,
+    widths: Array | None = None,
     refreshes: int = REFRESHES,
-) -> Fit:  # fmt: skip
+) -> Fit:
     """Fit all parameters of the model and of the terms in `start`, from there.
 
     Levenberg-Marquardt on the normal equations, which the prior keeps well conditioned; bounds are kept by leaving out
@@ -217,6 +221,6 @@ def _quadratic(widths: Array, x: Array, here: Array, slopes: tuple[Columns, Arra
 
 def fit_best(
     model: Model, starts: Sequence[Point], iterations: int = 60, near: Fit | None = None, refreshes: int = REFRESHES
-) -> Fit:  # fmt: skip
+) -> Fit:
     """The best of fits from several starts (second masses are found from one of them alone in a quarter of cases)."""
     return min((fit(model, start, iterations, near, refreshes=refreshes) for start in starts), key=lambda f: f.cost)

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.problem import Layout, Model, Term
 from diagnosis.search.structure import WINDOWS

@@ -12,15 +12,15 @@ import numpy as np
 
 from cosim.assemble import assemble
 from cosim.components import FmuComponent, ProgrammeComponent
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.settings import FmuSettings, Table
 from cosim.fmu.values import array_of
 from cosim.fmu.variables import start_value
 from cosim.fmu_assembly import find_fmu
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario
-from cosim.unit import Causality
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality
+from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Parameter
@@ -30,8 +30,28 @@ from diagnosis.search.shares import RIG_START, own_deviation, own_label, shared_
 #: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
 USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
 #: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
-_SI = ("rad", "rad/s", "K", "m", "kg", "kg*m^2", "m^2", "m^3", "W/(m^2*K)", "J/(kg*K)", "kg/m^3", "1", "ohm", "V", "W",
-       "N/m", "N*m", "N*m*s", "1/K", "m/s^2")  # fmt: skip
+_SI = (
+    "rad",
+    "rad/s",
+    "K",
+    "m",
+    "kg",
+    "kg*m^2",
+    "m^2",
+    "m^3",
+    "W/(m^2*K)",
+    "J/(kg*K)",
+    "kg/m^3",
+    "1",
+    "ohm",
+    "V",
+    "W",
+    "N/m",
+    "N*m",
+    "N*m*s",
+    "1/K",
+    "m/s^2",
+)
 _ELEMENT = re.compile(r"^(?P<name>.*?)\[(?P<element>\d+)\]$")
 
 
@@ -163,9 +183,7 @@ def _stated(scenario: Scenario, recordings: Sequence[Recording]) -> list[Free]:
     return found
 
 
-def _doubt(
-    numbers: Numbers, recording: Recording, index: int, key: str, given: PhysicalValue
-) -> _Doubt:  # fmt: skip
+def _doubt(numbers: Numbers, recording: Recording, index: int, key: str, given: PhysicalValue) -> _Doubt:
     """One entry of `uncertain`.
 
     Raises:
@@ -182,8 +200,9 @@ def _doubt(
             there = f"{len(own.values)} elements" if own.is_list else "no elements"
             raise InputError(file, where, f"{component}.{name} has {there}", "name one that it has, from 1")
     if own is None:
-        raise InputError(file, where, "the scenario has no such number",
-                         "name `component.parameter`, or an output of a programme")  # fmt: skip
+        raise InputError(
+            file, where, "the scenario has no such number", "name `component.parameter`, or an output of a programme"
+        )
     try:
         factor = conversion(given.unit or own.unit, own.unit)[0]
     except ValueError as error:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.compute.steps import counted
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
@@ -98,7 +98,7 @@ def interval_scores(model: Model, base: Fit, projection: Projection) -> Scoring:
 
 def _with_faults(
     model: Model, explanation: Explanation, ranked: Sequence[Score], margin: float
-) -> dict[frozenset[Term], Explanation]:  # fmt: skip
+) -> dict[frozenset[Term], Explanation]:
     """Explanations with a fault more: they are fitted beside the laws, so that none of those is crowded out."""
     grown = {}
     for candidate in ranked[:FAULTS]:
@@ -128,7 +128,7 @@ def _unnamed_equations(left_out: Sequence[Score], best: Fit, model: Model) -> li
 
 def _continued(
     model: Model, before: float, tried: Mapping[frozenset[Term], Fit], laws: Collection[frozenset[Term]]
-) -> dict[frozenset[Term], Explanation]:  # fmt: skip
+) -> dict[frozenset[Term], Explanation]:
     """Trials with the derivatives taken anew where they may still become the best, and the others as they are."""
     grown, best = {}, min((f.cost for f in tried.values()), default=before)
     for key, trial in counted(sorted(tried.items(), key=lambda t: t[1].cost), "fits gone on with"):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.compute.steps import counted
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.explanation import Settings
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Model, Parameter, Point, Term, strength_slopes

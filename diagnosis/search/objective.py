@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Model, Point, Term, TermParameter, limits_of
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Residuals beyond this many deviations count linearly (Huber): one wild reading must not look like physics.
 HUBER = 4.0

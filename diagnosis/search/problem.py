@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Logarithm of the largest factor that a value is changed by: 1e43 is beyond any rig, and far from the largest number.
 MOST_FOLD = 100.0
@@ -57,7 +57,7 @@ class TermParameter:
         starts: Values that the search tries first; of the first parameter, the strength, sizes worth trying.
         is_switch: A strength that is wholly there or not at all: fitted at its upper bound, though the search may look
             along it.
-        is_instant: An instant of the recordings laid end to end (`diagnosis.simulator.timeline`).
+        is_instant: An instant of the recordings laid end to end (`diagnosis.models.timeline`).
         negligible: Size of a strength below which it is no finding.
         plausible: Largest size that is believed of a real rig; beyond it a finding stands in for something else.
         plausible_reason: Why.
@@ -178,7 +178,7 @@ class Model(Protocol):
 def has_valleys(model: Model) -> bool:
     """Whether its laws leave valleys that bend, and it simulates fast enough to go down them.
 
-    A single arm in Bullet says so of itself; fits of coil banks ended where they began, and took 2 s more.
+    A single arm in Bullet says so of itself; fits of coil networks ended where they began, and took 2 s more.
     """
     return bool(getattr(model, "has_valleys", False))
 
@@ -198,7 +198,7 @@ def limits_of(model: Model, parameter: TermParameter) -> tuple[float, float]:
 
 def strength_slopes(
     model: Model, point: Point, here: Array | None, tasks: Sequence[tuple[Term, tuple[float, ...]]]
-) -> Array:  # fmt: skip
+) -> Array:
     """Derivative of the residuals by the strength of terms, shape (tasks, residuals); not finite where it failed.
 
     Args:

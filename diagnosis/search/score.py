@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.compute.steps import counted
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, limits_of, strength_slopes
@@ -231,9 +231,13 @@ class Scoring:
 
 
 def score(
-    model: Model, base: Fit, terms: Iterable[Term], draws: int = 96, seed: int = 0,
+    model: Model,
+    base: Fit,
+    terms: Iterable[Term],
+    draws: int = 96,
+    seed: int = 0,
     projection: Projection | None = None,
-) -> Scoring:  # fmt: skip
+) -> Scoring:
     """Predicted gains of terms, and what chance alone would give them.
 
     Args:

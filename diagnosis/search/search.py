@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.compute.steps import counted
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit
@@ -121,9 +121,13 @@ def spread(parameters: Sequence[Parameter], base: Array) -> Array:
 
 
 def search(
-    model: Model, terms: Sequence[Term], settings: Settings, groups: Mapping[str, Array] | None = None,
-    on_progress: OnProgress = lambda text: None, select: Select = best_fits,
-) -> Outcome:  # fmt: skip
+    model: Model,
+    terms: Sequence[Term],
+    settings: Settings,
+    groups: Mapping[str, Array] | None = None,
+    on_progress: OnProgress = lambda text: None,
+    select: Select = best_fits,
+) -> Outcome:
     """Find the terms that a model lacks.
 
     Args:
@@ -194,7 +198,7 @@ def _is_enough(best: Explanation, terms: int, is_left: bool, settings: Settings)
 
 def _gone_on_from(
     grown: Sequence[Explanation], beam: int, before: float
-) -> tuple[list[Explanation], Explanation | None]:  # fmt: skip
+) -> tuple[list[Explanation], Explanation | None]:
     """The best few, and the best of names alone where it comes near: two named laws may be what one bends into.
 
     Args:

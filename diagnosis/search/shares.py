@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: Stands in the name of every parameter that belongs to some recordings alone.
 OWN = " of recording "

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import ndtri  # scipy.stats takes a second to load
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.problem import Layout
 

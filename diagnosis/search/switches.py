@@ -77,7 +77,7 @@ def _hopeful(
     """Those that may gain something, and those whose derivative failed.
 
     The derivative of a switch is a difference over its whole size, so that it tells what the switch does, but for
-    rounding. A bank makes those of many coils, strings and sensors with one simulation.
+    rounding. A network makes those of many coils, strings and sensors with one simulation.
     """
     here = model.residuals([nominal])[0]
     if not tasks or not np.isfinite(here).all() or any(t.recording is not None for t in nominal.terms):

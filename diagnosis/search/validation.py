@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.compute.steps import counted
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.fit import Columns, Fit, fit
 from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Model, Term

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.settings import FmuSettings
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 ROOT = Path(__file__).resolve().parents[2]
 IMAGES = ROOT / "docs" / "images"

@@ -1,8 +1,8 @@
 """A fabric of one's own: take a shipped scenario, change it, run it, look at the lengths of the links."""
 
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import load_scenario
+from cosim.unit.quantity import PhysicalValue
 
 scenario = load_scenario("passive_drape")
 fabric = scenario.components["fabric"]

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 
-from diagnosis.real.folder import DataSet, Part
-from diagnosis.real.raw_files import raw_file
 from evaluation.fmus.model import OdeModel
+from evaluation.real.folder import DataSet, Part
+from evaluation.real.raw_files import SOURCES, raw_file
 
-SOURCE = "EMPS, nonlinearbenchmark.org (Janot, Gautier, Brunot 2019)"
 #: Length of a window [s], and share of the recording that is fitted.
 WINDOW, FITTED = 2.0, 0.6
 #: Readings that are kept: each of so many; 1 kHz, and the slide turns within 0.1 s.
@@ -55,7 +54,7 @@ def emps(raw: Path, out: Path) -> DataSet:
     Raises:
         InputError: The file is missing.
     """
-    table = pd.read_csv(raw_file(raw, "emps", "slide.csv", SOURCE))
+    table = pd.read_csv(raw_file(raw, "emps", "slide.csv"))
     time, force, position = (table[c].to_numpy() for c in ("time_s", "motor_force_N", "position_m"))
     step = float(np.median(np.diff(time)))
     speed = np.gradient(np.convolve(position, np.ones(9) / 9, mode="same"), step)
@@ -69,13 +68,22 @@ def emps(raw: Path, out: Path) -> DataSet:
         columns["position"][::EVERY] = position[own][::EVERY]
         sidecar = {
             "time": {"column": "time", "unit": "s"},
-            "order": number + 1, "day": "the record",
-            "overrides": {"components": {"slide": {"parameters": {
-                "x_0": f"{float(position[own.start])!r} m", "v_0": f"{float(speed[first])!r} m/s"}}}},
+            "order": number + 1,
+            "day": "the record",
+            "overrides": {
+                "components": {
+                    "slide": {
+                        "parameters": {
+                            "x_0": f"{float(position[own.start])!r} m",
+                            "v_0": f"{float(speed[first])!r} m/s",
+                        }
+                    }
+                }
+            },
             "uncertain": {"slide.v_0": "2 mm/s"},
             "inputs": {"motor.force": {"column": "force", "unit": "N"}},
             "channels": {"slide.position": {"column": "position", "unit": "m"}},
-        }  # fmt: skip
+        }
         parts.append(Part(f"window_{number + 1}", f"window {number + 1}", columns, sidecar))
     names = [p.name for p in parts]
     fitted = int(FITTED * len(names))
@@ -83,5 +91,10 @@ def emps(raw: Path, out: Path) -> DataSet:
     MODEL.build(folder)
     (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
     (folder / "slide.yaml").write_text(PARAMETERS, encoding="utf-8")
-    return DataSet("emps", "scenario.yaml", SOURCE, tuple(parts),
-                   {"first 60 %": (tuple(names[:fitted]), tuple(names[fitted:]))})  # fmt: skip
+    return DataSet(
+        "emps",
+        "scenario.yaml",
+        SOURCES["emps"],
+        tuple(parts),
+        {"first 60 %": (tuple(names[:fitted]), tuple(names[fitted:]))},
+    )

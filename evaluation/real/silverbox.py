@@ -14,11 +14,10 @@ import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 from scipy.signal import resample_poly
 
-from diagnosis.real.folder import DataSet, Part
-from diagnosis.real.raw_files import raw_file
 from evaluation.fmus.model import OdeModel
+from evaluation.real.folder import DataSet, Part
+from evaluation.real.raw_files import SOURCES, raw_file
 
-SOURCE = "Silverbox, nonlinearbenchmark.org (Wigren, Schoukens 2013)"
 #: Samples at the begin of a recording that are discarded, samples of a window, and steps between two samples.
 SETTLING, WINDOW, FINER = 50, 2000, 8
 #: Time between two samples [s].
@@ -67,12 +66,12 @@ def silverbox(raw: Path, out: Path) -> DataSet:
     (folder / "oscillator.yaml").write_text(PARAMETERS, encoding="utf-8")
     fitted = tuple(p.name for p in train)
     splits = {"multisine": (fitted, tuple(p.name for p in test)), "arrow": (fitted, tuple(p.name for p in arrow))}
-    return DataSet("silverbox", "scenario.yaml", SOURCE, (*train, *test, *arrow), splits)
+    return DataSet("silverbox", "scenario.yaml", SOURCES["silverbox"], (*train, *test, *arrow), splits)
 
 
 def _windows(raw: Path, name: str, most: int) -> Iterator[Part]:
     """Windows of one file, evenly spread over it; the input is band-limited and is given between the samples too."""
-    table = pd.read_csv(raw_file(raw, "silverbox", f"{name}.csv", SOURCE))
+    table = pd.read_csv(raw_file(raw, "silverbox", f"{name}.csv"))
     force, displacement = table["force_V"].to_numpy(), table["displacement_V"].to_numpy()
     finer = resample_poly(force, FINER, 1, padtype="line")
     starts = np.unique(np.linspace(0, len(force) - WINDOW - 1, most).astype(int))

@@ -64,8 +64,15 @@ def _diagnose(folder: Path, limit: float) -> None:
         command += ["--without", name]
     with (folder / "log.txt").open("w", encoding="utf-8") as log:
         try:
-            code = subprocess.run(command, cwd=task, stdout=log, stderr=subprocess.STDOUT, timeout=limit,
-                                  env={**os.environ, "PYTHONPATH": os.getcwd()}, check=False).returncode  # fmt: skip
+            code = subprocess.run(
+                command,
+                cwd=task,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                timeout=limit,
+                env={**os.environ, "PYTHONPATH": os.getcwd()},
+                check=False,
+            ).returncode
         except subprocess.TimeoutExpired:
             code = -1
     (folder / "done").write_text(str(code), encoding="utf-8")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from evaluation.systems.effects import Effect, composed, effects_of
 from evaluation.systems.rigs import RIGS, Rig
 
@@ -134,16 +134,19 @@ def _make(folder: Path, kind: str, seed: list[int], number: int) -> Case:
             raise FloatingPointError("the truth runs away")
         _write(task / name, rig, inputs, truth, sizes, rng, kind == "fault" and i == 1)
     case = Case(
-        kind, rig.name, [rig.states[e.state] for e in effects], [list(e.answers) for e in effects],
+        kind,
+        rig.name,
+        [rig.states[e.state] for e in effects],
+        [list(e.answers) for e in effects],
         [a for e in effects for a in e.answers] if kind == "hidden" else [],
-    )  # fmt: skip
+    )
     (folder / "answer.json").write_text(json.dumps(case.__dict__, indent=1), encoding="utf-8")
     return case
 
 
 def _write(
     folder: Path, rig: Rig, inputs: Array, truth: Array, sizes: Array, rng: np.random.Generator, is_faulty: bool
-) -> None:  # fmt: skip
+) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     times = rig.step * np.arange(rig.count)
     columns = {"t": times, **{f"u{i + 1}": inputs[:, i] for i in range(inputs.shape[1])}}

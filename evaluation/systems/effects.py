@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from evaluation.systems.rigs import Rig
 
 #: Rate that is added to one state, from all states and all inputs.
@@ -51,14 +51,13 @@ def effects_of(rig: Rig, states: Array, rates: Array, inputs: Array, rng: np.ran
 
 #: Law to others that say the same of these rigs.
 _SAME: Mapping[str, tuple[str, ...]] = {
-    "constant_force": ("input_offset",), "steady_inflow": ("input_offset",),
+    "constant_force": ("input_offset",),
+    "steady_inflow": ("input_offset",),
     "free_outflow": ("rate_signed_square",),
-}  # fmt: skip
+}
 
 
-def _laws(
-    role: str, state: int, states: Array, s: float, r: float, rng: np.random.Generator
-) -> Mapping[str, Added]:  # fmt: skip
+def _laws(role: str, state: int, states: Array, s: float, r: float, rng: np.random.Generator) -> Mapping[str, Added]:
     if role == "velocity":
         size = float(np.sqrt(np.mean(states[:, state - 1] ** 2)))
         sign, width = float(rng.choice([-1.0, 1.0])), 0.02 * s

@@ -31,12 +31,24 @@ OUTPUTS = {
 #: These must stay above zero.
 POSITIVE = ("stiffness", "rest_length", "temperature", "resistance")
 BASE = {
-    "W": {"kg": 1, "m": 2, "s": -3}, "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "N": {"kg": 1, "m": 1, "s": -2},
-    "m": {"m": 1}, "K": {"K": 1}, "N/m": {"kg": 1, "s": -2}, "ohm": {"kg": 1, "m": 2, "s": -3, "A": -2},
-    "J": {"kg": 1, "m": 2, "s": -2}, "J/K": {"kg": 1, "m": 2, "s": -2, "K": -1},
-    "W/K": {"kg": 1, "m": 2, "s": -3, "K": -1}, "s": {"s": 1}, "1": {}, "1/K": {"K": -1}, "1/s": {"s": -1},
-    "Pa": {"kg": 1, "m": -1, "s": -2}, "C": {"A": 1, "s": 1}, "F": {"kg": -1, "m": -2, "s": 4, "A": 2},
-}  # fmt: skip
+    "W": {"kg": 1, "m": 2, "s": -3},
+    "V": {"kg": 1, "m": 2, "s": -3, "A": -1},
+    "N": {"kg": 1, "m": 1, "s": -2},
+    "m": {"m": 1},
+    "K": {"K": 1},
+    "N/m": {"kg": 1, "s": -2},
+    "ohm": {"kg": 1, "m": 2, "s": -3, "A": -2},
+    "J": {"kg": 1, "m": 2, "s": -2},
+    "J/K": {"kg": 1, "m": 2, "s": -2, "K": -1},
+    "W/K": {"kg": 1, "m": 2, "s": -3, "K": -1},
+    "s": {"s": 1},
+    "1": {},
+    "1/K": {"K": -1},
+    "1/s": {"s": -1},
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+    "C": {"A": 1, "s": 1},
+    "F": {"kg": -1, "m": -2, "s": 4, "A": 2},
+}
 
 
 @dataclass(frozen=True)
@@ -74,29 +86,55 @@ class CoilActuator(Fmi3Slave):
         self._resize(coils)
         continuous, outcome = Fmi3Variability.continuous, Fmi3Causality.output
         self.register_variable(Float64("time", causality=Fmi3Causality.independent, variability=continuous, unit="s"))
-        self.register_variable(UInt64(
-            "coils", causality=Fmi3Causality.structuralParameter, variability=Fmi3Variability.fixed,
-            initial=Fmi3Initial.exact, description="Number of coils", setter=self._resize,
-        ))  # fmt: skip
+        self.register_variable(
+            UInt64(
+                "coils",
+                causality=Fmi3Causality.structuralParameter,
+                variability=Fmi3Variability.fixed,
+                initial=Fmi3Initial.exact,
+                description="Number of coils",
+                setter=self._resize,
+            )
+        )
         for name in self.inputs:
             unit, _, _, text = INPUTS[name]
             self._register(name, unit, text, True, causality=Fmi3Causality.input, variability=continuous)
-        self._register("ambient_temperature", "K", "Temperature of the surroundings", False,
-                       causality=Fmi3Causality.input, variability=continuous)  # fmt: skip
+        self._register(
+            "ambient_temperature",
+            "K",
+            "Temperature of the surroundings",
+            False,
+            causality=Fmi3Causality.input,
+            variability=continuous,
+        )
         for name, (unit, text) in OUTPUTS.items():
-            self._register(name, unit, text, True, causality=outcome, variability=continuous,
-                           initial=Fmi3Initial.calculated)  # fmt: skip
+            self._register(
+                name, unit, text, True, causality=outcome, variability=continuous, initial=Fmi3Initial.calculated
+            )
         for p in self.parameters:
-            self._register(p.name, p.unit, p.meaning, p.is_per_coil, causality=Fmi3Causality.parameter,
-                           variability=Fmi3Variability.fixed, initial=Fmi3Initial.exact)  # fmt: skip
+            self._register(
+                p.name,
+                p.unit,
+                p.meaning,
+                p.is_per_coil,
+                causality=Fmi3Causality.parameter,
+                variability=Fmi3Variability.fixed,
+                initial=Fmi3Initial.exact,
+            )
 
     def _register(self, name, unit, text, is_per_coil, **declared):
         dimensions = [Dimension(valueReference="1")] if is_per_coil else []
-        self.register_variable(Float64(
-            name, unit=unit, description=text, dimensions=dimensions,
-            getter=(lambda: self._read(name).tolist()) if is_per_coil else (lambda: float(getattr(self, name))),
-            setter=lambda value: self._write(name, unit, value, is_per_coil), **declared,
-        ))  # fmt: skip
+        self.register_variable(
+            Float64(
+                name,
+                unit=unit,
+                description=text,
+                dimensions=dimensions,
+                getter=(lambda: self._read(name).tolist()) if is_per_coil else (lambda: float(getattr(self, name))),
+                setter=lambda value: self._write(name, unit, value, is_per_coil),
+                **declared,
+            )
+        )
 
     def _read(self, name):
         if self.is_stale and name in OUTPUTS:
@@ -145,8 +183,9 @@ class CoilActuator(Fmi3Slave):
             wrong = ~np.isfinite(values) if name not in POSITIVE else ~(np.isfinite(values) & (values > 0.0))
             if wrong.any():
                 i = int(np.flatnonzero(wrong)[0])
-                raise ValueError(f"{name}[{i + 1}] = {values[i]}: it must be finite" +
-                                 (" and positive" if name in POSITIVE else ""))  # fmt: skip
+                raise ValueError(
+                    f"{name}[{i + 1}] = {values[i]}: it must be finite" + (" and positive" if name in POSITIVE else "")
+                )
 
     def do_step(self, current_time, step_size):
         """One step; what goes wrong in it is logged and returned as an error, which ends the run with its text."""
@@ -162,8 +201,17 @@ class CoilActuator(Fmi3Slave):
         return Fmi3StepResult()
 
     def _get_fmu_state(self):
-        names = ("time", "coils", "mode", "is_stale", "ambient_temperature", *self.inputs, *OUTPUTS, *self.states,
-                 *(p.name for p in self.parameters))  # fmt: skip
+        names = (
+            "time",
+            "coils",
+            "mode",
+            "is_stale",
+            "ambient_temperature",
+            *self.inputs,
+            *OUTPUTS,
+            *self.states,
+            *(p.name for p in self.parameters),
+        )
         values = {name: getattr(self, name) for name in names}
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 

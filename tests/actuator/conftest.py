@@ -17,8 +17,10 @@ def fmus(shipped_fmus):
     """Folder of the FMUs; those of FMI 2.0 for 36 and for 6 coils."""
     done = subprocess.run(
         ["make", "-C", ROOT / "fmus", f"PYTHON={sys.executable}", f"BUILD={shipped_fmus}", "COILS=6"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("COSIM_FMU_PATH", str(shipped_fmus))

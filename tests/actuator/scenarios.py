@@ -1,7 +1,7 @@
 """The shipped scenario hanging_coils, shortened and changed."""
 
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.quantity import PhysicalValue
 
 
 def quantity(text: str) -> PhysicalValue:

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.compare.layout import Layout, layout_of
-from cosim.compare.measures import measures
+from chainmail.compare.layout import Layout, layout_of
+from chainmail.compare.measures import measures
 from cosim.run import run
 from cosim.run_folder import RunFolder
 from cosim.scenario import load_scenario
@@ -122,8 +122,16 @@ def test_an_actuator_that_fails_does_not_lose_the_others(cosim, scenario_file, t
     wrong = tmp_path / "wrong.fmu"
     wrong.write_bytes(b"this is no FMU")
     small = fmus / "instant_stiffness_fmi2.fmu"  # 36 coils
-    answer = cosim("compare", scenario_file, "--actuators", f"thermal_stiffness,{wrong},{small},tcp_muscle",
-                   "--out", tmp_path / "out", "--jobs", 1)  # fmt: skip
+    answer = cosim(
+        "compare",
+        scenario_file,
+        "--actuators",
+        f"thermal_stiffness,{wrong},{small},tcp_muscle",
+        "--out",
+        tmp_path / "out",
+        "--jobs",
+        1,
+    )
     assert answer.code == 1
     data = json.loads((tmp_path / "out" / "comparison.json").read_text())
     assert data["actuators"]["wrong"] is None
@@ -160,11 +168,23 @@ def test_ctrl_c_keeps_what_is_computed_and_the_same_command_goes_on(tmp_path, fm
     file, out = tmp_path / "long.yaml", tmp_path / "out"
     long = short("300 s")
     file.write_text(long.to_yaml())
-    program = [sys.executable, "-c", "from cosim.cli import main; main()", "compare", str(file), "--actuators",
-               "thermal_stiffness,tcp_muscle", "--out", str(out), "--jobs", "1"]  # fmt: skip
+    program = [
+        sys.executable,
+        "-c",
+        "from cosim.cli import main; main()",
+        "compare",
+        str(file),
+        "--actuators",
+        "thermal_stiffness,tcp_muscle",
+        "--out",
+        str(out),
+        "--jobs",
+        "1",
+    ]
     environment = {**os.environ, "COSIM_FMU_PATH": str(fmus), "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
-    process = subprocess.Popen(program, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               start_new_session=True)  # fmt: skip
+    process = subprocess.Popen(
+        program, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     while process.poll() is None and not RunFolder(out / "thermal_stiffness").checkpoints():
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to every process of the group

@@ -5,11 +5,11 @@ import pytest
 
 from cosim.actuator.resolve import PARAMETER_SETS
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.run_folder import RunFolder
 from cosim.scenario import load_scenario, parse_scenario, scenario_folder
 from cosim.shipped import shipped_actuators
+from cosim.unit.errors import InputError
 
 from .scenarios import changed, quantity, short
 

@@ -60,9 +60,15 @@ def test_an_exported_fmu_holds_sources_and_licence_and_runs_in_fmpy(cosim, tmp_p
 def test_info_tells_version_interfaces_structure_states_and_whether_it_is_an_actuator(cosim, fmus):
     answer = cosim("fmu", "info", fmus / "thermal_stiffness_fmi3.fmu")
     assert answer.code == 0
-    for line in (r"FMI version\s+3\.0", r"Co-Simulation\s+can", r"Model Exchange\s+can", r"structure\s+coils = 36",
-                 r"continuous states\s+temperature, convected_energy", r"actuator\s+yes",
-                 r"stiffness\s+output\s+Float64\s+36\s+N/m"):  # fmt: skip
+    for line in (
+        r"FMI version\s+3\.0",
+        r"Co-Simulation\s+can",
+        r"Model Exchange\s+can",
+        r"structure\s+coils = 36",
+        r"continuous states\s+temperature, convected_energy",
+        r"actuator\s+yes",
+        r"stiffness\s+output\s+Float64\s+36\s+N/m",
+    ):
         assert re.search(line, answer.out), line
     data = json.loads(cosim("fmu", "info", fmus / "niti_kinetics_fmi2.fmu", "--json").out)
     assert data["actuator"] == {"is_actuator": True, "faults": []}
@@ -100,27 +106,34 @@ def rebuilt(tmp_path, cosim, change, name="mine"):
 BROKEN = {
     "crash": (
         lambda t: t.replace("    model_accept(model);\n", "    *(volatile int *)0 = 1;\n"),
-        "initialises and steps", "the FMU ended the process (SIGSEGV)",
+        "initialises and steps",
+        "the FMU ended the process (SIGSEGV)",
     ),
     "shared memory": (
-        lambda t: t.replace("/* Co-Sim", "static double shared;\n\n/* Co-Sim", 1)
-        .replace("    model_accept(model);\n", "    shared += 1.0;\n    ARRAY(temperature)[0] += shared;\n"),
-        "instances independent", "instances share something: temperature differs",
+        lambda t: t.replace("/* Co-Sim", "static double shared;\n\n/* Co-Sim", 1).replace(
+            "    model_accept(model);\n", "    shared += 1.0;\n    ARRAY(temperature)[0] += shared;\n"
+        ),
+        "instances independent",
+        "instances share something: temperature differs",
     ),
     "forgetful state": (
-        lambda t: t.replace("/* Co-Sim", "static double count;\n\n/* Co-Sim", 1)
-        .replace("    model_accept(model);\n", "    count += 1.0;\n    ARRAY(temperature)[0] += count * 1e-6;\n"),
-        "restored state replays", "after restoring, temperature differs at step 1",
+        lambda t: t.replace("/* Co-Sim", "static double count;\n\n/* Co-Sim", 1).replace(
+            "    model_accept(model);\n", "    count += 1.0;\n    ARRAY(temperature)[0] += count * 1e-6;\n"
+        ),
+        "restored state replays",
+        "after restoring, temperature differs at step 1",
     ),
     "other equation": (
         lambda t: t.replace("/ NUMBER(heat_capacity);", "* 1.01 / NUMBER(heat_capacity);"),
-        "CS and ME agree", "of its size, more than",
+        "CS and ME agree",
+        "of its size, more than",
     ),
     "not finite": (
         lambda t: t.replace("ARRAY(rest_length)[i] = NUMBER(coil_rest_length);", "ARRAY(rest_length)[i] = NAN;"),
-        "initialises and steps", "rest_length[1] = nan m: it must be",
+        "initialises and steps",
+        "rest_length[1] = nan m: it must be",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("fault", BROKEN)

@@ -7,8 +7,8 @@ import pytest
 
 from cosim.actuator.interface import PORTS, faults
 from cosim.assemble import assemble
-from cosim.errors import InputError
-from cosim.unit import Causality, Variable, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Variable, VariableType
 
 from .scenarios import short
 
@@ -16,8 +16,9 @@ from .scenarios import short
 def actuator(**changes):
     """Variables of a complete actuator of six coils; a change of None removes one."""
     shape = {False: ((), ()), True: ((6,), ("coil",))}
-    made = {p.name: Variable(p.name, p.causality, *shape[p.is_per_coil][:1], p.unit, shape[p.is_per_coil][1])
-            for p in PORTS}  # fmt: skip
+    made = {
+        p.name: Variable(p.name, p.causality, *shape[p.is_per_coil][:1], p.unit, shape[p.is_per_coil][1]) for p in PORTS
+    }
     made |= changes
     return {name: v for name, v in made.items() if v is not None}
 

@@ -44,9 +44,13 @@ def follow(line, folder, fmus):
     program = [sys.executable, "-c", "from cosim.cli import main; main()", *shlex.split(line)[1:]]
     path = os.pathsep.join([str(ROOT), *sys.path])
     done = subprocess.run(
-        program, cwd=folder, capture_output=True, text=True, check=False,
+        program,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
         env={**os.environ, "PYTHONPATH": path, "COSIM_FMU_PATH": str(fmus), "COLUMNS": "200"},
-    )  # fmt: skip
+    )
     assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
     return done.stdout
 

@@ -1,4 +1,4 @@
-"""A 2 x 2 network, the bank that simulates it, and terms at typical strengths."""
+"""A 2 x 2 network, the network that simulates it, and terms at typical strengths."""
 
 from __future__ import annotations
 
@@ -11,21 +11,25 @@ import xarray as xr
 
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.amend.changes import Changes, fitted_terms
-from diagnosis.bank.bank import Bank
-from diagnosis.bank.layout import Array, BankLayout
-from diagnosis.bank.parameters import BankParameters
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
-from diagnosis.simulator.translate import Translation, translate
+from diagnosis.models.coil_network.kernel.layout import Array, CoilNetworkLayout
+from diagnosis.models.coil_network.kernel.network import CoilNetwork
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.translate import Translation, translate
 
 #: Within a step and, elsewhere, on the end of one: both must be right.
 INSTANT = 4.02
-#: Variable of the results that holds a quantity of the bank.
+#: Variable of the results that holds a quantity of the network.
 VARIABLES = {
-    "temperature": "actuator.temperature", "stiffness": "actuator.stiffness", "extension": "load.extension",
-    "length": "load.length", "current": "circuit.string_current", "supply_current": "circuit.supply_current",
+    "temperature": "actuator.temperature",
+    "stiffness": "actuator.stiffness",
+    "extension": "load.extension",
+    "length": "load.length",
+    "current": "circuit.string_current",
+    "supply_current": "circuit.supply_current",
     "power": "circuit.power",
-}  # fmt: skip
+}
 
 
 def scenario() -> Scenario:
@@ -38,7 +42,7 @@ def model_terms() -> list[CandidateTerm]:
     return [t for t in catalogue() if t.axis != "channel"]
 
 
-def strengths(term: CandidateTerm, layout: BankLayout) -> dict[str, Array]:
+def strengths(term: CandidateTerm, layout: CoilNetworkLayout) -> dict[str, Array]:
     """Second start value of each parameter; a local term acts at every other element, a pattern has both signs."""
     values = {p.name: np.full(layout.size(term.axis), p.starts[min(1, len(p.starts) - 1)]) for p in term.parameters}
     if "instant" in values:
@@ -51,11 +55,11 @@ def strengths(term: CandidateTerm, layout: BankLayout) -> dict[str, Array]:
     return values
 
 
-def parameters(translation: Translation, terms: Sequence[CandidateTerm]) -> BankParameters:
+def parameters(translation: Translation, terms: Sequence[CandidateTerm]) -> CoilNetworkParameters:
     """The scenario's values with terms switched on."""
-    return BankParameters(
+    return CoilNetworkParameters(
         translation.parameters.base, {t.identifier: strengths(t, translation.layout) for t in terms}
-    )  # fmt: skip
+    )
 
 
 def changes(given: Scenario, terms: Sequence[CandidateTerm]) -> Changes:
@@ -65,16 +69,16 @@ def changes(given: Scenario, terms: Sequence[CandidateTerm]) -> Changes:
 
 
 @cache
-def _bank(layout: BankLayout) -> Bank:
-    """One bank with all terms, compiled once."""
-    return Bank(layout, model_terms(), is_midpoint=False)
+def _network(layout: CoilNetworkLayout) -> CoilNetwork:
+    """One network with all terms, compiled once."""
+    return CoilNetwork(layout, model_terms(), is_midpoint=False)
 
 
-def by_bank(given: Scenario, terms: Sequence[CandidateTerm]) -> dict[str, Array]:
-    """What the bank gives at the ends of macro-steps, in steps of the co-simulation: everything at its begin."""
+def by_network(given: Scenario, terms: Sequence[CandidateTerm]) -> dict[str, Array]:
+    """What the network gives at the ends of macro-steps, in steps of the co-simulation: everything at its begin."""
     translation = translate(given)
     ends = np.round(np.arange(0.0, 15.0001, 0.05), 9)
-    return _bank(translation.layout).simulate(parameters(translation, terms), translation.drive.on_grid(ends), ends)
+    return _network(translation.layout).simulate(parameters(translation, terms), translation.drive.on_grid(ends), ends)
 
 
 def difference(results: xr.Dataset, expected: Mapping[str, Array]) -> tuple[float, str]:

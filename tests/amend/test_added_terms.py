@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cosim.errors import InputError
 from cosim.formula import Formula, FormulaError
 from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
+from cosim.unit.errors import InputError
 from tests.fmi.fmi_models import build
 
 #: CVODE at rtol 1e-8 with restarts at every macro-step, as tests/fmi/test_events.py.
@@ -150,10 +150,23 @@ def test_a_term_that_makes_no_sense_is_refused_in_words(balls: Path, term: str, 
 
 @pytest.mark.parametrize(
     "text",
-    ["__import__('os').system('true')", "x.__class__", "(lambda: 1)()", "[x for x in (1,)]", "x if x else x", "'x'",
-     "x and x", "x := 1", "open('f')", "x[0]", "9**9**9**9**x", "(" * 300 + "x" + ")" * 300 + "+", "1e999 * x",
-     "x.real"],
-)  # fmt: skip
+    [
+        "__import__('os').system('true')",
+        "x.__class__",
+        "(lambda: 1)()",
+        "[x for x in (1,)]",
+        "x if x else x",
+        "'x'",
+        "x and x",
+        "x := 1",
+        "open('f')",
+        "x[0]",
+        "9**9**9**9**x",
+        "(" * 300 + "x" + ")" * 300 + "+",
+        "1e999 * x",
+        "x.real",
+    ],
+)
 def test_nothing_but_arithmetic_is_read_from_a_formula(text: str) -> None:
     with pytest.raises(FormulaError):
         Formula(text, {"x": "m"}, "m")

@@ -13,10 +13,10 @@ from diagnosis.amend.judged import BY_FREE_RUNS, judged
 from diagnosis.diagnose import Found, Means, diagnose
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import TOLERANCE
+from diagnosis.models.coil_network.translate import translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Settings
-from diagnosis.simulator.translate import translate
 from tests.diagnosis.two_heaters import conditions, record, scenario
 
 APART = ["55 degC", "48 degC"]
@@ -32,9 +32,15 @@ def recordings(folder: Path) -> tuple[Recording, Recording]:
     """Both of a thermometer that reads 0.4 K too little; the second of coils whose start nobody wrote down."""
     base = scenario(folder)
     first = record(base, folder / "first", conditions("21.4 degC", "21.4 degC"), 1, conditions("21 degC", "21 degC"))
-    second = record(base, folder / "second", conditions(APART, "22 degC"), 2, conditions("45 degC", "21 degC"),
-                    beginning="3 s",
-                    uncertain={"heaters.initial_temperature": "5 K", "room.temperature": "1 K"})  # fmt: skip
+    second = record(
+        base,
+        folder / "second",
+        conditions(APART, "22 degC"),
+        2,
+        conditions("45 degC", "21 degC"),
+        beginning="3 s",
+        uncertain={"heaters.initial_temperature": "5 K", "room.temperature": "1 K"},
+    )
     return first, second
 
 

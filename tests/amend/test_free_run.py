@@ -1,4 +1,4 @@
-"""A fitted point, written out and run by the co-simulation, against what the bank predicts at the sensors."""
+"""A fitted point, written out and run by the co-simulation, against what the network predicts at the sensors."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from diagnosis.amend.changes import CannotAmend, changes_of
 from diagnosis.amend.free_run import free_run, free_run_of
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.held_out import TOLERANCE
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.problem import Point
-from diagnosis.simulator.bank_model import BankModel
 from tests.amend import bench
 
-#: On the end of a step of bank and co-simulation: what comes within a step is spread over it, and the steps differ.
+#: On the end of a step of network and co-simulation: what comes within a step is spread over it, and the steps differ.
 INSTANT = 4.0
 _SENSORS = SensorFile.model_validate(
     {
@@ -52,11 +52,11 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def model(recording: Recording) -> BankModel:
-    return BankModel(bench.scenario(), [recording], catalogue())
+def model(recording: Recording) -> CoilNetworkModel:
+    return CoilNetworkModel(bench.scenario(), [recording], catalogue())
 
 
-def _point(model: BankModel, *wanted: str) -> Point:
+def _point(model: CoilNetworkModel, *wanted: str) -> Point:
     """Every parameter off by half a deviation one way or the other, days left alone, and terms at typical strength."""
     z = [0.0 if " of recording " in p.name else 0.5 * (-1.0) ** i for i, p in enumerate(model.parameters)]
     point = Point(np.array(z))
@@ -68,10 +68,10 @@ def _point(model: BankModel, *wanted: str) -> Point:
     return point
 
 
-def _largest(model: BankModel, point: Point, free: dict[str, Any]) -> float:
-    """Largest root mean square difference of a channel from the bank's prediction, in deviations.
+def _largest(model: CoilNetworkModel, point: Point, free: dict[str, Any]) -> float:
+    """Largest root mean square difference of a channel from the network's prediction, in deviations.
 
-    Within a step of the bank (at most 0.4 s) around the instant of a term a flow is the mean over that step, in the
+    Within a step of the network (at most 0.4 s) around the instant of a term a flow is the mean over that step, in the
     co-simulation over a shorter one: those samples are left out.
     """
     sizes = []
@@ -96,19 +96,19 @@ def _largest(model: BankModel, point: Point, free: dict[str, Any]) -> float:
     ],
     ids=lambda w: ", ".join(w) or "recalibrated",
 )
-def test_a_free_run_gives_what_the_bank_predicts(
-    wanted: tuple[str, ...], model: BankModel, recording: Recording, tmp_path: Path
+def test_a_free_run_gives_what_the_network_predicts(
+    wanted: tuple[str, ...], model: CoilNetworkModel, recording: Recording, tmp_path: Path
 ) -> None:
     point = _point(model, *wanted)
     amended = amend(bench.scenario(), model, point, tmp_path)
-    # Macro-steps of 50 ms against the bank's second-order steps: the tolerance that the report states.
+    # Macro-steps of 50 ms against the network's second-order steps: the tolerance that the report states.
     assert _largest(model, point, free_run(amended, recording, model.runs[0].times)) < TOLERANCE
     before = free_run_of(bench.scenario(), recording, model.runs[0].times)
     assert _largest(model, point, before) > 10 * TOLERANCE
 
 
 def test_a_free_run_tells_a_sensor_the_current_of_its_coil_though_no_current_is_recorded(
-    model: BankModel, recording: Recording, tmp_path: Path
+    model: CoilNetworkModel, recording: Recording, tmp_path: Path
 ) -> None:
     """With and without the term the run is the same: what the sensor adds is the run's own current, by its law."""
     term = "unnamed_value_linear_amperes@coil[2,1].temperature"
@@ -123,9 +123,11 @@ def test_a_free_run_tells_a_sensor_the_current_of_its_coil_though_no_current_is_
     sensors = yaml.safe_load((tmp_path / "on" / "sensors.yaml").read_text())["sensors"]
     own = next(s for s in sensors if "channel" in s)
     assert own == {
-        "channel": "coil[2,1].temperature", "effect": "unnamed_value_linear_amperes",
-        "law": "value = truth + a * scale * (I / 0.4)", "parameters": {"a": "-0.0316", "scale": "10"},
-    }  # fmt: skip
+        "channel": "coil[2,1].temperature",
+        "effect": "unnamed_value_linear_amperes",
+        "law": "value = truth + a * scale * (I / 0.4)",
+        "parameters": {"a": "-0.0316", "scale": "10"},
+    }
     late = next((s["parameters"]["clock_offset"] for s in sensors if s.get("quantity") == "temperature"), "0 s")
     moments = times - float(late.split()[0])
     current = free_run(plain, recording, {"current": moments.clip(0.0)})["current"][:, 1]
@@ -143,18 +145,20 @@ def _under(recording: Recording, components: dict[str, Any]) -> Recording:
     "components",
     [
         {"supply": {"outputs": {"voltage": {"points": [["0 s", "0 V"], ["2 s", "1.8 V"]]}}}},
-        {"room": {"outputs": {"temperature": {"constant": "30 degC"}}},
-         "actuator": {"parameters": {"initial_temperature": "30 degC"}}},
+        {
+            "room": {"outputs": {"temperature": {"constant": "30 degC"}}},
+            "actuator": {"parameters": {"initial_temperature": "30 degC"}},
+        },
         {"load": {"mass": "150 g"}, "actuator": {"parameters": {"heat_transfer_coefficient": "120 W/(m^2*K)"}}},
     ],
     ids=["programme", "ambient", "what was recalibrated"],
-)  # fmt: skip
+)
 def test_the_conditions_of_another_recording_hold_in_the_amended_scenario(
-    components: dict[str, Any], model: BankModel, recording: Recording, tmp_path: Path
+    components: dict[str, Any], model: CoilNetworkModel, recording: Recording, tmp_path: Path
 ) -> None:
     amended = amend(bench.scenario(), model, _point(model, "radiation@all coils", "tilt@all coils"), tmp_path)
     other = _under(recording, components)
-    there = BankModel(bench.scenario(), [other], catalogue())
+    there = CoilNetworkModel(bench.scenario(), [other], catalogue())
     same = {str(t): v for t, v in _point(model, "radiation@all coils", "tilt@all coils").terms.items()}
     point = _point(there, "radiation@all coils", "tilt@all coils")  # another rig has other values to start from
     point = Point(point.base, {t: same[str(t)] for t in point.terms})
@@ -163,7 +167,9 @@ def test_the_conditions_of_another_recording_hold_in_the_amended_scenario(
     assert _largest(model, _point(model, "radiation@all coils", "tilt@all coils"), free) > 10 * TOLERANCE
 
 
-def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(model: BankModel, tmp_path: Path) -> None:
+def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(
+    model: CoilNetworkModel, tmp_path: Path
+) -> None:
     point = _point(model, "radiation@coil[2,1]", "sensor_bias@coil[1,1].temperature", "loose_contact@string[2]")
     amend(bench.scenario(), model, point, tmp_path)
     written = yaml.safe_load((tmp_path / "scenario.yaml").read_text())["components"]
@@ -179,11 +185,11 @@ def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(model:
     assert load_scenario(tmp_path / "scenario.yaml").title.endswith("(amended)")
 
 
-def _written(model: BankModel, point: Point, folder: Path) -> AmendedModel:
+def _written(model: CoilNetworkModel, point: Point, folder: Path) -> AmendedModel:
     return amend(bench.scenario(), model, point, folder)
 
 
-def test_fmus_are_taken_for_the_stage_without_terms(model: BankModel, tmp_path: Path) -> None:
+def test_fmus_are_taken_for_the_stage_without_terms(model: CoilNetworkModel, tmp_path: Path) -> None:
     after = _written(model, _point(model, "second_mass@all coils"), tmp_path / "after")
     changes = changes_of(bench.scenario(), model, _point(model))
     without = amend_like(after, changes, tmp_path / "without")

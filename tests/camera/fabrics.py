@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.camera.render import Motion
+from chainmail.camera.render import Motion
 
 LEAN = np.radians(43.0)
 

@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
-from cosim.camera.camera_file import load_camera
-from cosim.camera.import_file import load_import
-from cosim.camera.rig import load_rig
+from chainmail.camera.camera_file import load_camera
+from chainmail.camera.import_file import load_import
+from chainmail.camera.rig import load_rig
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "camera.md"
 

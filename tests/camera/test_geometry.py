@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from cosim.camera.camera_file import CameraFile
-from cosim.camera.circle import fit_circle
-from cosim.camera.curvature import curvature_deviation, curvatures, largest_curvature
-from cosim.camera.lens import Lens
-from cosim.camera.pinhole import Pinhole
-from cosim.camera.plane import plane_of_points, plane_of_scale
-from cosim.camera.sight import Sight
+from chainmail.camera.camera_file import CameraFile
+from chainmail.camera.circle import fit_circle
+from chainmail.camera.curvature import curvature_deviation, curvatures, largest_curvature
+from chainmail.camera.lens import Lens
+from chainmail.camera.pinhole import Pinhole
+from chainmail.camera.plane import plane_of_points, plane_of_scale
+from chainmail.camera.sight import Sight
 from tests.camera.fabrics import markers
 
 LENS = Lens((1200.0, 1190.0), (318.0, 243.0), (-0.28, 0.09, 0.001, -0.0012, 0.004))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cosim.camera.identify import Expected, Weave, identify
+from chainmail.camera.identify import Expected, Weave, identify
 from tests.camera.fabrics import markers
 
 WEAVE = Weave(6, (0.0295, 0.035), (0.018, 0.031), (np.radians(20), np.radians(75)), 0.0)

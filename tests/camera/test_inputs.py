@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 import yaml
 
-from cosim.camera.camera_file import load_camera
-from cosim.camera.frames import Frames, frame_times
-from cosim.camera.import_file import ImportFile
-from cosim.camera.importing import imported
-from cosim.camera.imports import read_tracks
-from cosim.camera.lens import calibrate
-from cosim.camera.opencv import opencv
-from cosim.camera.rig import ClockEntry, load_rig
-from cosim.errors import InputError
+from chainmail.camera.camera_file import load_camera
+from chainmail.camera.frames import Frames, frame_times
+from chainmail.camera.import_file import ImportFile
+from chainmail.camera.importing import imported
+from chainmail.camera.imports import read_tracks
+from chainmail.camera.lens import calibrate
+from chainmail.camera.opencv import opencv
+from chainmail.camera.rig import ClockEntry, load_rig
+from cosim.unit.errors import InputError
 
 RIG = {
     "title": "a rig",
@@ -22,8 +22,12 @@ RIG = {
     "markers": {"colour": "green", "diameter": "6 mm", "layout": {"kind": "fabric", "rows": 6}},
     "clock": {"rate": "60 Hz", "exposure": "4 ms"},
 }
-FOUR = [{"at": ["0 mm", "0 mm"], "pixel": [0, 0]}, {"at": ["9 mm", "0 mm"], "pixel": [9, 0]},
-        {"at": ["9 mm", "9 mm"], "pixel": [9, 9]}, {"at": ["0 mm", "9 mm"], "pixel": [0, 9]}]  # fmt: skip
+FOUR = [
+    {"at": ["0 mm", "0 mm"], "pixel": [0, 0]},
+    {"at": ["9 mm", "0 mm"], "pixel": [9, 0]},
+    {"at": ["9 mm", "9 mm"], "pixel": [9, 9]},
+    {"at": ["0 mm", "9 mm"], "pixel": [0, 9]},
+]
 
 
 def rig_with(path, **keys):
@@ -123,10 +127,16 @@ Frame,Time (Seconds),X,Y,Z,X,Y,Z
 def test_deeplabcut(tmp_path):
     rows = [f"{k},{100 + k},{50},{0.99},{10},{20 + k},{0.2 if k == 4 else 0.95}" for k in range(12)]
     (tmp_path / "d.csv").write_text(DLC + "\n".join(rows))
-    given = ImportFile.model_validate({
-        "title": "t", "markers": ["b", "a"], "unit": "px", "noise": "0.1 mm", "clock": {"rate": "10 Hz"},
-        "plane": {"scale": "0.5 mm", "origin": [0, 0]},
-    })  # fmt: skip
+    given = ImportFile.model_validate(
+        {
+            "title": "t",
+            "markers": ["b", "a"],
+            "unit": "px",
+            "noise": "0.1 mm",
+            "clock": {"rate": "10 Hz"},
+            "plane": {"scale": "0.5 mm", "origin": [0, 0]},
+        }
+    )
     found = imported(read_tracks(tmp_path / "d.csv"), given, tmp_path / "import.yaml")
     assert found.tracks.times == pytest.approx(0.1 * np.arange(12))
     assert found.tracks.places[3] == pytest.approx(np.array([[5e-3, -11.5e-3], [51.5e-3, -25e-3]]))

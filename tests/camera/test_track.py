@@ -7,23 +7,44 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from cosim.camera.camera_file import CameraFile
-from cosim.camera.measure import measure
-from cosim.camera.opencv import opencv
-from cosim.camera.rendered import motion_of_table, write_video
-from cosim.camera.rig import load_rig
-from cosim.camera.tracks import GAP, PART, REBUILT, SEEN
+from chainmail.camera.camera_file import CameraFile
+from chainmail.camera.measure import measure
+from chainmail.camera.opencv import opencv
+from chainmail.camera.rendered import motion_of_table, write_video
+from chainmail.camera.rig import load_rig
+from chainmail.camera.tracks import GAP, PART, REBUILT, SEEN
 from cosim.cli import app
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.recording.recording import load_recording
 from tests.camera.fabrics import swaying
 
-SMALL = {"width": 480, "height": 360, "scale": "0.4 mm", "centre": ["65 mm", "-8 mm"], "rate": "24 Hz",
-         "exposure": "8 ms", "diameter": "6 mm"}  # fmt: skip
-HARD = {"yaw": "10 deg", "pitch": "-5 deg", "distortion": [-0.25, 0.08, 0.001], "fiducials": True, "light": 0.65,
-        "gradient": 0.4, "noise": 2.5, "jpeg": 60}  # fmt: skip
-ROD = {"width": "6 mm", "start": ["-30 mm", "0 mm"], "stop": ["165 mm", "0 mm"], "direction": "80 deg",
-       "begin": "0 s", "end": "1.5 s"}  # fmt: skip
+SMALL = {
+    "width": 480,
+    "height": 360,
+    "scale": "0.4 mm",
+    "centre": ["65 mm", "-8 mm"],
+    "rate": "24 Hz",
+    "exposure": "8 ms",
+    "diameter": "6 mm",
+}
+HARD = {
+    "yaw": "10 deg",
+    "pitch": "-5 deg",
+    "distortion": [-0.25, 0.08, 0.001],
+    "fiducials": True,
+    "light": 0.65,
+    "gradient": 0.4,
+    "noise": 2.5,
+    "jpeg": 60,
+}
+ROD = {
+    "width": "6 mm",
+    "start": ["-30 mm", "0 mm"],
+    "stop": ["165 mm", "0 mm"],
+    "direction": "80 deg",
+    "begin": "0 s",
+    "end": "1.5 s",
+}
 
 
 def rendered(folder, **keys):

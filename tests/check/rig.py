@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 #: (time [s], power 1, power 2 [W]), held.
 FIRST = ((0.0, 0.0, 0.0), (10.0, 1.0, 0.0), (120.0, 1.0, 0.6), (250.0, 0.1, 0.6), (430.0, 0.8, 0.0))

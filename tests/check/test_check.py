@@ -231,7 +231,7 @@ def test_a_start_of_another_day_is_far_and_one_within_a_day_is_not(scenario: Sce
 
 def test_a_recording_that_begins_while_the_rig_is_hot_has_no_start_to_compare(
     scenario: Scenario, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     """From 200 s on both heaters have been on for long: what the readings begin with is the model's doing."""
     folder = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
     text = (folder / "recording.yaml").read_text()
@@ -241,7 +241,7 @@ def test_a_recording_that_begins_while_the_rig_is_hot_has_no_start_to_compare(
 
 def test_readings_that_stood_still_say_nothing_of_the_programme(
     scenario: Scenario, tmp_path: Path, monkeypatch: Any
-) -> None:  # fmt: skip
+) -> None:
     """Where a sensor stands still, switches at other instants describe its readings better than the programme does."""
     values = rig.readings(rig.FIRST)
     values[130:170, 0] = values[130, 0]

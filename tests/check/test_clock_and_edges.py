@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from cosim.scenario import Scenario, load_scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Compared, compare, lagged
 from diagnosis.check.clock_shift import clock_shift, direct_gain, event_gain, shift_doubts, timed_channel
 from diagnosis.check.edges import edge_doubts, edges
@@ -53,7 +53,7 @@ def test_40_clean_recordings_raise_no_doubt(
 
 def test_a_response_that_grows_is_no_clock_that_runs_wrong(
     scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     """Sensors that read more while the power is on, by up to 6 K at the end: a clock 2 % slow would gain 100."""
     share = rig.instants()[:, None] / rig.SPAN
     starts = np.array([p[0] for p in rig.FIRST])
@@ -106,9 +106,7 @@ def test_lags_in_series_are_no_clock(scenario: Scenario, tmp_path: Path, lags: S
 
 
 @pytest.mark.parametrize("size", [2.0, 8.0])
-def test_a_reading_that_answers_the_power_at_once_is_no_clock(
-    scenario: Scenario, tmp_path: Path, size: float
-) -> None:  # fmt: skip
+def test_a_reading_that_answers_the_power_at_once_is_no_clock(scenario: Scenario, tmp_path: Path, size: float) -> None:
     """A thermometer on the heater's leads reads up to `size` kelvins more while power is on."""
     points = np.array(rig.SECOND)
     power = points[np.searchsorted(points[:, 0], rig.instants(), side="right") - 1, 1:]

@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from tests.check import rig
 
 

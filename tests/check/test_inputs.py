@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from cosim.scenario import Scenario, load_scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.input_doubts import how

@@ -10,7 +10,7 @@ import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.check.propose import heading
 from diagnosis.check.sniff import read_table
 from diagnosis.recording.recording import load_recording

@@ -10,7 +10,7 @@ import pytest
 from circuit.elements import FADING, Contact, CurrentLimit, Drop, Lead, SlowSource, SourceResistance
 from circuit.netlist import Network
 from circuit.unit import CircuitUnit
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 
 MS = 1_000_000
 #: ngspice solves linear networks to the last digits; four orders above rounding.

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from circuit.netlist import Network, render
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
-from cosim.unit import Unit, UnitError
+from cosim.unit.protocol import Unit, UnitError
 
 from .closed_form import string_currents
 from .solved_unit import solved

@@ -10,7 +10,7 @@ import pytest
 from circuit import installation, ngspice
 from circuit.netlist import Network
 from circuit.unit import CircuitUnit
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 
 
 def test_a_missing_library_is_one_clear_error(monkeypatch):
@@ -34,7 +34,8 @@ def run_in_new_process(code, **environment):
 
 
 _ONE_CIRCUIT = (
-    "from circuit.unit import CircuitUnit\nfrom circuit.netlist import Network\nfrom cosim.unit import UnitError\n"
+    "from circuit.unit import CircuitUnit\nfrom circuit.netlist import Network\n"
+    "from cosim.unit.protocol import UnitError\n"
     "try:\n    CircuitUnit('circuit', Network((1,)))\nexcept UnitError as error:\n    print(error)\n"
 )
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from circuit.netlist import Network
 from circuit.ngspice import ngspice
 from circuit.unit import CircuitUnit
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 
 from . import nodal
 from .solved_unit import solved
@@ -27,9 +27,13 @@ def cases(draw):
     resistances = [0.0, 0.05, 3.0]
     try:
         network = Network(
-            strings, supply, draw(st.sampled_from(resistances)), draw(st.sampled_from(resistances)),
-            tuple(marked[:cut]), tuple(marked[cut:]),
-        )  # fmt: skip
+            strings,
+            supply,
+            draw(st.sampled_from(resistances)),
+            draw(st.sampled_from(resistances)),
+            tuple(marked[:cut]),
+            tuple(marked[cut:]),
+        )
     except ValueError:  # a short circuit: another test's matter
         network = Network(strings, supply, open_coils=tuple(marked[:cut]))
     exponents = draw(st.lists(st.floats(-1, 3), min_size=coils, max_size=coils))

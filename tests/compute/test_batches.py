@@ -9,7 +9,7 @@ from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.progress import Progress
 from cosim.compute.result import Task
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from tests.compute.work import interrupted_at_three, square
 
 

@@ -17,7 +17,7 @@ from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import DaskPlace, Here, choose_place
 from cosim.compute.result import Task
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.pendulum_terms import pendulum_terms
 from diagnosis.search.problem import Point
@@ -109,8 +109,9 @@ def test_ctrl_c_leaves_every_finished_simulation_whole(tmp_path):
     script.write_text(INTERRUPTED)
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     # A terminal sends Ctrl-C to every process of the group, the workers too.
-    process = subprocess.Popen([sys.executable, str(script), str(tmp_path)], env=environment, start_new_session=True,
-                               stderr=subprocess.PIPE)  # fmt: skip
+    process = subprocess.Popen(
+        [sys.executable, str(script), str(tmp_path)], env=environment, start_new_session=True, stderr=subprocess.PIPE
+    )
     end = clock.monotonic() + 60
     while Cache(tmp_path / "cache").count() < 4 and clock.monotonic() < end:
         clock.sleep(0.05)

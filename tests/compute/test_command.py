@@ -11,7 +11,7 @@ from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.display import Display
 from cosim.compute.result import Result, Task
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.command import diagnose
 from tests.compute.work import square
 

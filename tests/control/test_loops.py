@@ -11,10 +11,10 @@ import pytest
 
 from cosim.control.controller import ControllerDesign, ControllerUnit
 from cosim.control.laws import Pi
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue
 from cosim.run import RunStopped, run
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 from tests.control.files import CAPACITY, CONDUCTANCE, loop
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples" / "control"
@@ -85,13 +85,28 @@ def test_a_law_of_ones_own_gives_the_same_bits_as_the_built_in_one(tmp_path):
 
 def test_an_interrupted_run_goes_on_to_the_same_bits(tmp_path):
     changes = {
-        "sensor.noise": "0.3 K", "sensor.delay": "250 ms", "sensor.lag": "0.2 s", "sensor.exposure": "50 ms",
-        "controller.law": {"kind": "hold", "hold_at": "46 degC", "reheat_below": "42 degC",
-                           "inner": {"kind": "pi", "gain": "0.05 W/K", "integral_time": "4 s"}},
-        "controller.supervisor": {"limit": "70 degC", "margin": "1 K", "fastest_rise": "60 K/s", "delay": "300 ms",
-                                  "lag": "0.2 s", "slowest_rise": "30 K/s", "cooling_time": "3 s", "ambient": "20 degC",
-                                  "tolerance": "10 K"},
-    }  # fmt: skip
+        "sensor.noise": "0.3 K",
+        "sensor.delay": "250 ms",
+        "sensor.lag": "0.2 s",
+        "sensor.exposure": "50 ms",
+        "controller.law": {
+            "kind": "hold",
+            "hold_at": "46 degC",
+            "reheat_below": "42 degC",
+            "inner": {"kind": "pi", "gain": "0.05 W/K", "integral_time": "4 s"},
+        },
+        "controller.supervisor": {
+            "limit": "70 degC",
+            "margin": "1 K",
+            "fastest_rise": "60 K/s",
+            "delay": "300 ms",
+            "lag": "0.2 s",
+            "slowest_rise": "30 K/s",
+            "cooling_time": "3 s",
+            "ambient": "20 degC",
+            "tolerance": "10 K",
+        },
+    }
     whole = run(loop(changes, 8.0))
     steps = []
 
@@ -161,16 +176,34 @@ WRONG = {
     "sensor off the grid": ({"sensor.sample": "150 ms"}, "multiple of time.macro_step"),
     "group sizes": ({"controller.groups": [2]}, "shape"),
     "setpoints": ({"controller.setpoint": ["60 degC", "50 degC"]}, "setpoint has 2 values"),
-    "reheat above hold": ({"controller.law": {"kind": "hold", "hold_at": "46 degC", "reheat_below": "50 degC",
-                                              "inner": {"kind": "on_off", "band": "1 K"}}}, "is not below hold_at"),
+    "reheat above hold": (
+        {
+            "controller.law": {
+                "kind": "hold",
+                "hold_at": "46 degC",
+                "reheat_below": "50 degC",
+                "inner": {"kind": "on_off", "band": "1 K"},
+            }
+        },
+        "is not below hold_at",
+    ),
     "no file": ({"controller.law": {"kind": "python", "file": "none.py"}}, "there is no file"),
-    "half a supervisor": ({"controller.supervisor": {"limit": "80 degC", "margin": "1 K", "fastest_rise": "9 K/s",
-                                                     "slowest_rise": "1 K/s"}}, "belong together"),
+    "half a supervisor": (
+        {
+            "controller.supervisor": {
+                "limit": "80 degC",
+                "margin": "1 K",
+                "fastest_rise": "9 K/s",
+                "slowest_rise": "1 K/s",
+            }
+        },
+        "belong together",
+    ),
     "exposure too long": ({"sensor.exposure": "200 ms"}, "longer than sample"),
     "a fault of no element": ({"sensor.faults": [{"element": 2, "instant": "1 s"}]}, "there is no element 2"),
     "unit without zero": ({"sensor.unit": "degC"}, "take K"),
     "feedforward alone": ({"controller.law.feedforward": "0.01 W/K"}, "belong together"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("changes", "what"), WRONG.values(), ids=WRONG)

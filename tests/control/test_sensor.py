@@ -7,7 +7,7 @@ import pytest
 
 from cosim.components import nanoseconds
 from cosim.control.sensor import Fault, SensorDesign, SensorUnit
-from cosim.quantity import PhysicalValue
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.recording.sensor import Sensor, read_with
 from diagnosis.recording.series import Series
 
@@ -34,13 +34,32 @@ def _course() -> np.ndarray:
 
 def test_the_laws_are_those_of_recordings():
     """Lag, gain, bias, drift, clipping and rounding, reading by reading."""
-    numbers = {"lag": "0.3 s", "gain": 1.02, "bias": "0.4 K", "drift": "0.05 K/s", "minimum": "290 K",
-               "maximum": "330 K", "quantum": "0.25 K", "rate": "10 Hz", "unit": "K"}  # fmt: skip
+    numbers = {
+        "lag": "0.3 s",
+        "gain": 1.02,
+        "bias": "0.4 K",
+        "drift": "0.05 K/s",
+        "minimum": "290 K",
+        "maximum": "330 K",
+        "quantum": "0.25 K",
+        "rate": "10 Hz",
+        "unit": "K",
+    }
     values = _course()
     series = Series(0.02 * np.arange(201), values, False, "K")
     wanted = read_with(Sensor.model_validate(numbers), series, np.random.default_rng(0))
-    design = SensorDesign(1, "K", 5 * STEP, lag=0.3, gain=np.array([1.02]), bias=np.array([0.4]), drift=0.05,
-                          minimum=290.0, maximum=330.0, quantum=0.25)  # fmt: skip
+    design = SensorDesign(
+        1,
+        "K",
+        5 * STEP,
+        lag=0.3,
+        gain=np.array([1.02]),
+        bias=np.array([0.4]),
+        drift=0.05,
+        minimum=290.0,
+        maximum=330.0,
+        quantum=0.25,
+    )
     found = _readings(design, values)[::5, 0]
     np.testing.assert_allclose(found, wanted.values, atol=1e-9)
 

@@ -29,23 +29,44 @@ def _cases(supervised: bool, faults: list[dict[str, object]]) -> dict[str, objec
     bias = random.uniform(-BIAS, BIAS, COUNT)
     setpoints = random.uniform(50.0, 140.0, COUNT)  # most laws ask for more than the limit
     supervisor = {
-        "limit": f"{LIMIT} degC", "margin": "1 K", "fastest_rise": f"{FASTEST} K/s", "slowest_rise": f"{SLOWEST} K/s",
-        "cooling_time": f"{COOLING} s", "ambient": "21 degC", "tolerance": "3 K", "delay": "100 ms", "lag": "0.3 s",
-        "lowest": "0 degC", "highest": "150 degC", "frozen_after": "1 s",
-    }  # fmt: skip
+        "limit": f"{LIMIT} degC",
+        "margin": "1 K",
+        "fastest_rise": f"{FASTEST} K/s",
+        "slowest_rise": f"{SLOWEST} K/s",
+        "cooling_time": f"{COOLING} s",
+        "ambient": "21 degC",
+        "tolerance": "3 K",
+        "delay": "100 ms",
+        "lag": "0.3 s",
+        "lowest": "0 degC",
+        "highest": "150 degC",
+        "frozen_after": "1 s",
+    }
     changes = {
-        "sensor": {"kind": "sensor", "unit": "K", "elements": COUNT, "sample": "100 ms", "lag": "0.3 s",
-                   "delay": "100 ms", "noise": f"{NOISE} K", "bias": [f"{b} K" for b in bias], "seed": 5,
-                   "faults": faults, "start": {"quantity": "22 degC"}},
+        "sensor": {
+            "kind": "sensor",
+            "unit": "K",
+            "elements": COUNT,
+            "sample": "100 ms",
+            "lag": "0.3 s",
+            "delay": "100 ms",
+            "noise": f"{NOISE} K",
+            "bias": [f"{b} K" for b in bias],
+            "seed": 5,
+            "faults": faults,
+            "start": {"quantity": "22 degC"},
+        },
         "controller.groups": [1] * COUNT,
         "controller.highest": f"{POWER} W",
         "controller.setpoint": [f"{s} degC" for s in setpoints],
         "controller.law": {"kind": "on_off", "band": "1 K"},
         "actuator.structure": {"coils": COUNT},
-        "actuator.parameters": {"use_regressed_cooling_rate": False,
-                                "heat_transfer_coefficient": [f"{h} W/(m^2*K)" for h in convection],
-                                "volume": [f"{v} m^3" for v in volume]},
-    }  # fmt: skip
+        "actuator.parameters": {
+            "use_regressed_cooling_rate": False,
+            "heat_transfer_coefficient": [f"{h} W/(m^2*K)" for h in convection],
+            "volume": [f"{v} m^3" for v in volume],
+        },
+    }
     return {**changes, **({"controller.supervisor": supervisor} if supervised else {})}
 
 

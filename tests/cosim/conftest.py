@@ -61,9 +61,11 @@ def start():
         program = f"{prelude}\nfrom cosim.cli import main\nmain()"
         process = subprocess.Popen(
             [sys.executable, "-c", program, *map(str, arguments)],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
             env={**ENVIRONMENT, "COSIM_FMU_PATH": os.environ["COSIM_FMU_PATH"], "PYTHONPATH": str(ROOT), **environment},
-        )  # fmt: skip
+        )
         processes.append(process)
         return process
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from cosim.unit import ArrayStore, Causality, StepOutcome, StepStatus, Unit, UnitError, Variable
+from cosim.unit.protocol import ArrayStore, Causality, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 
 class Relaxation(Unit):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cosim.quantity import PhysicalValue
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.quantity import PhysicalValue
 
 
 def quantity(text: str) -> PhysicalValue:
@@ -23,11 +23,11 @@ def shortened(name: str, stop: str, **time: str) -> Scenario:
         if component.kind == "programme":
             end = quantity(stop).to("s")
             update["outputs"] = {
-                n: o if o.points is None else o.model_copy(
-                    update={"points": [p for p in o.points if p[0].to("s") <= end] or o.points[:1]}
-                )
+                n: o
+                if o.points is None
+                else o.model_copy(update={"points": [p for p in o.points if p[0].to("s") <= end] or o.points[:1]})
                 for n, o in component.outputs.items()
-            }  # fmt: skip
+            }
         components[key] = component.model_copy(update=update)
     clock = scenario.time.model_copy(update={k: quantity(v) for k, v in times.items()})
     return scenario.model_copy(update={"time": clock, "components": components})

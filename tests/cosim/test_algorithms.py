@@ -8,7 +8,7 @@ import pytest
 
 from cosim.algorithms import gauss_seidel, jacobi
 from cosim.system import Connection, ConnectionFault, System
-from cosim.unit import Causality, StepOutcome, StepStatus, Unit, UnitError, Variable
+from cosim.unit.protocol import Causality, StepOutcome, StepStatus, Unit, UnitError, Variable
 
 from .scripted import Failing, Relaxation, fail
 

@@ -9,10 +9,10 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
 from cosim.progress import Board, line, progress_bar, report_to, reporter, shortened, time_left
 from cosim.run import Progress
 from cosim.scenario import load_scenario, shipped_scenarios
+from cosim.unit.errors import InputError
 
 SHORT = ("--set", "time.stop=100 ms", "--no-plots")
 COIL = "single_coil_heating"

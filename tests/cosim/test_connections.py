@@ -5,7 +5,7 @@ import pytest
 
 from cosim.connection import Connection, ConnectionFault
 from cosim.system import System
-from cosim.unit import Causality, Variable, VariableType
+from cosim.unit.protocol import Causality, Variable, VariableType
 
 from .scripted import Map, Relaxation
 

@@ -13,20 +13,20 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import cosim.ensemble.run as ensembles
+import chainmail.ensemble.run as ensembles
+from chainmail.ensemble.combine import combined, spread
+from chainmail.ensemble.folder import EnsembleFolder
+from chainmail.ensemble.members import member
+from chainmail.ensemble.run import run_ensemble
+from chainmail.figures.draw import draw_runs, open_run
+from chainmail.measures import band, one_start
+from chainmail.play.from_results import fabric_of
 from cosim.cli import FAILED, INTERRUPTED, WRONG_INPUT, main
 from cosim.components import Solver
-from cosim.ensemble.combine import combined, spread
-from cosim.ensemble.folder import EnsembleFolder
-from cosim.ensemble.members import member
-from cosim.ensemble.run import run_ensemble
-from cosim.errors import InputError
-from cosim.figures.draw import draw_runs, open_run
-from cosim.paper.measures import band, one_start
-from cosim.play.from_results import fabric_of
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 
 DRAPE = Path(__file__).parents[1] / "fabric_diagnosis" / "drape.yaml"
 
@@ -234,8 +234,12 @@ def test_starts_count_on_from_the_scenarios_own():
 def test_bands_and_moments_of_a_made_up_ensemble():
     time = np.linspace(0.0, 4.0, 41)
     voltage = xr.DataArray(np.where(time < 2.0, 0.0, 6.0), dims="time")
-    values = {s: xr.Dataset({"supply.voltage": voltage, "fabric.max_curvature": ("time", s * np.ones(41))},
-                            coords={"time": time}) for s in range(1, 22)}  # fmt: skip
+    values = {
+        s: xr.Dataset(
+            {"supply.voltage": voltage, "fabric.max_curvature": ("time", s * np.ones(41))}, coords={"time": time}
+        )
+        for s in range(1, 22)
+    }
     whole = combined(values)
     low, middle, high = band(whole["fabric.max_curvature"])
     assert (float(low[0]), float(middle[0]), float(high[0])) == pytest.approx((2.0, 11.0, 20.0))

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
-from cosim.figures import style
-from cosim.figures.draw import draw_run
-from cosim.figures.style import SWITCH, figure, mark_switches, smoothed
+from chainmail.figures.draw import draw_run
+from cosim import figure_style as style
+from cosim.figure_style import SWITCH, figure, mark_switches, smoothed
 from cosim.options import FORMATS, formats_of
 from cosim.run_folder import RunFolder
+from cosim.unit.errors import InputError
 
 
 @pytest.fixture
@@ -67,10 +67,11 @@ def texts(fabric_run, monkeypatch):
     def saved(self, path, **options):
         axes = self.axes
         found[path.stem] = {
-            "heading": self.get_suptitle(), "labels": [a.get_ylabel() for a in axes] + [axes[-1].get_xlabel()],
+            "heading": self.get_suptitle(),
+            "labels": [a.get_ylabel() for a in axes] + [axes[-1].get_xlabel()],
             "switches": [line.get_color() for a in axes for line in a.lines if line.get_label() == "supply switched"],
             "marks": [t.get_text() for t in axes[0].texts],
-        }  # fmt: skip
+        }
         save(self, path, **options)
 
     monkeypatch.setattr(style.Figure, "savefig", saved)

@@ -42,28 +42,33 @@ ELECTRICAL = {
     "water_bath": (
         load_scenario,
         dict.fromkeys(("actuator.temperature", "actuator.stiffness", "load.length", "load.tension"), SMOOTH),
-        every(60.0, 50.0, 2450.0), None,
+        every(60.0, 50.0, 2450.0),
+        None,
     ),
     "hanging_coils": (load_scenario, COILS | SUPPLY | {"load.length": SMOOTH}, every(3.0, 0.0, 45.0), [0, 5]),
     "prototype_cantilever": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "prototype_cantilever_instant": (without_fabric, COILS | SUPPLY, every(2.0, -4.0, 32.0), [0, 35]),
     "hanging_contraction": (without_fabric, COILS | SUPPLY, every(3.0, -3.0, 36.0), [0, 35]),
     "spatial_control": (without_fabric, COILS | SUPPLY, every(1.0, -1.0, 10.0), [0, 29, 30, 39, 40, 59]),
-}  # fmt: skip
+}
 
 LUMPS = {
     # trace: selection, times
     "closed_loop_coil": (
-        dict.fromkeys(("actuator.temperature", "actuator.stiffness"),
-                      Tolerance(0.0, 1e-3, "a reading that rounds the other way moves the loop a little")),
+        dict.fromkeys(
+            ("actuator.temperature", "actuator.stiffness"),
+            Tolerance(0.0, 1e-3, "a reading that rounds the other way moves the loop a little"),
+        ),
         every(2.0, 0.0, 30.0),
     ),
     "tclab": ({"heaters.temperature": SMOOTH, "heaters.convected_energy": SMOOTH}, every(60.0, 0.0, 600.0)),
     "sma_limb": ({"wire.temperature": SMOOTH, "wire.convected_energy": SMOOTH}, every(8.0, 0.0, 208.0)),
     # A swing without friction is regular: Bullet's single precision aside, nothing amplifies a difference.
-    "pendulum": (dict.fromkeys(("arm.angle", "arm.angular_velocity"), Tolerance(1e-6, 0.0, "rounding over 10 s")),
-                 every(1.0, 0.0, 10.0)),
-}  # fmt: skip
+    "pendulum": (
+        dict.fromkeys(("arm.angle", "arm.angular_velocity"), Tolerance(1e-6, 0.0, "rounding over 10 s")),
+        every(1.0, 0.0, 10.0),
+    ),
+}
 
 FABRIC = {
     # trace: stop, times, tolerance of curvature [1/m], length [m], row centres [m], link lengths [m], energy [J]
@@ -116,9 +121,13 @@ def test_every_shipped_scenario_has_a_golden_trace():
 
 @pytest.mark.parametrize(
     ("parameter", "value"),
-    [("volume", "7.33 mm^3"), ("heating_c", "0.167 1/K"), ("reference_resistance", "2.2001 ohm"),
-     ("use_regressed_cooling_rate", False)],
-)  # fmt: skip
+    [
+        ("volume", "7.33 mm^3"),
+        ("heating_c", "0.167 1/K"),
+        ("reference_resistance", "2.2001 ohm"),
+        ("use_regressed_cooling_rate", False),
+    ],
+)
 def test_a_slightly_wrong_coil_leaves_the_tolerance(parameter, value):
     _, selection, times, _ = ELECTRICAL["single_coil_heating"]
     wrong = run(with_parameters(load_scenario("single_coil_heating"), "actuator", **{parameter: value}))

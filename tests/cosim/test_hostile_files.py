@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.scenario import find_scenario, load_scenario
+from cosim.unit.errors import InputError
 from cosim.yaml_file import DEEPEST
 
 BASE = """
@@ -49,10 +49,18 @@ def test_a_hostile_value_is_refused_in_words(tmp_path: Path, change: tuple[str, 
     assert "union" not in str(refused.value)
 
 
-@pytest.mark.parametrize("text", [
-    "[" * 100_000, "{a: " * 100_000, "- " * 100_000, "? " * 100_000, "[" * 1200 + "]" * 1200,
-    "\n".join(" " * n + f"a{n}:" for n in range(1500)),
-], ids=["lists", "mappings", "blocks", "keys", "closed lists", "indented"])  # fmt: skip
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" * 100_000,
+        "{a: " * 100_000,
+        "- " * 100_000,
+        "? " * 100_000,
+        "[" * 1200 + "]" * 1200,
+        "\n".join(" " * n + f"a{n}:" for n in range(1500)),
+    ],
+    ids=["lists", "mappings", "blocks", "keys", "closed lists", "indented"],
+)
 def test_nesting_beyond_reason_is_refused(tmp_path: Path, text: str) -> None:
     path = tmp_path / "scenario.yaml"
     path.write_text(text)

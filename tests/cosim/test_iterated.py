@@ -13,7 +13,7 @@ from cosim.algorithms.step_doubling import ErrorControl, StepDoubling
 from cosim.algorithms.synchronised import Synchronised
 from cosim.connection import Connection
 from cosim.system import System
-from cosim.unit import StepOutcome, StepStatus, UnitError
+from cosim.unit.protocol import StepOutcome, StepStatus, UnitError
 
 from .scripted import Failing, Ramp, Relaxation
 from .test_algorithms import two_tanks

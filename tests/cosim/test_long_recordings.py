@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
 from cosim.observers import storage
 from cosim.observers.storage import Storage
 from cosim.run import record, run
+from cosim.unit.errors import InputError
 from tests.cosim.short_runs import heating
 
 

@@ -10,7 +10,7 @@ from cosim.algorithms import gauss_seidel, jacobi
 from cosim.connection import Connection
 from cosim.ordering import in_order
 from cosim.system import System
-from cosim.unit import Causality, UnitError, Variable, VariableType
+from cosim.unit.protocol import Causality, UnitError, Variable, VariableType
 
 from .scripted import Map, Relaxation
 

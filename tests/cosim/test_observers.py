@@ -15,7 +15,7 @@ from cosim.run import Progress, RunStopped, run
 from cosim.run_folder import RunFolder
 from cosim.scenario import load_scenario
 from cosim.system import System
-from cosim.unit import Coordinate
+from cosim.unit.protocol import Coordinate
 
 from .scripted import Relaxation
 from .short_runs import drape, heating, shortened
@@ -73,8 +73,10 @@ def test_only_what_was_recorded_is_in_the_dataset():
 
 
 def test_a_unit_labels_its_dimensions():
-    labels = {"cell": Coordinate("cell", np.array(["left", "right"]), "side"),
-              "cell_volume": Coordinate("cell", np.array([1.0, 2.0]), "volume")}  # fmt: skip
+    labels = {
+        "cell": Coordinate("cell", np.array(["left", "right"]), "side"),
+        "cell_volume": Coordinate("cell", np.array([1.0, 2.0]), "volume"),
+    }
     data = Trace(tanks(2, 2, labels), [0]).dataset()
     assert data["cell"].values.tolist() == ["left", "right"]
     assert data["cell_volume"].attrs["long_name"] == "volume"

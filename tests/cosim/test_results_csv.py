@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
 from cosim.run import RunStopped, run
+from cosim.unit.errors import InputError
 
 from .short_runs import heating, with_parameters
 

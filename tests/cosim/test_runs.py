@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
 from cosim.run import RunStopped, run
 from cosim.run_folder import RunFolder
 from cosim.scenario import GaussSeidel, Jacobi, load_scenario
+from cosim.unit.errors import InputError
 
 from .short_runs import changed, drape, heating, prototype, quantity, shortened, with_parameters
 
@@ -183,9 +183,13 @@ def test_progress_counts_steps_and_estimates_what_is_left():
 
 def test_a_component_with_another_stiffness_gives_another_run():
     """Guards the comparisons above: results do react to the scenario."""
-    soft = changed(drape(), "coil", outputs={
-        n: o.model_copy(update={"constant": quantity("0.356 N/mm")}) if n == "stiffness" else o
-        for n, o in drape().components["coil"].outputs.items()
-    })  # fmt: skip
+    soft = changed(
+        drape(),
+        "coil",
+        outputs={
+            n: o.model_copy(update={"constant": quantity("0.356 N/mm")}) if n == "stiffness" else o
+            for n, o in drape().components["coil"].outputs.items()
+        },
+    )
     one, other = run(drape()), run(soft)
     assert not np.array_equal(one["fabric.position"].values, other["fabric.position"].values)

@@ -8,9 +8,9 @@ import pytest
 import yaml
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import json_schema, load_scenario, parse_scenario, scenario_folder, shipped_scenarios
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue, conversion
 
 SHIPPED = sorted(shipped_scenarios())
 BASE = load_scenario("passive_drape")
@@ -199,9 +199,16 @@ def test_a_fault_in_a_component_is_named_by_the_keys_of_the_file():
 
 @pytest.mark.parametrize(
     ("text", "unit", "number"),
-    [("22 degC", "K", 295.15), ("0.1571 N/mm", "N/m", 157.1), ("0.5 ms", "s", 5e-4), ("7.328 mm^3", "m^3", 7.328e-9),
-     ("12 delta_degC/s", "K/s", 12.0), ("1e-3 1/K", "1/K", 1e-3), (" 6V ", "V", 6.0)],
-)  # fmt: skip
+    [
+        ("22 degC", "K", 295.15),
+        ("0.1571 N/mm", "N/m", 157.1),
+        ("0.5 ms", "s", 5e-4),
+        ("7.328 mm^3", "m^3", 7.328e-9),
+        ("12 delta_degC/s", "K/s", 12.0),
+        ("1e-3 1/K", "1/K", 1e-3),
+        (" 6V ", "V", 6.0),
+    ],
+)
 def test_quantities_convert_without_binary_debris(text, unit, number):
     assert PhysicalValue.parse(text).to(unit) == number
 

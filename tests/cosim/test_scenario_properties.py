@@ -8,9 +8,9 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue, conversion
 from cosim.scenario import Scenario, json_schema, parse_scenario, scenario_folder, shipped_scenarios
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue, conversion
 
 DATA = {name: yaml.safe_load(path.read_text()) for name, path in shipped_scenarios().items()}
 SOURCE = scenario_folder() / "mine.yaml"
@@ -41,9 +41,13 @@ def replaced(data, place, value):
 FEW = ("single_coil_heating", "passive_drape", "prototype_cantilever")
 PLACES = [(name, place) for name, data in DATA.items() if name in FEW for place in places(data)]
 scalars = st.one_of(
-    st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=12),
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.floats(),
+    st.text(max_size=12),
     st.builds("{} {}".format, st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(UNITS)),
-)  # fmt: skip
+)
 junk = st.recursive(scalars, lambda x: st.lists(x, max_size=3) | st.dictionaries(st.text(max_size=5), x, max_size=3))
 
 

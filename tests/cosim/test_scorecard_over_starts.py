@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import cosim.reproduce.command as reproducing
-from cosim.ensemble.folder import EnsembleFolder
-from cosim.figures.draw import open_run
-from cosim.reproduce.row import compare, relation
-from cosim.reproduce.scorecard import as_json, as_markdown
-from cosim.reproduce.starts import rows_over_starts, starts_of, together
+import chainmail.reproduce.command as reproducing
+from chainmail.ensemble.folder import EnsembleFolder
+from chainmail.figures.draw import open_run
+from chainmail.reproduce.row import compare, relation
+from chainmail.reproduce.scorecard import as_json, as_markdown
+from chainmail.reproduce.starts import rows_over_starts, starts_of, together
 from tests.cosim.test_ensembles import tiny
 
 
@@ -46,8 +46,10 @@ def test_what_no_start_changes_has_no_band():
 
 def test_rows_are_made_for_each_start_and_told_with_their_band():
     time = np.arange(3.0)
-    ensemble = xr.Dataset({"length": (("time", "start"), np.outer(np.ones(3), [9.0, 10.0, 12.0]))},
-                          coords={"time": time, "start": [1, 2, 4]})  # fmt: skip
+    ensemble = xr.Dataset(
+        {"length": (("time", "start"), np.outer(np.ones(3), [9.0, 10.0, 12.0]))},
+        coords={"time": time, "start": [1, 2, 4]},
+    )
     other = ensemble.isel(start=[0, 2])
     single = xr.Dataset({"length": ("time", np.full(3, 2.0))}, coords={"time": time})
 

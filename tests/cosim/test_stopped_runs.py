@@ -13,11 +13,11 @@ import pytest
 import xarray as xr
 
 from circuit.unit import CircuitUnit
-from cosim.errors import InputError
 from cosim.interrupt import deferred_interrupt
 from cosim.run import Progress, RunStopped, run
 from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 
 from .short_runs import changed, drape, heating, quantity, with_parameters
 
@@ -234,7 +234,7 @@ def rewritten(file: Path, change: Callable[[dict[str, Any]], None]) -> None:
 )
 def test_a_useless_checkpoint_is_named_with_what_to_do(
     tmp_path: Path, spoil: Callable[[list[Path]], None], what: str
-) -> None:  # fmt: skip
+) -> None:
     files = with_two_checkpoints(tmp_path / "run")
     assert len(files) >= 2
     spoil(files)

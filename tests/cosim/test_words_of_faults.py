@@ -8,10 +8,10 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, ValidationError
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.faults import _WORDS, is_weak, known_keys, shown, words
 from cosim.nearest import did_you_mean, nearest
 from cosim.scenario import Scenario, load_scenario, parse_scenario, shipped_scenarios
+from cosim.unit.errors import InputError
 
 #: How the library that checks types begins its own sentences.
 FOREIGN = re.compile(
@@ -65,9 +65,12 @@ WRONG = [
     (("components", "actuator", "isolation"), "proces", "did you mean `process`?"),
     (("connections",), "a.b -> c.d", "is not a list"),
     (("connections",), [5], "`5` is not text"),
-    (("connections",), [{"connect": "supply.voltage -> circuit.supply_voltage", "convert_units": "yes"}],
-     "`yes` is not true or false"),
-]  # fmt: skip
+    (
+        ("connections",),
+        [{"connect": "supply.voltage -> circuit.supply_voltage", "convert_units": "yes"}],
+        "`yes` is not true or false",
+    ),
+]
 
 
 @pytest.mark.parametrize(("path", "value", "what"), WRONG, ids=[f"{'.'.join(p)}={v!r}"[:60] for p, v, _ in WRONG])
@@ -97,12 +100,32 @@ class _Everything(BaseModel):
 @pytest.mark.parametrize(
     "data",
     [
-        {"text": 1}, {"short": "a"}, {"short": "abcd"}, {"flag": 1}, {"flag": "true"}, {"count": 10}, {"loose": "x"},
-        {"loose": 1.5}, {"loose": "9" * 5000}, {"number": float("inf")}, {"number": "x"}, {"few": [1, 2]}, {"few": {}},
-        {"pair": [1]}, {"pair": 1}, {"unique": 1}, {"nothing": 1}, {"path": 1}, {"unknown": 1}, {1: 2}, [], "x", None,
+        {"text": 1},
+        {"short": "a"},
+        {"short": "abcd"},
+        {"flag": 1},
+        {"flag": "true"},
+        {"count": 10},
+        {"loose": "x"},
+        {"loose": 1.5},
+        {"loose": "9" * 5000},
+        {"number": float("inf")},
+        {"number": "x"},
+        {"few": [1, 2]},
+        {"few": {}},
+        {"pair": [1]},
+        {"pair": 1},
+        {"unique": 1},
+        {"nothing": 1},
+        {"path": 1},
+        {"unknown": 1},
+        {1: 2},
+        [],
+        "x",
+        None,
     ],
     ids=str,
-)  # fmt: skip
+)
 def test_each_kind_of_fault_has_words_of_its_own(data):
     with pytest.raises(ValidationError) as caught:
         _Everything.model_validate(data)

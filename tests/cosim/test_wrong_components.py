@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.run import run
+from cosim.unit.errors import InputError
 
 from .short_runs import changed, drape, heating, quantity, with_parameters, without_fabric
 

@@ -1,1 +1,1 @@
-"""Tests of cosim.design."""
+"""Tests of chainmail.design."""

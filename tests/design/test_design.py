@@ -8,20 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from chainmail.design.candidate import rig_of, scenario_for
+from chainmail.design.closed_form import Row, greatest_voltage
+from chainmail.design.command import design
+from chainmail.design.ledger import Entry, Ledger
+from chainmail.design.report import front, report, winning_scenario
+from chainmail.design.row_model import Chain, fitted
+from chainmail.design.search import HOLD, HOT, Impossible, Outcome, Search
+from chainmail.design.sequential import SequentialTest, Verdict, share_interval
+from chainmail.design.task import load_task
 from cosim.compute.batch import Batches
 from cosim.compute.cluster import Here
-from cosim.design.candidate import rig_of, scenario_for
-from cosim.design.closed_form import Row, greatest_voltage
-from cosim.design.command import design
-from cosim.design.ledger import Entry, Ledger
-from cosim.design.report import front, report, winning_scenario
-from cosim.design.row_model import Chain, fitted
-from cosim.design.search import HOLD, HOT, Impossible, Outcome, Search
-from cosim.design.sequential import SequentialTest, Verdict, share_interval
-from cosim.design.task import load_task
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import parse_scenario
+from cosim.unit.errors import InputError
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples" / "design"
 TASK = (EXAMPLES / "stiff_by_15_s.yaml").read_text()
@@ -166,9 +166,11 @@ def test_a_coarse_run_with_overlap_is_not_judged_and_the_front_holds_no_beaten_d
     ledger = search.ledger
     ledger.units = ("m", "W")
     ledger.entries = [
-        _entry("coarse", three, 1, 0.080), _entry("fine", three, 1, 0.020), _entry("coarse", four, 1, 0.040),
+        _entry("coarse", three, 1, 0.080),
+        _entry("fine", three, 1, 0.020),
+        _entry("coarse", four, 1, 0.040),
         _entry("coarse", five, 1, 0.025),
-    ]  # fmt: skip
+    ]
     # The coarse run of `three` overlapped and was made again; `four` misses; the fine run counts.
     assert search._accepted() == [three, five]
     assert front(ledger).count("\n") == 2  # 20 mm beats the others at equal energy

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from chainmail.design import ledger as ledger_module
+from chainmail.design.candidate import Candidate, rig_of
+from chainmail.design.ledger import BudgetSpent, Ledger
+from chainmail.design.task import load_task
 from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Here
-from cosim.design import ledger as ledger_module
-from cosim.design.candidate import Candidate, rig_of
-from cosim.design.ledger import BudgetSpent, Ledger
-from cosim.design.task import load_task
 from tests.design.test_design import EXAMPLES, TASK
 
 #: Heated for a fifth of a second only: what is looked at here is the record of runs, not what they say.

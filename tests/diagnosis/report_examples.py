@@ -45,26 +45,51 @@ CONTACT = Finding(
     gain=412.0,
     probability=0.93,
     ambiguous_with=("base:reference_resistance",),
-    alternatives=(Alternative("contact_resistance", "string[3]", 412.0, 0.93),
-                  Alternative("supply_source_resistance", "supply", 390.0, 0.004)),
-    confused_with={"base:reference_resistance": "the voltage of one coil decides",
-                   "supply_source_resistance": "strings at different currents decide"},
-)  # fmt: skip
+    alternatives=(
+        Alternative("contact_resistance", "string[3]", 412.0, 0.93),
+        Alternative("supply_source_resistance", "supply", 390.0, 0.004),
+    ),
+    confused_with={
+        "base:reference_resistance": "the voltage of one coil decides",
+        "supply_source_resistance": "strings at different currents decide",
+    },
+)
 MASS = replace(
-    CONTACT, unit="thermal", place="coil[2,5]", elements=("coil[2,5]",), intervals=((10.0, 95.0),),
-    channels=("coil[2,5].temperature",), effect="second_mass", statement="second thermal mass, coil[2,5]",
-    law="C_2 * d(T_2) = G * (T - T_2)", ambiguous_with=(), confused_with={}, alternatives=(), gain=88.0,
+    CONTACT,
+    unit="thermal",
+    place="coil[2,5]",
+    elements=("coil[2,5]",),
+    intervals=((10.0, 95.0),),
+    channels=("coil[2,5].temperature",),
+    effect="second_mass",
+    statement="second thermal mass, coil[2,5]",
+    law="C_2 * d(T_2) = G * (T - T_2)",
+    ambiguous_with=(),
+    confused_with={},
+    alternatives=(),
+    gain=88.0,
     parameters=(Estimate("C_2", "J/K", 0.05, 0.02, 0.08), Estimate("G", "W/K", 2.1e-5, 1.9e-5, 2.3e-5)),
-)  # fmt: skip
+)
 UNNAMED = replace(
-    MASS, place="all coils", elements=("coil[1,1]",), effect="unnamed_heat_square_excess", is_named=False,
-    statement="unnamed term in heat: temperature above the surroundings, square", law="heat = heat_0 + a * x * x",
+    MASS,
+    place="all coils",
+    elements=("coil[1,1]",),
+    effect="unnamed_heat_square_excess",
+    is_named=False,
+    statement="unnamed term in heat: temperature above the surroundings, square",
+    law="heat = heat_0 + a * x * x",
     standing=Standing.UNNAMED,
-)  # fmt: skip
+)
 LAG = replace(
-    MASS, unit="measurement", place="coil[1,2].temperature", elements=("coil[1,2]",), effect="sensor_lag",
-    channels=("coil[1,2].temperature",), statement="sensor lag, coil[1,2].temperature", law="tau * d(y) = x - y",
-)  # fmt: skip
+    MASS,
+    unit="measurement",
+    place="coil[1,2].temperature",
+    elements=("coil[1,2]",),
+    effect="sensor_lag",
+    channels=("coil[1,2].temperature",),
+    statement="sensor lag, coil[1,2].temperature",
+    law="tau * d(y) = x - y",
+)
 FINDINGS = {
     Verdict.CONSISTENT: (),
     Verdict.RECALIBRATED: (),
@@ -77,34 +102,72 @@ FINDINGS = {
 
 
 ADEQUACY = Adequacy(
-    basis="held-out recordings", is_rejected=True, chi_square={"before": 81.0, "recalibrated": 16.0, "after": 4.0},
-    limit=1.08, explained=0.9625, by_recalibration=0.8125,
-    worst=Left("steps", "coil[2,5].temperature", "K", 1.2, 0.15, 64.0, 1.3), rejected=(3, 42),
-    day=(Moved("ambient_offset of recording 1", "K", 0.31, False, 0.62),), wild=2, is_noise_stated=True,
-    is_nominal_rejected=True, is_training_rejected=False, is_recalibration_worse=False,
-)  # fmt: skip
-DOUBT = Doubt("steps", "supply.voltage", "programme", "The supply switches at 30 s, the readings at 50 s.",
-              "Give the programme of that day.", True, 0.0, 100.0, 40.0)  # fmt: skip
+    basis="held-out recordings",
+    is_rejected=True,
+    chi_square={"before": 81.0, "recalibrated": 16.0, "after": 4.0},
+    limit=1.08,
+    explained=0.9625,
+    by_recalibration=0.8125,
+    worst=Left("steps", "coil[2,5].temperature", "K", 1.2, 0.15, 64.0, 1.3),
+    rejected=(3, 42),
+    day=(Moved("ambient_offset of recording 1", "K", 0.31, False, 0.62),),
+    wild=2,
+    is_noise_stated=True,
+    is_nominal_rejected=True,
+    is_training_rejected=False,
+    is_recalibration_worse=False,
+)
+DOUBT = Doubt(
+    "steps",
+    "supply.voltage",
+    "programme",
+    "The supply switches at 30 s, the readings at 50 s.",
+    "Give the programme of that day.",
+    True,
+    0.0,
+    100.0,
+    40.0,
+)
 
 
 EXPERIMENT = NextExperiment(
-    scenario="out/next_experiment/scenario.yaml", kind="staircase", statement="Staircase for 60 s would decide.",
+    scenario="out/next_experiment/scenario.yaml",
+    kind="staircase",
+    statement="Staircase for 60 s would decide.",
     rivals=(Rival(("contact_resistance at string[3]",), 0.6), Rival(("supply_source_resistance at supply",), 0.4)),
     courses=(Course("supply", "voltage", "V", (0.0, 3.0, 40.0), ((0.0, 0.0), (6.0, 3.0), (0.0, 0.0))),),
-    duration=60.0, limits=("supply.voltage from 0 to 6 V",), log_bayes_factor=8.25, repeat_log_bayes_factor=0.0625,
-    decides=0.875, repeat_decides=0.125, channel="string[3].current", best_time=12.5, tried=17,
-)  # fmt: skip
+    duration=60.0,
+    limits=("supply.voltage from 0 to 6 V",),
+    log_bayes_factor=8.25,
+    repeat_log_bayes_factor=0.0625,
+    decides=0.875,
+    repeat_decides=0.125,
+    channel="string[3].current",
+    best_time=12.5,
+    tried=17,
+)
 
 
 def fit(channel: str, unit: str, size: float, is_held_out: bool, title: str = "steps") -> ChannelFit:
     stages = {"before": 9.0 * size, "recalibrated": 4.0 * size, "after": size}
-    return ChannelFit(title, is_held_out, channel, unit, stages, {k: (v / size) ** 2 for k, v in stages.items()},
-                      {"before": 30.0, "recalibrated": 12.0, "after": 2.5})  # fmt: skip
+    return ChannelFit(
+        title,
+        is_held_out,
+        channel,
+        unit,
+        stages,
+        {k: (v / size) ** 2 for k, v in stages.items()},
+        {"before": 30.0, "recalibrated": 12.0, "after": 2.5},
+    )
 
 
 def diagnosis(verdict: Verdict, title: str = "steps") -> Diagnosis:
-    fits = [fit(f"coil[{s},{c}].temperature", "K", 0.3, h, title) for h in (False, True) for s in range(1, 7)
-            for c in range(1, 7)]  # fmt: skip
+    fits = [
+        fit(f"coil[{s},{c}].temperature", "K", 0.3, h, title)
+        for h in (False, True)
+        for s in range(1, 7)
+        for c in range(1, 7)
+    ]
     fits += [fit(f"string[{s}].current", "A", 0.003, True, title) for s in range(1, 7)]
     return Diagnosis(
         verdict=verdict,

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.errors import InputError
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
@@ -24,7 +24,7 @@ NOISE = 1e-3  # rad
 
 def made(folder: Path, seed: int, **truth: str) -> Recording:
     """A recording of the shipped pendulum for 4 s, with other parameters than the scenario says."""
-    from cosim.quantity import PhysicalValue
+    from cosim.unit.quantity import PhysicalValue
 
     base = load_scenario("pendulum")
     arm = base.components["arm"]

@@ -11,8 +11,8 @@ from sympy.parsing.sympy_parser import parse_expr
 
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import candidate, catalogue
+from diagnosis.models.cosimulation.unit_laws import LAWS
 from diagnosis.search.unit_law import UnitLaw
-from diagnosis.simulator.unit_laws import LAWS
 
 #: Functions of a law that are applied, and are no symbols.
 _APPLIED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")

@@ -10,11 +10,11 @@ import pytest
 
 from diagnosis import model_error
 from diagnosis.model_error import search_with_model_error
+from diagnosis.models.wrappers.tempered import TemperedModel, correlation_time, inflation
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Settings, search
 from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
-from diagnosis.simulator.tempered import TemperedModel, correlation_time, inflation
 from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
 
 TIMES = np.linspace(0.0, 10.0, 200)

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.usage import usage
 

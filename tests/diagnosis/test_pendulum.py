@@ -10,10 +10,10 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
-from cosim.unit import NANOSECONDS, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, UnitError
 from mechanics.pendulum import PendulumDesign, PendulumUnit
 
 MASS, DISTANCE, INERTIA, GRAVITY = 0.1, 0.115, 4.408e-4, 9.80665

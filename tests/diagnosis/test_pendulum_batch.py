@@ -10,10 +10,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import load_scenario
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.judge.judge import estimates
+from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.pendulum.batch import arm, longest_step, swings
+from diagnosis.models.pendulum.model import PendulumModel, without_scale
+from diagnosis.models.sensor_chain import lagging
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
@@ -23,19 +27,24 @@ from diagnosis.search.fit import fit
 from diagnosis.search.pendulum_terms import pendulum_laws
 from diagnosis.search.problem import Parameter, Point
 from diagnosis.search.search import Settings, search
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.pendulum_batch import arm, longest_step, swings
-from diagnosis.simulator.pendulum_model import PendulumModel, without_scale
-from diagnosis.simulator.sensor_chain import lagging
 from mechanics.bullet_pendulum import PendulumWorld
 from mechanics.pendulum import PendulumDesign
 
 START = {"initial_angle": 1.285, "initial_angular_velocity": 0.85}
 SMOOTH = {
-    "viscous_damping": 1e-4, "quadratic_drag": 2e-5, "cubic_drag": 1e-6, "spring_stiffness": 3e-3, "spring_rest": 2.8,
-    "band_damping": 6e-4, "band_width": 0.25, "periodic_torque": 8e-4, "periodic_rate": 9.0, "periodic_phase": 0.4,
-    "constant_torque": 1e-3, "tilt": 0.02,
-}  # fmt: skip
+    "viscous_damping": 1e-4,
+    "quadratic_drag": 2e-5,
+    "cubic_drag": 1e-6,
+    "spring_stiffness": 3e-3,
+    "spring_rest": 2.8,
+    "band_damping": 6e-4,
+    "band_width": 0.25,
+    "periodic_torque": 8e-4,
+    "periodic_rate": 9.0,
+    "periodic_phase": 0.4,
+    "constant_torque": 1e-3,
+    "tilt": 0.02,
+}
 RESTS = {"coulomb_friction": 2e-2}  # sticks beside the vertical within a second
 DRY = {"coulomb_friction": 3e-4, "stiction": 2.5e-3, "stribeck_speed": 0.4}
 

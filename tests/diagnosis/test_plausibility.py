@@ -7,57 +7,59 @@ import pytest
 
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import candidate
-from diagnosis.fabric.laws import fabric_laws
 from diagnosis.judge.plausibility import implausible, unidentified
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.fabric.laws import fabric_laws
 from diagnosis.search.pendulum_terms import Arm, arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Term, TermParameter
-from diagnosis.simulator.bank_model import BankModel
 from tests.locate import rig
 
 ELECTRICAL = "no electrical channel was recorded, so an electrical law cannot be told from heat"
 
 
 @pytest.fixture(scope="module")
-def bank_terms():
+def network_terms():
     wanted = ("ambient_step", "insulation_when_off", "sensor_lag", "backlash", "temperature_dependent_convection")
-    model = BankModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate(name) for name in wanted])
+    model = CoilNetworkModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate(name) for name in wanted])
     return {term.identifier: term for term in reversed(model.terms())}
 
 
-def test_a_room_does_not_jump_by_26_kelvin(bank_terms):
-    found = implausible(bank_terms["ambient_step"], (26.0, 3.0))
+def test_a_room_does_not_jump_by_26_kelvin(network_terms):
+    found = implausible(network_terms["ambient_step"], (26.0, 3.0))
     assert len(found) == 1
     assert found[0].startswith("step_size would have to be 26 K; 5 K is the most that is believed (a window")
-    assert implausible(bank_terms["ambient_step"], (-26.0, 3.0)) != []
-    assert implausible(bank_terms["ambient_step"], (-4.9, 3.0)) == []
+    assert implausible(network_terms["ambient_step"], (-26.0, 3.0)) != []
+    assert implausible(network_terms["ambient_step"], (-4.9, 3.0)) == []
 
 
 @pytest.mark.parametrize(
     ("name", "at_bound", "believed"),
     [("insulation_when_off", 0.95, 0.37), ("temperature_dependent_convection", 0.05, 0.012), ("backlash", 5e-3, 1e-3)],
 )
-def test_a_strength_at_its_bound_is_not_believed(bank_terms, name, at_bound, believed):
-    assert len(implausible(bank_terms[name], (at_bound,))) == 1
-    assert implausible(bank_terms[name], (believed,)) == []
+def test_a_strength_at_its_bound_is_not_believed(network_terms, name, at_bound, believed):
+    assert len(implausible(network_terms[name], (at_bound,))) == 1
+    assert implausible(network_terms[name], (believed,)) == []
 
 
-def test_a_lag_beyond_what_sensors_have_is_not_believed(bank_terms):
-    (sentence,) = implausible(bank_terms["sensor_lag"], (970.0,))
+def test_a_lag_beyond_what_sensors_have_is_not_believed(network_terms):
+    (sentence,) = implausible(network_terms["sensor_lag"], (970.0,))
     assert sentence.startswith("lag_time would have to be 970 s; 30 s is the most that is believed (a sheathed")
 
 
 def test_what_the_recording_states_of_a_lag_stands_above_what_is_believed_of_sensors():
     recording = rig.blank(0)
     slow = {name: replace(channel, lag_bound=60.0) for name, channel in recording.channels.items()}
-    model = BankModel(load_scenario(rig.SCENARIO), [replace(recording, channels=slow)], [candidate("sensor_lag")])
+    model = CoilNetworkModel(
+        load_scenario(rig.SCENARIO), [replace(recording, channels=slow)], [candidate("sensor_lag")]
+    )
     for term in model.terms():
         assert implausible(term, (59.0,)) == []
         (sentence,) = implausible(term, (970.0,))
         assert sentence.startswith("lag_time would have to be 970 s; 60 s is the most that is believed (the recording")
 
 
-def test_limits_of_a_bank_are_those_of_its_own_coils():
-    model = BankModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("slide_friction")])
+def test_limits_of_a_network_are_those_of_its_own_coils():
+    model = CoilNetworkModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("slide_friction")])
     term = next(t for t in model.terms() if t.place == "all coils")
     load = float(np.median(model.runs[0].translation.parameters.base["load"]))
     assert term.parameters[0].plausible == pytest.approx(0.5 * load)
@@ -118,15 +120,17 @@ def test_no_start_of_the_pendulum_is_a_number_of_the_proving_ground():
     """Spring at rest at 2.8 rad, torque at 9 rad/s, brake 0.25 rad wide, stiction that fades at 0.4 rad/s."""
     laws = {law.place.term.identifier: law.place.term.parameters for law in pendulum_laws("arm")}
     for law, number, value in (
-        ("torque_of_position", 1, 2.8), ("periodic_torque", 1, 9.0), ("torque_of_rate_in_a_band", 1, 0.25),
+        ("torque_of_position", 1, 2.8),
+        ("periodic_torque", 1, 9.0),
+        ("torque_of_rate_in_a_band", 1, 0.25),
         ("stiction", 1, 0.4),
-    ):  # fmt: skip
+    ):
         assert min(abs(s / value - 1.0) for s in laws[law][number].starts) > 0.01, law
 
 
 def test_a_thermometer_drifts_as_its_connector_warms_and_no_faster():
     """A connector of 10 g is warmed by 1 W at 10 K in a minute; typical readings of a thermometer are 10 K."""
-    model = BankModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("sensor_drift")])
+    model = CoilNetworkModel(load_scenario(rig.SCENARIO), [rig.blank(0)], [candidate("sensor_drift")])
     drift = next(t for t in model.terms() if t.place.endswith("temperature"))
     assert implausible(drift, (0.5,)) == []
     assert implausible(drift, (-0.9,)) == []

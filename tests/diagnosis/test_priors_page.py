@@ -11,13 +11,13 @@ import pytest
 
 from cosim.parameters import find_parameter_set
 from cosim.scenario import find_scenario, load_scenario
+from diagnosis.models.build import model_of
+from diagnosis.models.coil_network import free, runs
+from diagnosis.models.coil_network.priors import FACTORS, PRIORS, stated_priors
+from diagnosis.models.wrappers.biased import DEVIATIONS_IN_BOUND
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.cosim_model import free_parameters
 from diagnosis.search.problem import Point
-from diagnosis.simulator import free, runs
-from diagnosis.simulator.biased import DEVIATIONS_IN_BOUND
-from diagnosis.simulator.models import model_of
-from diagnosis.simulator.priors import FACTORS, PRIORS, stated_priors
 from tests.diagnosis.test_recording import folder
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "priors.md").read_text()
@@ -30,7 +30,7 @@ def row(first: str) -> list[str]:
     return found
 
 
-def test_the_page_has_every_parameter_of_a_bank_with_its_prior():
+def test_the_page_has_every_parameter_of_a_network_with_its_prior():
     assert [r[0].split("`")[1] for r in ROWS if len(r) == 5 and r[0].startswith("`")] == list(PRIORS)
     for name, prior in PRIORS.items():
         cell, shared, scatter, of, counts = row(f"`{name}`")
@@ -102,5 +102,5 @@ def test_a_prior_as_wide_as_can_be_stated_gives_numbers_at_its_bounds(tmp_path):
     wide = [p for p in model.parameters if p.deviation == 1000.0]
     assert {p.name for p in wide} == {"conductance", "capacity"}
     for z in (-6.0, 6.0):
-        base = model.bank_parameters(Point(np.full(len(model.parameters), z)), 0).base
+        base = model.network_parameters(Point(np.full(len(model.parameters), z)), 0).base
         assert all(np.isfinite(base[p.name]).all() and np.all(np.asarray(base[p.name]) > 0.0) for p in wide)

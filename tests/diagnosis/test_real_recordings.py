@@ -12,13 +12,13 @@ from scipy.optimize import least_squares
 
 from cosim.run import run
 from cosim.scenario import load_scenario
-from diagnosis.real.__main__ import main
-from diagnosis.real.raw_files import SOURCES, VARIABLE
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.search.cosim_model import CosimModel, Free, free_parameters, predicted
 from diagnosis.search.pendulum_terms import pendulum_terms
 from diagnosis.search.problem import Point
+from evaluation.real.__main__ import main
+from evaluation.real.raw_files import SOURCES, VARIABLE
 
 RAW = Path(os.environ.get(VARIABLE, Path(__file__).resolve().parents[3] / "shared" / "recordings"))
 
@@ -33,7 +33,7 @@ pytestmark = pytest.mark.skipif(
 def real(tmp_path_factory):
     """Folder of the recordings, prepared once."""
     out = tmp_path_factory.mktemp("real")
-    assert main(["--recordings", str(RAW), "--out", str(out)]) == 0
+    assert main(["--recordings", str(RAW), "--out", str(out), "--only", "tclab", "sma-limb", "cart-pendulum"]) == 0
     return out
 
 
@@ -149,9 +149,12 @@ def test_a_number_that_one_recording_does_not_know_moves_that_one_alone(real):
     base = load_scenario("pendulum")
     free: list[Free] = free_parameters(base, held_out)
     assert [f.parameter.name for f in free] == [
-        "arm.centre_distance", "arm.initial_angle of recording 1", "arm.initial_angular_velocity of recording 1",
-        "arm.initial_angle of recording 2", "arm.initial_angular_velocity of recording 2",
-    ]  # fmt: skip
+        "arm.centre_distance",
+        "arm.initial_angle of recording 1",
+        "arm.initial_angular_velocity of recording 1",
+        "arm.initial_angle of recording 2",
+        "arm.initial_angular_velocity of recording 2",
+    ]
     model = CosimModel(base, held_out, free)
     jacobian = model.base_jacobian(Point(np.zeros(5)))
     second = np.flatnonzero(np.isin(model.layout.channel, [2, 3]))

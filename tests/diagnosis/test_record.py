@@ -12,10 +12,10 @@ import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.recording.channels import chosen, offered
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.quantity import Target, parse_quantity
@@ -142,11 +142,22 @@ def test_recorded_conditions_are_not_changed_by_reading_them(tmp_path):
 def test_every_sensor_fault_leaves_its_own_mark(tmp_path):
     results = run(pendulum())
     sensors = SensorFile.model_validate(
-        {"channels": {
-            "arm.angle": {"rate": "50 Hz", "noise": "0.5 deg", "quantum": "0.1 deg", "maximum": "3.5 rad",
-                          "unit": "deg", "gaps": [["0.5 s", "0.7 s"]], "drop_outs": 0.1, "lag_bound": "20 ms"},
-            "arm.angular_velocity": {"rate": "20 Hz", "clock_offset": "30 ms", "offset_bound": "50 ms"}}}
-    )  # fmt: skip
+        {
+            "channels": {
+                "arm.angle": {
+                    "rate": "50 Hz",
+                    "noise": "0.5 deg",
+                    "quantum": "0.1 deg",
+                    "maximum": "3.5 rad",
+                    "unit": "deg",
+                    "gaps": [["0.5 s", "0.7 s"]],
+                    "drop_outs": 0.1,
+                    "lag_bound": "20 ms",
+                },
+                "arm.angular_velocity": {"rate": "20 Hz", "clock_offset": "30 ms", "offset_bound": "50 ms"},
+            }
+        }
+    )
     write_recording(tmp_path / "r", read_results(results, [], sensors, 5, tmp_path), Notes("swing"))
     recording = load_recording(tmp_path / "r")
     angle, speed = recording.channels["arm.angle"], recording.channels["arm.angular_velocity"]

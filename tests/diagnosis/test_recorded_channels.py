@@ -1,4 +1,4 @@
-"""Every documented channel of supply, strings and coils: results of a run and the bank say the same of it."""
+"""Every documented channel of supply, strings and coils: results of a run and the network say the same of it."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
+from cosim.unit.errors import InputError
 from diagnosis.amend.free_run import read_run
-from diagnosis.bank.layout import QUANTITIES, BankLayout
+from diagnosis.models.build import model_of
+from diagnosis.models.coil_network.kernel.layout import QUANTITIES, CoilNetworkLayout
+from diagnosis.models.coil_network.runs import network_quantity
+from diagnosis.models.coil_network.translate import translate
 from diagnosis.recording.fits import no_results
 from diagnosis.recording.quantity import _KINDS, parse_quantity
 from diagnosis.recording.readings import read_results
@@ -20,9 +23,6 @@ from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.series import series_of
 from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.problem import Point
-from diagnosis.simulator.models import model_of
-from diagnosis.simulator.runs import bank_quantity
-from diagnosis.simulator.translate import translate
 from tests.diagnosis.test_recording import folder
 
 TWO_STRINGS = """
@@ -42,10 +42,21 @@ connections:
 """
 #: Each measures something else; the other names of the same quantities are compared with these.
 CHANNELS = [
-    "supply.current", "supply.voltage", "supply.power", "string[1].current", "string[2].voltage", "coil[1,2].voltage",
-    "coil[2,1].power", "coil[2,3].temperature", "coil[4].resistance", "coil[1,1].stiffness", "coil[6].extension",
-    "coil[5].length", "coil[1].tension", "coil[2,2].current",
-]  # fmt: skip
+    "supply.current",
+    "supply.voltage",
+    "supply.power",
+    "string[1].current",
+    "string[2].voltage",
+    "coil[1,2].voltage",
+    "coil[2,1].power",
+    "coil[2,3].temperature",
+    "coil[4].resistance",
+    "coil[1,1].stiffness",
+    "coil[6].extension",
+    "coil[5].length",
+    "coil[1].tension",
+    "coil[2,2].current",
+]
 
 
 def recorded(tmp_path: Path, broken: str = ""):
@@ -61,14 +72,14 @@ def recorded(tmp_path: Path, broken: str = ""):
 
 
 @pytest.mark.parametrize("broken", ["", ", open_coils: [2]", ", shorted_coils: [5]"])
-def test_bank_and_results_of_a_run_agree_on_every_channel(tmp_path, broken):
+def test_network_and_results_of_a_run_agree_on_every_channel(tmp_path, broken):
     scenario, results, recording = recorded(tmp_path, broken)
     model = model_of(scenario, [recording], [])
-    assert type(model).__name__ == "BankModel"
+    assert type(model).__name__ == "CoilNetworkModel"
     predicted = model.predict(Point(np.zeros(len(model.parameters))), 0)
     for series, values in zip(model.runs[0].series, predicted):
         measured = series.measured[series.used]
-        # The co-simulation holds resistances over a macro-step of 10 ms, the bank takes them at its middle.
+        # The co-simulation holds resistances over a macro-step of 10 ms, the network takes them at its middle.
         scale = max(np.abs(measured).max(), 1e-3)
         np.testing.assert_allclose(values[series.used], measured, atol=2e-3 * scale, err_msg=series.channel.name)
     if broken.startswith(", open"):
@@ -91,34 +102,34 @@ def test_the_names_of_one_quantity_say_the_same(tmp_path):
     late = results["time"].values > 1.1
     lost = values("supply.voltage") - values("string[1].voltage")  # in the string's wires
     np.testing.assert_allclose(lost[late], 0.2 * values("string[1].current")[late], rtol=1e-9)
-    layout = BankLayout(6, (3, 3))
+    layout = CoilNetworkLayout(6, (3, 3))
     recording = load_recording(folder(tmp_path))
-    assert bank_quantity(parse_quantity("coil[5].current"), layout, recording) == ("current", 1)
-    assert bank_quantity(parse_quantity("coil[2,2].voltage"), layout, recording) == ("voltage", 4)
+    assert network_quantity(parse_quantity("coil[5].current"), layout, recording) == ("current", 1)
+    assert network_quantity(parse_quantity("coil[2,2].voltage"), layout, recording) == ("voltage", 4)
 
 
-def test_every_documented_quantity_of_supply_strings_and_coils_is_offered_by_the_bank(tmp_path):
-    recording, layout = load_recording(folder(tmp_path)), BankLayout(6, (3, 3))
+def test_every_documented_quantity_of_supply_strings_and_coils_is_offered_by_the_network(tmp_path):
+    recording, layout = load_recording(folder(tmp_path)), CoilNetworkLayout(6, (3, 3))
     for kind, element in (("supply", ""), ("string", "[1]"), ("coil", "[1,2]")):
         for quantity in _KINDS[kind][0]:
-            bank_quantity(parse_quantity(f"{kind}{element}.{quantity}"), layout, recording)
+            network_quantity(parse_quantity(f"{kind}{element}.{quantity}"), layout, recording)
 
 
 @pytest.mark.parametrize(
     ("name", "layout", "text"),
     [
-        ("supply.voltage", BankLayout(6, (3, 3), "per_string"), "every string has a supply of its own"),
-        ("supply.voltage", BankLayout(2), "gives the power of its heaters"),
-        ("coil[1].current", BankLayout(2), "gives the power of its heaters"),
-        ("coil[1,3].temperature", BankLayout(2), "no such quantity"),
-        ("coil[2,1].temperature", BankLayout(2), "no such quantity"),
-        ("string[3].voltage", BankLayout(6, (3, 3)), "6 coils in 2 strings"),
-        ("heaters.temperature[1]", BankLayout(2), "names of its supply, strings and coils"),
+        ("supply.voltage", CoilNetworkLayout(6, (3, 3), "per_string"), "every string has a supply of its own"),
+        ("supply.voltage", CoilNetworkLayout(2), "gives the power of its heaters"),
+        ("coil[1].current", CoilNetworkLayout(2), "gives the power of its heaters"),
+        ("coil[1,3].temperature", CoilNetworkLayout(2), "no such quantity"),
+        ("coil[2,1].temperature", CoilNetworkLayout(2), "no such quantity"),
+        ("string[3].voltage", CoilNetworkLayout(6, (3, 3)), "6 coils in 2 strings"),
+        ("heaters.temperature[1]", CoilNetworkLayout(2), "names of its supply, strings and coils"),
     ],
 )
-def test_what_a_bank_cannot_offer_is_said(tmp_path, name, layout, text):
+def test_what_a_network_cannot_offer_is_said(tmp_path, name, layout, text):
     with pytest.raises(InputError) as caught:
-        bank_quantity(parse_quantity(name), layout, load_recording(folder(tmp_path)))
+        network_quantity(parse_quantity(name), layout, load_recording(folder(tmp_path)))
     assert text in str(caught.value)
     assert caught.value.key == f"channels.{name}"
 
@@ -171,7 +182,7 @@ def test_a_free_run_is_read_on_every_derived_quantity(tmp_path):
     times = dict.fromkeys(derived, np.arange(0.5, 11.9, 0.5))
     found = read_run(results, translate(scenario), times)
     for name in ("supply.power", "supply.voltage", "string[2].voltage", "coil[1,2].voltage", "coil[1].tension"):
-        quantity, element = bank_quantity(parse_quantity(name), translate(scenario).layout, recording)
+        quantity, element = network_quantity(parse_quantity(name), translate(scenario).layout, recording)
         own = series_of(results, parse_quantity(name), tmp_path)
         steps = np.searchsorted(own.times, times[quantity] - 1e-9)  # a flow stands at the end of its step
         np.testing.assert_allclose(found[quantity][:, element], own.values[steps], rtol=2e-3, err_msg=name)

@@ -13,8 +13,8 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cosim.errors import InputError
 from cosim.scenario import load_scenario, parse_scenario
+from cosim.unit.errors import InputError
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import parse_quantity
@@ -67,8 +67,14 @@ def test_a_rounding_step_is_found_beside_a_stated_noise(tmp_path):
 def test_channels_at_other_rates_and_clocks_come_onto_the_clock_of_the_scenario(tmp_path):
     ticks = np.arange(0.0, 20000.0, 137.0)
     pd.DataFrame({"ms": 5000.0 + ticks, "mA": np.sin(ticks)}).to_csv(tmp_path / "fast.csv", index=False)
-    channels = channel() | {"supply.current": {"column": "mA", "unit": "mA", "table": "fast.csv", "time": {
-        "column": "ms", "unit": "ms", "zero": 5000.0, "offset_bound": "40 ms"}}}  # fmt: skip
+    channels = channel() | {
+        "supply.current": {
+            "column": "mA",
+            "unit": "mA",
+            "table": "fast.csv",
+            "time": {"column": "ms", "unit": "ms", "zero": 5000.0, "offset_bound": "40 ms"},
+        }
+    }
     recording = load_recording(folder(tmp_path, channels=channels))
     current = recording.channels["supply.current"]
     np.testing.assert_allclose(current.times, ticks / 1000.0, atol=1e-12)
@@ -134,7 +140,7 @@ WRONG = [
     ({"begin": "5 s", "end": "4 s"}, "", "must come after begin"),
     ({"end": "2 s"}, "channels.coil[1].temperature", "it has 5 values, fewer than 8"),
     ({"inputs": {"drive": {"column": "T", "unit": "W"}}}, "inputs.drive", "no output of a programme"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("sidecar", "key", "text"), WRONG, ids=[text for _, _, text in WRONG])
@@ -172,10 +178,11 @@ def test_a_folder_without_a_recording_is_refused(tmp_path):
 def test_overrides_and_recorded_inputs_make_the_scenario_of_the_recording(tmp_path):
     power = np.repeat([0.0, 50.0, 100.0, 0.0], 10)
     path = folder(
-        tmp_path, {"time": TIMES, "T": 20.0 + TIMES, "percent": power},
+        tmp_path,
+        {"time": TIMES, "T": 20.0 + TIMES, "percent": power},
         overrides={"components": {"room": {"outputs": {"temperature": {"constant": "19 degC"}}}}},
         inputs={"drive.power_1": {"column": "percent", "unit": "W", "factor": 0.01}},
-    )  # fmt: skip
+    )
     scenario = scenario_of(load_scenario("tclab"), load_recording(path))
     assert scenario.components["room"].outputs["temperature"].constant.to("K") == pytest.approx(292.15)
     points = scenario.components["drive"].outputs["power_1"].points
@@ -223,8 +230,16 @@ def test_an_input_that_the_scenario_does_not_have_is_named(tmp_path):
     assert "power_1" in caught.value.remedy
 
 
-NAMES = ["supply.current", "string[3].current", "coil[2,5].temperature", "coil[7].extension", "marker[4].z",
-         "fabric.max_curvature", "arm.angle", "heater.temperature[2]"]  # fmt: skip
+NAMES = [
+    "supply.current",
+    "string[3].current",
+    "coil[2,5].temperature",
+    "coil[7].extension",
+    "marker[4].z",
+    "fabric.max_curvature",
+    "arm.angle",
+    "heater.temperature[2]",
+]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -247,10 +262,20 @@ def heating(noise: float, quantum: float, seed: int, switches: int = 0) -> tuple
 # is no longer white: 12 % are left. With a switch at every fifth reading small jumps pass for noise: a fifth.
 @pytest.mark.parametrize(
     ("noise", "quantum", "switches", "tolerance"),
-    [(0.3, 0.0, 0, 0.06), (0.003, 0.0, 0, 0.06), (0.3, 0.0625, 0, 0.06), (0.3, 0.25, 0, 0.06), (0.3, 0.5, 0, 0.08),
-     (0.1, 0.25, 0, 0.08), (0.05, 0.25, 0, 0.15), (0.01, 0.25, 0, 0.05), (0.3, 0.0, 10, 0.08), (0.3, 0.0, 40, 0.25),
-     (0.3, 0.25, 10, 0.08)],
-)  # fmt: skip
+    [
+        (0.3, 0.0, 0, 0.06),
+        (0.003, 0.0, 0, 0.06),
+        (0.3, 0.0625, 0, 0.06),
+        (0.3, 0.25, 0, 0.06),
+        (0.3, 0.5, 0, 0.08),
+        (0.1, 0.25, 0, 0.08),
+        (0.05, 0.25, 0, 0.15),
+        (0.01, 0.25, 0, 0.05),
+        (0.3, 0.0, 10, 0.08),
+        (0.3, 0.0, 40, 0.25),
+        (0.3, 0.25, 10, 0.08),
+    ],
+)
 @pytest.mark.parametrize("is_quantum_known", [True, False])
 def test_noise_is_estimated_under_rounding_and_around_switches(noise, quantum, switches, tolerance, is_quantum_known):
     expected = math.hypot(noise, quantum / math.sqrt(12.0))

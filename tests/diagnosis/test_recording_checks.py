@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
+from diagnosis.models.build import model_of
 from diagnosis.recording import recording as module
 from diagnosis.recording.fits import fitting
 from diagnosis.recording.labels import distinct, labels
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.together import check_order, prepared
 from diagnosis.recording.usage import near_switch, usage
-from diagnosis.simulator.models import model_of
 from tests.diagnosis.test_recording import TIMES, channel, folder
 
 WARM = 20.0 + TIMES
@@ -126,12 +126,12 @@ UNITS = {"temperature": "degC", "angle": "deg", "current": "mA", "max_curvature"
     ],
 )
 def test_a_wrong_channel_is_said_before_anything_is_simulated(tmp_path, monkeypatch, name, wrong, unit, text):
-    """For every kind of model: heaters and coils (bank), pendulum (closed loop), fabric."""
+    """For every kind of model: heaters and coils (network), pendulum (closed loop), fabric."""
     for there in (
         "cosim.run.run",
         "diagnosis.search.cosim_run.run",
-        "diagnosis.bank.bank.Bank.run",
-        "diagnosis.bank.bank.load",
+        "diagnosis.models.coil_network.kernel.network.CoilNetwork.run",
+        "diagnosis.models.coil_network.kernel.network.load",
     ):
         monkeypatch.setattr(there, lambda *a, **k: pytest.fail("it was simulated or compiled"))
     quantity = FITS[name].rpartition(".")[2]
@@ -264,7 +264,7 @@ def test_labels_are_titles_unless_they_are_shared(tmp_path):
 
 
 def test_channels_of_recordings_with_one_title_have_names_of_their_own(tmp_path):
-    """In the layouts of bank and closed loop, which every table of a diagnosis takes its names from."""
+    """In the layouts of network and closed loop, which every table of a diagnosis takes its names from."""
     heaters = recordings(tmp_path)[:2]
     names = model_of(load_scenario("tclab"), heaters, []).layout.names
     assert names == ("coil[1].temperature (a heater (first))", "coil[1].temperature (a heater (second))")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.units import WrongUnit, conversion_of_difference, conversion_of_reading

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.judge.diagnosis import Estimate, Moved, Verdict
 from diagnosis.judge.isolability import Isolability
 from diagnosis.report.json_file import as_json, read_json, write_json
@@ -84,9 +84,15 @@ def test_numbers_that_are_not_finite_become_null_and_are_not_known_when_read(tmp
     content = json.loads(read_page(tmp_path / "d.json"))
     jsonschema.Draft202012Validator(schema()).validate(content)
     assert content["findings"][0]["parameters"][0] == {
-        "name": "R_contact", "unit": "ohm", "value": 0.3, "lower": None, "upper": None, "meaning": "",
-        "physical": None, "is_reading": False,
-    }  # fmt: skip
+        "name": "R_contact",
+        "unit": "ohm",
+        "value": 0.3,
+        "lower": None,
+        "upper": None,
+        "meaning": "",
+        "physical": None,
+        "is_reading": False,
+    }
     again = read_json(tmp_path / "d.json")
     assert math.isnan(again.margin)
     assert math.isnan(again.findings[0].parameters[0].upper)
@@ -164,10 +170,23 @@ def test_the_page_says_where_units_depart_what_is_left_and_what_would_decide(tmp
     told = replace(diagnosis(Verdict.MISSING_PHYSICS), left=diagnosis(Verdict.CANNOT_TELL).left)
     write_html(told, [], tmp_path / "report.html")
     text = Page(read_page(tmp_path / "report.html")).text
-    for part in ("heat balance", "9.25", "current (+0.81)", "coil[4,4].temperature", "30.0 to 42.0 s", "7.70",
-                 "Staircase for 60 s would decide.", "contact resistance at string[3]", "60 %", "8.25", "0.0625",
-                 "cosim run out/next_experiment/scenario.yaml", "supply.voltage from 0 to 6 V", "rig/monday",
-                 "1.00 (0.900 to 1.10)"):  # fmt: skip
+    for part in (
+        "heat balance",
+        "9.25",
+        "current (+0.81)",
+        "coil[4,4].temperature",
+        "30.0 to 42.0 s",
+        "7.70",
+        "Staircase for 60 s would decide.",
+        "contact resistance at string[3]",
+        "60 %",
+        "8.25",
+        "0.0625",
+        "cosim run out/next_experiment/scenario.yaml",
+        "supply.voltage from 0 to 6 V",
+        "rig/monday",
+        "1.00 (0.900 to 1.10)",
+    ):
         assert part in text, part
 
 
@@ -217,8 +236,13 @@ def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
 
 def test_a_page_without_held_out_recordings_and_without_a_network_says_so(tmp_path: Path) -> None:
     fits = (fit("rod.angle", "rad", 0.01, False),)
-    told = replace(diagnosis(Verdict.MISSING_PHYSICS), fit=fits, findings=(replace(UNNAMED, elements=("rod",)),),
-                   waveforms=(), next_experiment=None)  # fmt: skip
+    told = replace(
+        diagnosis(Verdict.MISSING_PHYSICS),
+        fit=fits,
+        findings=(replace(UNNAMED, elements=("rod",)),),
+        waveforms=(),
+        next_experiment=None,
+    )
     write_html(told, [], tmp_path / "report.html", network=Network())
     page = Page(read_page(tmp_path / "report.html"))
     assert "No recording was held out" in page.text
@@ -285,8 +309,10 @@ def test_long_gappy_and_single_sample_channels_make_a_small_page(tmp_path: Path)
 def test_the_improvement_is_told_where_a_finding_shows_too() -> None:
     told = diagnosis(Verdict.MISSING_PHYSICS)
     finding = replace(told.findings[0], channels=("string[3].current (steps)",))
-    better = [replace(f, chi_square={**f.chi_square, "after": 0.5}) if f.channel == "string[3].current" else f
-              for f in told.fit]  # fmt: skip
+    better = [
+        replace(f, chi_square={**f.chi_square, "after": 0.5}) if f.channel == "string[3].current" else f
+        for f in told.fit
+    ]
     said = improvement(replace(told, findings=(finding,), fit=tuple(better)))
     assert said.endswith("where findings show most: 81.0 before, 16.0 recalibrated only, 0.500 after")
     everywhere = replace(finding, channels=tuple(f.channel for f in told.fit))

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 
 RIG = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rig"
 
@@ -40,8 +40,11 @@ def without_first_column_of_values(lines: list[str]) -> list[str]:
 @pytest.mark.parametrize(
     ("change", "key", "problem"),
     [
-        (in_text("recording.yaml", "T1_degC, unit: degC", "T1_degC, unit: ohm"),
-         "channels.coil[1,1].temperature.unit", "ohm cannot be converted to K"),
+        (
+            in_text("recording.yaml", "T1_degC, unit: degC", "T1_degC, unit: ohm"),
+            "channels.coil[1,1].temperature.unit",
+            "ohm cannot be converted to K",
+        ),
         (in_text("recording.yaml", "T1_degC", "T9_degC"), "channels.coil[1,1].temperature.column", "no column"),
         (in_text("recording.yaml", "coil[1,1]", "coil[5,7]"), "channels.coil[5,7].temperature", "there is no coil 7"),
         (in_text("recording.yaml", "    room:", "    hall:"), "components.hall", "the key `kind` is missing"),
@@ -50,7 +53,7 @@ def without_first_column_of_values(lines: list[str]) -> list[str]:
         (rows(lambda r: r[:5]), "channels.coil[1,1].temperature", "it has 4 values"),
         (rows(lambda r: []), "", "cannot be read as a table"),
     ],
-)  # fmt: skip
+)
 def test_a_recording_that_does_not_fit_is_refused(
     change: Callable[[Path], None], key: str, problem: str, tmp_path: Path
 ) -> None:

@@ -37,8 +37,11 @@ def judged(name: str, before: float, is_held_out: bool, title: str = "tuesday") 
 
 @pytest.fixture
 def answer() -> Diagnosis:
-    fits = (judged("string[1].current", 17.0, True), judged("string[2].current", 24.0, True),
-            judged("string[2].current", 99.0, False))  # fmt: skip
+    fits = (
+        judged("string[1].current", 17.0, True),
+        judged("string[2].current", 24.0, True),
+        judged("string[2].current", 99.0, False),
+    )
     return replace(diagnosis(Verdict.MISSING_PHYSICS), fit=fits, units=("mA",))
 
 

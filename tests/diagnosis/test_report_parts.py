@@ -32,8 +32,11 @@ def test_a_network_is_inferred_from_names_and_findings_mark_their_place() -> Non
 
 
 def test_fits_are_grouped_by_recording_and_quantity() -> None:
-    fits = [fit("coil[1,1].temperature", "K", 0.3, False), fit("coil[1,2].temperature", "K", 0.4, False),
-            fit("coil[1,1].temperature", "K", 0.5, True)]  # fmt: skip
+    fits = [
+        fit("coil[1,1].temperature", "K", 0.3, False),
+        fit("coil[1,2].temperature", "K", 0.4, False),
+        fit("coil[1,1].temperature", "K", 0.5, True),
+    ]
     held_out, training = rows(fits)
     assert (held_out.is_held_out, held_out.channels, training.channels) == (True, 1, 2)
     assert training.rmse["after"] == pytest.approx(math.sqrt((0.3**2 + 0.4**2) / 2), rel=1e-12)

@@ -64,10 +64,13 @@ def lines_of(told: Diagnosis, width: int) -> list[str]:
 def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_path: Path) -> None:
     text = page_of(unexplained(), [series()], tmp_path)
     top = text[: text.index("Channels")]
-    for part in ("coil[2,5].temperature (steps), 30.0 to 42.0 s: 7.70 deviations, noise stays below 4.90",
-                 "driven alone, coil[2,5] departs most (thermal)",
-                 "Repeat that recording: what comes back", "out/amended/scenario.yaml (recalibrated, nothing added)",
-                 "noise alone stays below the limit in 99 of 100"):  # fmt: skip
+    for part in (
+        "coil[2,5].temperature (steps), 30.0 to 42.0 s: 7.70 deviations, noise stays below 4.90",
+        "driven alone, coil[2,5] departs most (thermal)",
+        "Repeat that recording: what comes back",
+        "out/amended/scenario.yaml (recalibrated, nothing added)",
+        "noise alone stays below the limit in 99 of 100",
+    ):
         assert part in top, part
     assert "Amended model" not in text
 
@@ -82,9 +85,12 @@ def test_units_that_depart_in_nothing_when_driven_alone_are_told_so(tmp_path: Pa
 def test_what_is_not_accepted_is_told_as_a_suggestion_and_not_as_found(tmp_path: Path) -> None:
     text = page_of(refuted(), [series()], tmp_path)
     top = text[: text.index("Where and when it would act")]
-    for part in ("Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); seen 10.0 to 95.0 s", WHY,
-                 "Record a training programme once more",
-                 "out/amended/scenario.yaml (recalibrated, nothing added)"):  # fmt: skip
+    for part in (
+        "Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); seen 10.0 to 95.0 s",
+        WHY,
+        "Record a training programme once more",
+        "out/amended/scenario.yaml (recalibrated, nothing added)",
+    ):
         assert part in top, part
     assert f"Suggestion 1, not accepted: {LAG.statement}" in text
     assert "Why not accepted" + WHY in text
@@ -146,8 +152,10 @@ def test_channels_are_chosen_by_findings_then_by_what_is_left_then_by_the_worst_
     fits = [f for f in told.fit if f.is_held_out is False]
     fits[7] = replace(fits[7], chi_square={**fits[7].chi_square, "recalibrated": 50.0})
     assert [fits[i].channel for i in drawn_channels(told, fits)] == [
-        "coil[1,2].temperature", "coil[4,4].temperature", "coil[2,2].temperature",
-    ]  # fmt: skip
+        "coil[1,2].temperature",
+        "coil[4,4].temperature",
+        "coil[2,2].temperature",
+    ]
 
 
 def test_residuals_are_scaled_by_fitted_models_where_nothing_was_added() -> None:

@@ -8,21 +8,25 @@ import pytest
 import yaml
 
 from cosim.alone import alone
-from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
 from diagnosis.command import diagnose
+from diagnosis.models.build import model_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.simulator.models import model_of
 
 STOP, EVERY, NOISE, ROOM = 5100.0, 10.0, 0.1, 294.15
 CONDUCTANCE, CAPACITY = 0.012, 17.6  # W/K, J/K: the scenario has 16 J/K
 PROGRAMMES = {
-    "monday": {"power_1": [(0, 0.0), (60, 0.4), (2400, 0.1), (4000, 0.3)],
-               "power_2": [(0, 0.0), (600, 0.3), (3000, 0.05)]},
-    "tuesday": {"power_1": [(0, 0.0), (30, 0.2), (1500, 0.45), (3600, 0.0)],
-                "power_2": [(0, 0.25), (1200, 0.0), (2400, 0.35)]},
-}  # fmt: skip
+    "monday": {
+        "power_1": [(0, 0.0), (60, 0.4), (2400, 0.1), (4000, 0.3)],
+        "power_2": [(0, 0.0), (600, 0.3), (3000, 0.05)],
+    },
+    "tuesday": {
+        "power_1": [(0, 0.0), (30, 0.2), (1500, 0.45), (3600, 0.0)],
+        "power_2": [(0, 0.25), (1200, 0.0), (2400, 0.35)],
+    },
+}
 
 
 def points(steps):
@@ -45,9 +49,12 @@ def rig(tmp_path_factory):
     """Folder with scenario.yaml, monday and tuesday."""
     folder = tmp_path_factory.mktemp("slow")
     heaters = {
-        "kind": "fmu", "fmu": "thermal_stiffness", "structure": {"coils": 2}, "parameter_set": "tclab_heater",
+        "kind": "fmu",
+        "fmu": "thermal_stiffness",
+        "structure": {"coils": 2},
+        "parameter_set": "tclab_heater",
         "parameters": {"initial_temperature": "21 degC", "specific_heat": "4000 J/(kg*K)"},
-    }  # fmt: skip
+    }
     drive = {name: {"unit": "W", "points": points(p)} for name, p in PROGRAMMES["monday"].items()}
     scenario = {
         "title": "Two slow heaters",
@@ -57,9 +64,12 @@ def rig(tmp_path_factory):
             "room": {"kind": "programme", "outputs": {"temperature": {"unit": "K", "constant": "21 degC"}}},
             "heaters": heaters,
         },
-        "connections": ["drive.power_1 -> heaters.power[1]", "drive.power_2 -> heaters.power[2]",
-                        "room.temperature -> heaters.ambient_temperature"],
-    }  # fmt: skip
+        "connections": [
+            "drive.power_1 -> heaters.power[1]",
+            "drive.power_2 -> heaters.power[2]",
+            "room.temperature -> heaters.ambient_temperature",
+        ],
+    }
     (folder / "scenario.yaml").write_text(yaml.safe_dump(scenario))
     rng = np.random.default_rng(5)
     times = np.arange(0.0, STOP + 1.0, EVERY)
@@ -72,11 +82,14 @@ def rig(tmp_path_factory):
         np.savetxt(folder / day / "data.csv", table, delimiter=",", header="t,T1,T2", comments="", fmt="%.4f")
         outputs = {name: {"points": points(p)} for name, p in programmes.items()}
         sidecar = {
-            "title": day, "table": "data.csv", "time": {"column": "t", "unit": "s", "zero": 0},
+            "title": day,
+            "table": "data.csv",
+            "time": {"column": "t", "unit": "s", "zero": 0},
             "overrides": {"components": {"drive": {"outputs": outputs}}},
-            "channels": {f"coil[{n}].temperature": {"column": f"T{n}", "unit": "degC", "noise": f"{NOISE} degC"}
-                         for n in (1, 2)},
-        }  # fmt: skip
+            "channels": {
+                f"coil[{n}].temperature": {"column": f"T{n}", "unit": "degC", "noise": f"{NOISE} degC"} for n in (1, 2)
+            },
+        }
         (folder / day / "recording.yaml").write_text(yaml.safe_dump(sidecar))
     return folder
 

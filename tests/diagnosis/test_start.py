@@ -5,27 +5,27 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.judge.beginning import begun
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.own_numbers import own_numbers
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.translate import translate
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.search.cosim_model import CosimModel, free_parameters
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.translate import translate
 from tests.diagnosis.two_heaters import conditions, record, scenario
 
 CELSIUS = 273.15
 APART = ["55 degC", "48 degC"]
 
 
-def bank(base, *recordings):
-    return BankModel(base, recordings, ())
+def network(base, *recordings):
+    return CoilNetworkModel(base, recordings, ())
 
 
 def fitted(model):
@@ -34,8 +34,8 @@ def fitted(model):
 
 
 def total(model, point, number, field):
-    """A field of the bank for one recording."""
-    return np.broadcast_to(model.bank_parameters(point, number).base[field], (2,))
+    """A field of the network for one recording."""
+    return np.broadcast_to(model.network_parameters(point, number).base[field], (2,))
 
 
 def chi_square(model, point, recordings):
@@ -47,7 +47,7 @@ def chi_square(model, point, recordings):
 def test_two_coils_that_a_recording_starts_apart_cool_apart(tmp_path, parameters):
     base = scenario(tmp_path, parameters=parameters)
     recording = record(base, tmp_path / "one", conditions(APART), 1, conditions(APART))
-    model = bank(base, recording)
+    model = network(base, recording)
     at = Point(np.zeros(len(model.parameters)))
     np.testing.assert_allclose(total(model, at, 0, "initial_temperature"), np.array([55.0, 48.0]) + CELSIUS)
     first, second = (values[0] for values in model.predict(at, 0))
@@ -57,21 +57,36 @@ def test_two_coils_that_a_recording_starts_apart_cool_apart(tmp_path, parameters
 
 def test_a_start_that_is_unknown_is_found_coil_by_coil(tmp_path):
     base = scenario(tmp_path)
-    recording = record(base, tmp_path / "one", conditions(APART), 1, conditions("50 degC"),
-                       uncertain={"heaters.initial_temperature": "5 K"})  # fmt: skip
-    model = bank(base, recording)
+    recording = record(
+        base,
+        tmp_path / "one",
+        conditions(APART),
+        1,
+        conditions("50 degC"),
+        uncertain={"heaters.initial_temperature": "5 K"},
+    )
+    model = network(base, recording)
     names = [p.name for p in model.parameters if "initial_temperature" in p.name]
-    assert names == ["initial_temperature", "coil[1].initial_temperature of recording 1",
-                     "coil[2].initial_temperature of recording 1"]  # fmt: skip
+    assert names == [
+        "initial_temperature",
+        "coil[1].initial_temperature of recording 1",
+        "coil[2].initial_temperature of recording 1",
+    ]
     found = total(model, fitted(model), 0, "initial_temperature") - CELSIUS
     np.testing.assert_allclose(found, [55.0, 48.0], atol=0.2)
 
 
 def test_one_coil_whose_start_is_unknown_leaves_the_other(tmp_path):
     base = scenario(tmp_path)
-    recording = record(base, tmp_path / "one", conditions(["50 degC", "42 degC"]), 1, conditions("50 degC"),
-                       uncertain={"heaters.initial_temperature[2]": "10 degC"})  # fmt: skip
-    model = bank(base, recording)
+    recording = record(
+        base,
+        tmp_path / "one",
+        conditions(["50 degC", "42 degC"]),
+        1,
+        conditions("50 degC"),
+        uncertain={"heaters.initial_temperature[2]": "10 degC"},
+    )
+    model = network(base, recording)
     own = {p.name: p.deviation for p in model.parameters if "coil" in p.name and "initial" in p.name}
     assert set(own) == {"coil[2].initial_temperature of recording 1"}
     assert own["coil[2].initial_temperature of recording 1"] == pytest.approx(10.0, rel=1e-3)
@@ -85,10 +100,16 @@ def test_one_coil_whose_start_is_unknown_leaves_the_other(tmp_path):
 def test_a_coil_that_came_from_above_is_found_on_its_cooling_branch(tmp_path):
     base = scenario(tmp_path)
     warm = conditions("50 degC", "45 degC", initial_loop_position=[1.0, 0.0])
-    recording = record(base, tmp_path / "one", warm, 1, conditions("50 degC", "45 degC"),
-                       channels="coil[*].temperature coil[*].stiffness",
-                       uncertain={"heaters.initial_loop_position": "0.5"})  # fmt: skip
-    model = bank(base, recording)
+    recording = record(
+        base,
+        tmp_path / "one",
+        warm,
+        1,
+        conditions("50 degC", "45 degC"),
+        channels="coil[*].temperature coil[*].stiffness",
+        uncertain={"heaters.initial_loop_position": "0.5"},
+    )
+    model = network(base, recording)
     at = Point(np.zeros(len(model.parameters)))
     assert chi_square(model, at, [recording]) > 1000.0
     point = fitted(model)
@@ -109,13 +130,13 @@ def test_a_doubt_that_cannot_be_is_one_error(tmp_path, name, given, problem):
     base = scenario(tmp_path)
     recording = record(base, tmp_path / "one", {}, 1, uncertain={name: given})
     with pytest.raises(InputError, match=problem):
-        bank(base, recording)
+        network(base, recording)
 
 
 def test_milli_kelvin_are_no_kelvin(tmp_path):
     base = scenario(tmp_path)
     recording = record(base, tmp_path / "one", {}, 1, uncertain={"room.temperature": "500 mK"})
-    stated = [p.deviation for p in bank(base, recording).parameters if "ambient" in p.name]
+    stated = [p.deviation for p in network(base, recording).parameters if "ambient" in p.name]
     assert np.hypot(*stated) == pytest.approx(0.5)
 
 
@@ -131,7 +152,7 @@ def rooms(tmp_path, *truth, said="21 degC", starts="21 degC", **keys):
 def test_a_thermometer_that_is_off_every_day_is_known_on_the_next(tmp_path):
     """Room and start 0.4 K above what is read, three days: two are fitted, the third is foretold."""
     base, days = rooms(tmp_path, *["21.4 degC"] * 3, starts="21.4 degC")
-    training, judge = bank(base, *days[:2]), bank(base, days[2])
+    training, judge = network(base, *days[:2]), network(base, days[2])
     point = fitted(training)
     carried = carried_over(point, training, judge)
     forgotten = Point(np.zeros(len(judge.parameters)))
@@ -140,13 +161,14 @@ def test_a_thermometer_that_is_off_every_day_is_known_on_the_next(tmp_path):
     # two days put 2/3 of what both have into what is shared: (1 - 2/3)^2 of the misfit stays
     assert after - 1.0 == pytest.approx((before - 1.0) / 9.0, rel=0.35)
     assert [judge.parameters[i].name for i in own_numbers(judge, training)] == [
-        "ambient_offset of recording 1", "initial_temperature of recording 1"
-    ]  # fmt: skip
+        "ambient_offset of recording 1",
+        "initial_temperature of recording 1",
+    ]
 
 
 def test_the_shares_of_rig_and_day_add_to_what_is_stated(tmp_path):
     base, days = rooms(tmp_path, "21 degC", uncertain={"room.temperature": "1 K"})
-    room = {p.name: p.deviation for p in bank(base, *days).parameters if "ambient" in p.name}
+    room = {p.name: p.deviation for p in network(base, *days).parameters if "ambient" in p.name}
     assert room == {
         "ambient_offset": pytest.approx(1.0 / np.sqrt(2.0)),
         "ambient_offset of recording 1": pytest.approx(1.0 / np.sqrt(2.0)),
@@ -155,7 +177,7 @@ def test_the_shares_of_rig_and_day_add_to_what_is_stated(tmp_path):
 
 def test_a_room_that_is_another_each_day_is_no_property_of_the_rig(tmp_path):
     base, days = rooms(tmp_path, "21.6 degC", "20.4 degC")
-    model = bank(base, *days)
+    model = network(base, *days)
     point = fitted(model)
     by_name = {p.name: p.deviation * z for p, z in zip(model.parameters, point.base)}
     assert abs(by_name["ambient_offset"]) < 0.05
@@ -165,15 +187,18 @@ def test_a_room_that_is_another_each_day_is_no_property_of_the_rig(tmp_path):
 
 def test_two_halves_of_a_day_have_one_room_and_two_starts(tmp_path):
     base, days = rooms(tmp_path, "21.4 degC", "21.4 degC", day="monday")
-    names = [p.name for p in bank(base, *days).parameters if " of recording " in p.name]
-    assert names == ["ambient_offset of recording day monday", "initial_temperature of recording 1",
-                     "initial_temperature of recording 2"]  # fmt: skip
+    names = [p.name for p in network(base, *days).parameters if " of recording " in p.name]
+    assert names == [
+        "ambient_offset of recording day monday",
+        "initial_temperature of recording 1",
+        "initial_temperature of recording 2",
+    ]
 
 
 def test_the_room_of_a_day_that_was_fitted_is_known_of_its_other_half(tmp_path):
     base, days = rooms(tmp_path, "22 degC", "22 degC", day="monday")
     _, others = rooms(tmp_path / "other", "22 degC") if (tmp_path / "other").mkdir() is None else (None, [])
-    training, judge, stranger = bank(base, days[0]), bank(base, days[1]), bank(base, others[0])
+    training, judge, stranger = network(base, days[0]), network(base, days[1]), network(base, others[0])
     point = fitted(training)
     whole, half = (float(total(m, carried_over(point, training, m), 0, "ambient_offset")[0]) for m in (judge, stranger))
     assert whole == pytest.approx(1.0, abs=0.1)
@@ -185,9 +210,16 @@ def test_the_room_of_a_day_that_was_fitted_is_known_of_its_other_half(tmp_path):
 def test_a_first_stretch_tells_the_start_of_each_coil(tmp_path):
     base = scenario(tmp_path)
     first = record(base, tmp_path / "first", {}, 1)
-    second = record(base, tmp_path / "second", conditions(APART), 2, conditions("50 degC"), beginning="2 s",
-                    uncertain={"heaters.initial_temperature": "5 K"})  # fmt: skip
-    training, judge = bank(base, first), bank(base, second)
+    second = record(
+        base,
+        tmp_path / "second",
+        conditions(APART),
+        2,
+        conditions("50 degC"),
+        beginning="2 s",
+        uncertain={"heaters.initial_temperature": "5 K"},
+    )
+    training, judge = network(base, first), network(base, second)
     carried = carried_over(fitted(training), training, judge)
     begins, points = begun(judge, training, {"after": carried}, [second])
     found = total(judge, points["after"], 0, "initial_temperature") - CELSIUS
@@ -206,13 +238,20 @@ def closed(base, *recordings):
 def test_starts_that_any_fmu_has_are_unknown_element_by_element(tmp_path, parameters):
     """Where the scenario gives none, the FMU's own start value is the nominal one: 295.15 K."""
     base = scenario(tmp_path, "tcp_muscle", parameters)
-    recording = record(base, tmp_path / "one", conditions(["25 degC", "20 degC"]), 1, conditions(room="22 degC"),
-                       uncertain={"heaters.initial_temperature": "3 K"})  # fmt: skip
+    recording = record(
+        base,
+        tmp_path / "one",
+        conditions(["25 degC", "20 degC"]),
+        1,
+        conditions(room="22 degC"),
+        uncertain={"heaters.initial_temperature": "3 K"},
+    )
     model = closed(base, recording)
     assert [p.name for p in model.parameters] == [
-        "offset of heaters.initial_temperature", "offset of heaters.initial_temperature[1] of recording 1",
+        "offset of heaters.initial_temperature",
+        "offset of heaters.initial_temperature[1] of recording 1",
         "offset of heaters.initial_temperature[2] of recording 1",
-    ]  # fmt: skip
+    ]
     assert np.hypot(*[p.deviation for p in model.parameters[:2]]) == pytest.approx(3.0)
     point = Point(np.array([1.0, 0.5, -0.25]))
     changed = model.scenario_at(point, 0).components["heaters"].parameters["initial_temperature"]
@@ -237,8 +276,9 @@ def test_what_recordings_share_needs_no_runs_of_its_own(tmp_path):
 def test_the_room_that_a_rig_shares_is_carried_by_any_model(tmp_path):
     base = scenario(tmp_path, "tcp_muscle")
     truth, said = conditions("21 degC", "21.4 degC"), conditions("21 degC", "21 degC")
-    days = [record(base, tmp_path / f"day_{n}", truth, n, said, uncertain={"room.temperature": "1 K"})
-            for n in range(3)]  # fmt: skip
+    days = [
+        record(base, tmp_path / f"day_{n}", truth, n, said, uncertain={"room.temperature": "1 K"}) for n in range(3)
+    ]
     training, judge = closed(base, *days[:2]), closed(base, days[2])
     carried = carried_over(fitted(training), training, judge)
     shift = judge.changes_at(carried, 0).shifts["room"]["temperature"]
@@ -274,8 +314,14 @@ connections: [supply.voltage -> circuit.supply_voltage]
 """
     (tmp_path / "scenario.yaml").write_text(text)
     base = load_scenario(tmp_path / "scenario.yaml")
-    recording = record(base, tmp_path / "one", {}, 1, channels="coil[*].temperature", uncertain={
-        "muscles.initial_temperature[3]": "2 K", "room.temperature": "0.5 degC"})  # fmt: skip
+    recording = record(
+        base,
+        tmp_path / "one",
+        {},
+        1,
+        channels="coil[*].temperature",
+        uncertain={"muscles.initial_temperature[3]": "2 K", "room.temperature": "0.5 degC"},
+    )
     model = closed(base, recording)
     point = Point(np.array([1.0 if "[3]" in p.name else 0.0 for p in model.parameters]))
     changed = model.scenario_at(Point(point.base + 0.5), 0).components
@@ -288,8 +334,9 @@ connections: [supply.voltage -> circuit.supply_voltage]
 def test_an_amended_scenario_has_what_every_day_has_and_no_day_of_its_own(tmp_path):
     base = scenario(tmp_path, "tcp_muscle")
     given = {"room.temperature": "1 K", "heaters.initial_temperature": "2 K"}
-    days = [record(base, tmp_path / f"day_{n}", {}, n, conditions("30 degC", "25 degC"), uncertain=given)
-            for n in range(2)]  # fmt: skip
+    days = [
+        record(base, tmp_path / f"day_{n}", {}, n, conditions("30 degC", "25 degC"), uncertain=given) for n in range(2)
+    ]
     model = ClosedLoopModel(base, days)
     z = [1.0 if " of recording " not in p.name else 5.0 for p in model.parameters]
     path = amend_closed_loop(base, model, Point(np.array(z)), tmp_path / "amended")
@@ -300,7 +347,7 @@ def test_an_amended_scenario_has_what_every_day_has_and_no_day_of_its_own(tmp_pa
     assert start == pytest.approx(21.0 + 0.3 / np.sqrt(2.0))
 
 
-def test_a_bank_hears_a_single_coil_by_its_name_in_fmi_2():
+def test_a_network_hears_a_single_coil_by_its_name_in_fmi_2():
     base = load_scenario("hanging_contraction")
     coils = base.components["actuator"]
     own = {**coils.parameters, "initial_temperature[2]": PhysicalValue(48.0, "degC")}

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diagnosis.bank.layout import BankLayout
+from diagnosis.models.coil_network.free import Clocks, free_parameters
+from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
+from diagnosis.models.coil_network.priors import DailyPriors
 from diagnosis.search.problem import Parameter
-from diagnosis.simulator.free import Clocks, free_parameters
-from diagnosis.simulator.priors import DailyPriors
 
 
 def _parameters(clocks: Clocks) -> dict[str, Parameter]:
-    found = free_parameters(BankLayout(2, (2,)), {}, {"temperature"}, clocks, {}, DailyPriors())
+    found = free_parameters(CoilNetworkLayout(2, (2,)), {}, {"temperature"}, clocks, {}, DailyPriors())
     return {f.parameter.name: f.parameter for f in found}
 
 

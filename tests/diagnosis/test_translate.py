@@ -1,4 +1,4 @@
-"""Every key of a scenario is either honoured by the coil bank, or the bank says that it cannot stand for it."""
+"""Every key of a scenario is either honoured by the coil network, or the network says that it cannot stand for it."""
 
 import copy
 from pathlib import Path
@@ -9,16 +9,16 @@ import pandas as pd
 import pytest
 import yaml
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
-from diagnosis.bank.bank import Bank
+from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
+from diagnosis.models.build import model_of, models_of
+from diagnosis.models.coil_network.kernel.network import CoilNetwork
+from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import recalibrate
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.models import model_of, models_of
-from diagnosis.simulator.translate import NoBank, translate
 from tests.amend.bench import VARIABLES
 
 TWO_BY_TWO = yaml.safe_load((Path(__file__).parent.parent / "amend" / "two_by_two.yaml").read_text())
@@ -54,20 +54,20 @@ def scenario(data, tmp_path):
 
 
 def by_both(data, tmp_path):
-    """Quantity to what the bank and the co-simulation give, in steps of one macro-step."""
+    """Quantity to what the network and the co-simulation give, in steps of one macro-step."""
     given = scenario(data, tmp_path)
     translation = translate(given)
     results = run(given)
     ends = results["time"].values
     inputs = translation.drive.on_grid(ends)
-    found = Bank(translation.layout, is_midpoint=False).simulate(translation.parameters, inputs, ends)
+    found = CoilNetwork(translation.layout, is_midpoint=False).simulate(translation.parameters, inputs, ends)
     names = {q: v for q, v in VARIABLES.items() if v in results and q in found}
     return {q: (found[q][1:], results[v].values.reshape(len(ends), -1)[1:]) for q, v in names.items()}
 
 
 @pytest.fixture(scope="module")
 def unchanged(_fmus, tmp_path_factory):
-    """Quantity to what the bank gives of the scenario as it is."""
+    """Quantity to what the network gives of the scenario as it is."""
     return {q: own for q, (own, _) in by_both(TWO_BY_TWO, tmp_path_factory.mktemp("unchanged")).items()}
 
 
@@ -110,60 +110,113 @@ HONOURED = {
     "start of the run": {"time.start": "-2 s"},
     "linear voltage": {"components.supply.outputs.voltage.interpolation": "linear"},
     "initial_temperature": {"components.actuator.parameters.initial_temperature": "60 degC"},
-    "R(T)": {"components.actuator.parameters.resistance_temperature_coefficient": "0.01 1/K",
-             "components.actuator.parameters.reference_temperature": "330 K"},
-    "cooling": {"components.actuator.parameters.use_regressed_cooling_rate": True,
-                "components.actuator.parameters.cooling_rate": "0.5 1/s",
-                "components.actuator.parameters.off_power": "0.5 W"},
-    "body": {"components.actuator.parameters.volume": "20 mm^3", "components.actuator.parameters.area": "300 mm^2",
-             "components.actuator.parameters.density": "3000 kg/m^3",
-             "components.actuator.parameters.specific_heat": "1500 J/(kg*K)",
-             "components.actuator.parameters.heat_transfer_coefficient": "30 W/(m^2*K)"},
-    "branches": {"components.actuator.parameters.heating_a": "190 N/m",
-                 "components.actuator.parameters.heating_b": "30000",
-                 "components.actuator.parameters.cooling_b": "300",
-                 "components.actuator.parameters.cooling_d": "170 N/m"},
+    "R(T)": {
+        "components.actuator.parameters.resistance_temperature_coefficient": "0.01 1/K",
+        "components.actuator.parameters.reference_temperature": "330 K",
+    },
+    "cooling": {
+        "components.actuator.parameters.use_regressed_cooling_rate": True,
+        "components.actuator.parameters.cooling_rate": "0.5 1/s",
+        "components.actuator.parameters.off_power": "0.5 W",
+    },
+    "body": {
+        "components.actuator.parameters.volume": "20 mm^3",
+        "components.actuator.parameters.area": "300 mm^2",
+        "components.actuator.parameters.density": "3000 kg/m^3",
+        "components.actuator.parameters.specific_heat": "1500 J/(kg*K)",
+        "components.actuator.parameters.heat_transfer_coefficient": "30 W/(m^2*K)",
+    },
+    "branches": {
+        "components.actuator.parameters.heating_a": "190 N/m",
+        "components.actuator.parameters.heating_b": "30000",
+        "components.actuator.parameters.cooling_b": "300",
+        "components.actuator.parameters.cooling_d": "170 N/m",
+    },
     "rest length": {"components.actuator.parameters.coil_rest_length": "30 mm"},
-}  # fmt: skip
+}
 
 #: Change to a part of the reason.
 REFUSED = {
-    "late contact": ({"components.circuit.elements": [
-        {"kind": "contact", "string": 1, "resistance": "1 ohm", "instant": "5 s"}]}, "contact from an instant on"),
+    "late contact": (
+        {"components.circuit.elements": [{"kind": "contact", "string": 1, "resistance": "1 ohm", "instant": "5 s"}]},
+        "contact from an instant on",
+    ),
     "lead": ({"components.circuit.elements": [{"kind": "lead", "string": 1, "rise": "5 ohm/A^2"}]}, "kind lead"),
     "drop": ({"components.circuit.elements": [{"kind": "drop", "string": 1, "voltage": "0.5 V"}]}, "kind drop"),
     "limit": ({"components.circuit.elements": [{"kind": "current_limit", "limit": "0.1 A"}]}, "kind current_limit"),
     "slow": ({"components.circuit.elements": [{"kind": "slow_source", "delay": "2 s"}]}, "kind slow_source"),
     "added terms": ({"components.actuator.added_terms": [{"to": "power", "formula": "0.1 * power"}]}, "added_terms"),
-    "other FMU": ({"components.actuator.fmu": "instant_stiffness",
-                   "components.actuator.parameters": {}}, "thermal_stiffness"),
-    "scaled power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
-                                      {"connect": "circuit.power -> actuator.power", "factor": 0.5}]}, "is scaled"),
-    "moved power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
-                                     *(f"circuit.power[{5 - n}] -> actuator.power[{n}]" for n in (1, 2, 3, 4))]},
-                    "in their order"),
-    "part of the power": ({"connections": ["supply.voltage -> circuit.supply_voltage",
-                                           *(f"circuit.power[{n}] -> actuator.power[{n}]" for n in (1, 2, 3))]},
-                          "of some coils"),
-    "other power": ({"components.supply.outputs.power": {"unit": "W", "dim": "coil", "constant": ["0.2 W"] * 4},
-                     "connections": ["supply.voltage -> circuit.supply_voltage",
-                                     "supply.power -> actuator.power"]}, "circuit.power"),
-    "scaled stiffness": ({"connections": ["supply.voltage -> circuit.supply_voltage",
-                                          {"connect": "actuator.stiffness -> load.stiffness", "factor": 2}]},
-                         "is scaled"),
-    "other resistance": ({"components.supply.outputs.ohm": {"unit": "ohm", "dim": "coil", "constant": ["3 ohm"] * 4},
-                          "connections": ["supply.voltage -> circuit.supply_voltage",
-                                          "supply.ohm -> circuit.resistance"]}, "circuit.resistance from actuator"),
-    "driven by a start value": ({"components.circuit": None, "components.actuator.electrical": None,
-                                 "components.actuator.structure": {"coils": 4},
-                                 "components.actuator.start": {"power": "0.2 W"}, "algorithm": None,
-                                 "components.supply.outputs.power": {"unit": "W", "constant": "0.1 W"},
-                                 "connections": ["supply.power -> actuator.power[1]"]}, "start.power"),
-}  # fmt: skip
+    "other FMU": (
+        {"components.actuator.fmu": "instant_stiffness", "components.actuator.parameters": {}},
+        "thermal_stiffness",
+    ),
+    "scaled power": (
+        {
+            "connections": [
+                "supply.voltage -> circuit.supply_voltage",
+                {"connect": "circuit.power -> actuator.power", "factor": 0.5},
+            ]
+        },
+        "is scaled",
+    ),
+    "moved power": (
+        {
+            "connections": [
+                "supply.voltage -> circuit.supply_voltage",
+                *(f"circuit.power[{5 - n}] -> actuator.power[{n}]" for n in (1, 2, 3, 4)),
+            ]
+        },
+        "in their order",
+    ),
+    "part of the power": (
+        {
+            "connections": [
+                "supply.voltage -> circuit.supply_voltage",
+                *(f"circuit.power[{n}] -> actuator.power[{n}]" for n in (1, 2, 3)),
+            ]
+        },
+        "of some coils",
+    ),
+    "other power": (
+        {
+            "components.supply.outputs.power": {"unit": "W", "dim": "coil", "constant": ["0.2 W"] * 4},
+            "connections": ["supply.voltage -> circuit.supply_voltage", "supply.power -> actuator.power"],
+        },
+        "circuit.power",
+    ),
+    "scaled stiffness": (
+        {
+            "connections": [
+                "supply.voltage -> circuit.supply_voltage",
+                {"connect": "actuator.stiffness -> load.stiffness", "factor": 2},
+            ]
+        },
+        "is scaled",
+    ),
+    "other resistance": (
+        {
+            "components.supply.outputs.ohm": {"unit": "ohm", "dim": "coil", "constant": ["3 ohm"] * 4},
+            "connections": ["supply.voltage -> circuit.supply_voltage", "supply.ohm -> circuit.resistance"],
+        },
+        "circuit.resistance from actuator",
+    ),
+    "driven by a start value": (
+        {
+            "components.circuit": None,
+            "components.actuator.electrical": None,
+            "components.actuator.structure": {"coils": 4},
+            "components.actuator.start": {"power": "0.2 W"},
+            "algorithm": None,
+            "components.supply.outputs.power": {"unit": "W", "constant": "0.1 W"},
+            "connections": ["supply.power -> actuator.power[1]"],
+        },
+        "start.power",
+    ),
+}
 
 
 @pytest.mark.parametrize("name", HONOURED)
-def test_a_key_of_the_scenario_changes_the_bank_as_it_changes_the_co_simulation(name, unchanged, tmp_path):
+def test_a_key_of_the_scenario_changes_the_network_as_it_changes_the_co_simulation(name, unchanged, tmp_path):
     data = changed(HONOURED[name])
     if name == "start of the run":
         data["components"]["supply"]["outputs"]["voltage"]["points"][0][0] = "-2 s"
@@ -178,14 +231,14 @@ def test_a_key_of_the_scenario_changes_the_bank_as_it_changes_the_co_simulation(
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_a_bank_cannot_stand_for_it_refuses_and_says_why(name, tmp_path):
+def test_what_a_network_cannot_stand_for_it_refuses_and_says_why(name, tmp_path):
     changes, reason = REFUSED[name]
-    with pytest.raises(NoBank, match=reason):
+    with pytest.raises(NoCoilNetwork, match=reason):
         translate(scenario(changed(changes), tmp_path))
 
 
 @pytest.mark.parametrize("where", ["scenario", "recording"])
-def test_what_a_bank_refuses_the_co_simulation_diagnoses_though_nothing_of_it_may_be_off(where, tmp_path):
+def test_what_a_network_refuses_the_co_simulation_diagnoses_though_nothing_of_it_may_be_off(where, tmp_path):
     """A lead that warms up, in the scenario or in what a recording overrides; no parameter states an uncertainty."""
     elements = [{"kind": "lead", "string": 1, "rise": "5 ohm/A^2"}]
     whole = changed({"components.circuit.elements": elements})
@@ -195,8 +248,13 @@ def test_what_a_bank_refuses_the_co_simulation_diagnoses_though_nothing_of_it_ma
     folder.mkdir()
     table[::10].to_csv(folder / "data.csv", index=False)
     own = {"components": {"circuit": {"elements": elements}}} if where == "recording" else {}
-    sidecar = {"title": "day", "table": "data.csv", "time": {"column": "t", "unit": "s", "zero": 0}, "overrides": own,
-               "channels": {"coil[1].temperature": {"column": "T", "unit": "degC", "noise": "0.1 degC"}}}  # fmt: skip
+    sidecar = {
+        "title": "day",
+        "table": "data.csv",
+        "time": {"column": "t", "unit": "s", "zero": 0},
+        "overrides": own,
+        "channels": {"coil[1].temperature": {"column": "T", "unit": "degC", "noise": "0.1 degC"}},
+    }
     (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar))
     (tmp_path / "scenario.yaml").write_text(yaml.safe_dump(whole if where == "scenario" else TWO_BY_TWO))
     model = model_of(load_scenario(tmp_path / "scenario.yaml"), [load_recording(folder)], catalogue(), 1)
@@ -221,9 +279,13 @@ def test_a_recording_of_another_rig_is_refused(overrides, text, tmp_path):
         place = tmp_path / name
         place.mkdir()
         pd.DataFrame({"t": times, "T": 22.0 + 0.0 * times}).to_csv(place / "data.csv", index=False)
-        sidecar = {"title": name, "table": "data.csv", "time": {"column": "t", "unit": "s", "zero": 0},
-                   "overrides": {"components": {"circuit": own}},
-                   "channels": {"coil[1].temperature": {"column": "T", "unit": "degC"}}}  # fmt: skip
+        sidecar = {
+            "title": name,
+            "table": "data.csv",
+            "time": {"column": "t", "unit": "s", "zero": 0},
+            "overrides": {"components": {"circuit": own}},
+            "channels": {"coil[1].temperature": {"column": "T", "unit": "degC"}},
+        }
         (place / "recording.yaml").write_text(yaml.safe_dump(sidecar))
         days.append(load_recording(place))
     given = load_scenario(tmp_path / "scenario.yaml")

@@ -16,6 +16,7 @@ from diagnosis.judge.location import Remainder
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.standing import unidentified
+from diagnosis.models.coil_network.term_at import physical
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, load_recording
 from diagnosis.report.display import moved, parameter_words, user_interval, user_unit, user_value
@@ -25,7 +26,6 @@ from diagnosis.report.summary import print_summary
 from diagnosis.report.undecided import remainder
 from diagnosis.report.user_units import Units, written_units
 from diagnosis.search.problem import Layout, Term, TermParameter
-from diagnosis.simulator.term_at import physical
 from tests.diagnosis.report_examples import CONTACT, diagnosis
 
 

@@ -43,7 +43,7 @@ connections:
 def scenario(
     folder: Path, fmu: str = "thermal_stiffness", parameters: str = "initial_temperature: 21 degC"
 ) -> Scenario:
-    """The model; of the coil bank where its FMU is thermal_stiffness."""
+    """The model; of the coil network where its FMU is thermal_stiffness."""
     if fmu == "thermal_stiffness":
         parameters = f"use_regressed_cooling_rate: false, {parameters}".rstrip(", ")
     file = folder / "scenario.yaml"
@@ -61,9 +61,14 @@ def conditions(starts: object = None, room: str | None = None, **coils: object) 
 
 
 def record(
-    base: Scenario, folder: Path, truth: Mapping[str, Any], seed: int, said: Mapping[str, Any] | None = None,
-    channels: str = "coil[*].temperature", **keys: Any,
-) -> Recording:  # fmt: skip
+    base: Scenario,
+    folder: Path,
+    truth: Mapping[str, Any],
+    seed: int,
+    said: Mapping[str, Any] | None = None,
+    channels: str = "coil[*].temperature",
+    **keys: Any,
+) -> Recording:
     """A recording of what truly was, that says something else of it.
 
     Args:
@@ -76,11 +81,14 @@ def record(
         keys: Further keys of recording.yaml.
     """
     sensors = SensorFile.model_validate(
-        {"default": {"rate": "5 Hz", "noise": "1e-6"}, "channels": {
-            "coil.temperature": {"rate": "5 Hz", "unit": "K", "noise": f"{NOISE} K"},
-            "coil.stiffness": {"rate": "5 Hz", "noise": "0.5 N/m"},
-        }}
-    )  # fmt: skip
+        {
+            "default": {"rate": "5 Hz", "noise": "1e-6"},
+            "channels": {
+                "coil.temperature": {"rate": "5 Hz", "unit": "K", "noise": f"{NOISE} K"},
+                "coil.stiffness": {"rate": "5 Hz", "noise": "0.5 N/m"},
+            },
+        }
+    )
     empty = Recording(folder, "", {}, (), truth, base.time.stop.to("s"), 0.0)
     results = run(scenario_of(base, empty))
     read = read_results(results, channels.split(), sensors, seed, folder)

@@ -8,17 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from diagnosis.recording.recording import Recording, load_recording
-from proving.case import drawn_chain
-from proving.effects.effect import Effect, Place
-from proving.effects.electrical import OpenCoil
-from proving.effects.thermal import Draught
-from proving.recording import write_recording
-from proving.rig import drawn_rig
-from proving.sensors import read
-from proving.setups import SETUPS
-from proving.truth import Truth
+from evaluation.proving.case import drawn_chain
+from evaluation.proving.effects.effect import Effect, Place
+from evaluation.proving.effects.electrical import OpenCoil
+from evaluation.proving.effects.thermal import Draught
+from evaluation.proving.recording import write_recording
+from evaluation.proving.rig import drawn_rig
+from evaluation.proving.sensors import read
+from evaluation.proving.setups import SETUPS
+from evaluation.proving.truth import Truth
 
-SCENARIOS = Path(__file__).resolve().parents[2] / "proving" / "scenarios"
+SCENARIOS = Path(__file__).resolve().parents[2] / "evaluation" / "proving" / "scenarios"
 
 
 def open_coil(setup: str, string: int, place: int, instant: float, openness: float = 0.8) -> Effect:
@@ -52,8 +52,8 @@ def recorded(folder: Path, setup: str, effects: Sequence[Sequence[Effect]], seed
         programme = shapes[number % len(shapes)](rng, kind.top, kind.stop)
         instants = tuple(e.parameters["instant"] for e in own if e.parameters.get("instant", -1.0) > 0.0)
         trace = Truth(rig, own).run(programme, kind.step, instants)
-        banks = [(s, read(s, trace, programme.stop, rng)) for s in sensors.values()]
+        networks = [(s, read(s, trace, programme.stop, rng)) for s in sensors.values()]
         name = f"day_{number + 1}"
-        write_recording(folder / name, name, kind.overrides(programme), banks, is_noise_told=True)
+        write_recording(folder / name, name, kind.overrides(programme), networks, is_noise_told=True)
         found.append(load_recording(folder / name))
     return found

@@ -1,4 +1,4 @@
-"""Two strings of two coils whose recordings are simulated by the coil bank, each under a programme of its own.
+"""Two strings of two coils whose recordings are simulated by the coil network, each under a programme of its own.
 
 What acts in a recording is given on that recording's own clock, so that nothing here knows of a joint axis.
 """
@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from cosim.scenario import Scenario, load_scenario
-from cosim.unit import Array
-from diagnosis.bank.bank import Bank
-from diagnosis.bank.inputs import grid
-from diagnosis.bank.layout import BankLayout
-from diagnosis.bank.parameters import BankParameters
+from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import catalogue
+from diagnosis.models.coil_network.kernel.inputs import grid
+from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
+from diagnosis.models.coil_network.kernel.network import CoilNetwork
+from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.translate import translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, Recording
-from diagnosis.simulator.translate import translate
 
 SCENARIO = Path(__file__).parents[1] / "locate" / "two_strings.yaml"
 #: Steps of the supply's voltage [s, V], and the end [s]; all of them differ.
@@ -66,8 +66,8 @@ def draught(amount: float, instant: float) -> Terms:
 
 
 @functools.cache
-def bank(layout: BankLayout) -> Bank:
-    return Bank(layout, catalogue())
+def network(layout: CoilNetworkLayout) -> CoilNetwork:
+    return CoilNetwork(layout, catalogue())
 
 
 def recorded(number: int, terms: Terms | None = None, noise: float = 1.0, **facts: Any) -> Recording:
@@ -93,13 +93,20 @@ def recorded(number: int, terms: Terms | None = None, noise: float = 1.0, **fact
     channels, rng = {}, np.random.default_rng(number)
     times = {q: np.arange(p, stop + 1e-9, p) for q, (p, _) in SENSORS.items()}
     inputs = translation.drive.on_grid(grid(0.0, stop, 0.05, translation.drive.switches()))
-    values = bank(translation.layout).simulate(BankParameters(base, terms or {}), inputs, times)
+    values = network(translation.layout).simulate(CoilNetworkParameters(base, terms or {}), inputs, times)
     for quantity, (_, deviation) in SENSORS.items():
         places = ("string[1]", "string[2]") if quantity == "current" else tuple(f"coil[{c}]" for c in COILS)
         for column, place in enumerate(places):
             own = values[quantity][:, column]
             read = own + noise * deviation * rng.standard_normal(len(own))
             name = f"{place}.{quantity}"
-            channels[name] = Channel(name, parse_quantity(name), times[quantity], read, deviation, True,
-                                     is_clipped=np.zeros(len(read), dtype=bool))  # fmt: skip
+            channels[name] = Channel(
+                name,
+                parse_quantity(name),
+                times[quantity],
+                read,
+                deviation,
+                True,
+                is_clipped=np.zeros(len(read), dtype=bool),
+            )
     return replace(empty, channels=channels)

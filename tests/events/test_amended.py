@@ -14,12 +14,12 @@ from diagnosis.amend.amend import AmendedModel, amend
 from diagnosis.amend.free_run import carried, free_run
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.held_out import TOLERANCE
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.bank_model import BankModel
 from tests.events import rig
 
-#: Begin of the third recording on the joint axis, and 8 s of it: an end of steps of bank and co-simulation [s].
+#: Begin of the third recording on the joint axis, and 8 s of it: an end of steps of network and co-simulation [s].
 THIRD, INSTANT = 110.0, 8.0
 
 
@@ -29,8 +29,8 @@ def recordings() -> tuple[Recording, ...]:
 
 
 @functools.cache
-def model() -> BankModel:
-    return BankModel(rig.scenario(), recordings(), catalogue())
+def model() -> CoilNetworkModel:
+    return CoilNetworkModel(rig.scenario(), recordings(), catalogue())
 
 
 def point(*terms: tuple[str, str, tuple[float, ...]]) -> Point:
@@ -58,14 +58,12 @@ def test_a_contact_that_came_loose_is_loose_in_the_scenario_and_from_its_instant
     free = free_run(amended, recordings()[2], model().runs[2].times)
     for series, predicted in zip(model().runs[2].series, model().predict(found, 2)):
         difference = (free[series.quantity][series.samples, series.element] - predicted)[series.used]
-        away = np.abs(series.times - INSTANT)[series.used] > 0.45  # steps of the bank are up to 0.4 s
+        away = np.abs(series.times - INSTANT)[series.used] > 0.45  # steps of the network are up to 0.4 s
         assert np.sqrt(np.mean(difference[away] ** 2)) < TOLERANCE * series.channel.deviation, series.channel.name
 
 
 def test_a_draught_of_one_day_has_the_strength_0_in_the_scenario_and_its_own_in_its_recording(tmp_path: Path) -> None:
-    found = point(
-        ("draught", "all coils", (0.4, 60.0 + 20.0)), ("ambient_drift", "all coils in recording 3", (0.02,))
-    )  # fmt: skip
+    found = point(("draught", "all coils", (0.4, 60.0 + 20.0)), ("ambient_drift", "all coils in recording 3", (0.02,)))
     amended = amend(rig.scenario(), model(), found, tmp_path)
     text = amended.path.read_text()
     assert text.count("it belongs to one day alone: here its strength is 0") == 2
@@ -78,19 +76,19 @@ def test_a_draught_of_one_day_has_the_strength_0_in_the_scenario_and_its_own_in_
     assert own[1]["draught_instant"] == "20 s"
     for number in (1, 2):
         free = free_run(amended, recordings()[number], {"temperature": np.array([19.0, 45.0])})["temperature"]
-        bank = model().bank.simulate(
-            model().bank_parameters(found, number), model().runs[number].inputs, np.array([19.0, 45.0])
-        )["temperature"]  # fmt: skip
-        plain = model().bank.simulate(
-            model().bank_parameters(point(), number), model().runs[number].inputs, np.array([19.0, 45.0])
-        )["temperature"]  # fmt: skip
-        assert np.abs(bank - plain)[1].max() > 0.3
-        assert free == pytest.approx(bank, abs=0.1)  # macro-steps of 50 ms at up to 10 K/s
+        network = model().network.simulate(
+            model().network_parameters(found, number), model().runs[number].inputs, np.array([19.0, 45.0])
+        )["temperature"]
+        plain = model().network.simulate(
+            model().network_parameters(point(), number), model().runs[number].inputs, np.array([19.0, 45.0])
+        )["temperature"]
+        assert np.abs(network - plain)[1].max() > 0.3
+        assert free == pytest.approx(network, abs=0.1)  # macro-steps of 50 ms at up to 10 K/s
 
 
 def test_cycles_made_before_a_recording_count_in_its_free_run(tmp_path: Path) -> None:
     worn = [rig.recorded(n, cycles_before=10.0 * n) for n in range(2)]
-    own = BankModel(rig.scenario(), worn, catalogue())
+    own = CoilNetworkModel(rig.scenario(), worn, catalogue())
     fatigue = next(t for t in own.terms() if t.identifier == "fatigue" and t.place == "all coils")
     amended = amend(rig.scenario(), own, Point(np.zeros(len(own.parameters)), {fatigue: (0.02,)}), tmp_path)
     assert yaml.safe_load(amended.path.read_text())["components"]["actuator"]["parameters"]["cycles_before"] == "10"

@@ -11,26 +11,26 @@ from diagnosis.judge.acceptance import accept
 from diagnosis.judge.judge import findings
 from diagnosis.judge.unfitted import left_out_readings
 from diagnosis.model_error import distinct, plain_terms
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings, search
-from diagnosis.simulator.bank_model import BankModel
 from tests.events import rig
 
 FEW = ("open_coil", "shorted_coil", "loose_contact", "draught", "ambient_drift", "second_mass", "contact_resistance")
 
 
 @pytest.fixture(scope="module")
-def model() -> BankModel:
+def model() -> CoilNetworkModel:
     """The second coil of the first string half breaks between the second and the third of three recordings.
 
     After a clean break nothing tells which coil of the string it was: none is heated any more.
     """
     broken = rig.open_coil(2, rig.BEFORE, 0.6)
     recordings = [rig.recorded(2, broken, order=7), rig.recorded(0, order=2), rig.recorded(1, order=4)]
-    return BankModel(rig.scenario(), recordings, [candidate(name) for name in FEW])
+    return CoilNetworkModel(rig.scenario(), recordings, [candidate(name) for name in FEW])
 
 
-def test_a_break_between_two_recordings_is_one_at_the_begin_of_the_later(model: BankModel) -> None:
+def test_a_break_between_two_recordings_is_one_at_the_begin_of_the_later(model: CoilNetworkModel) -> None:
     settings = Settings(nulls=2, most_terms=2)
     outcome = search(model, model.terms(), settings, model.groups())
     titles = [r.title for r in model.timeline.recordings]
@@ -53,7 +53,7 @@ def test_a_break_between_two_recordings_is_one_at_the_begin_of_the_later(model: 
     assert outcome.best.fit.residuals @ outcome.best.fit.residuals < 1.1 * np.count_nonzero(outcome.best.fit.residuals)
 
 
-def test_terms_of_different_days_stay_apart_and_none_of_them_is_plain(model: BankModel) -> None:
+def test_terms_of_different_days_stay_apart_and_none_of_them_is_plain(model: CoilNetworkModel) -> None:
     drifts = [t for t in distinct(model, model.terms()) if t.identifier == "ambient_drift"]
     assert len(drifts) == 3 * 4
     plain = {t.identifier for t in plain_terms(model, model.terms())}
@@ -62,7 +62,7 @@ def test_terms_of_different_days_stay_apart_and_none_of_them_is_plain(model: Ban
 
 def test_in_another_experiment_what_broke_is_broken_and_a_draught_is_over() -> None:
     recordings = [rig.recorded(n) for n in range(2)]
-    model = BankModel(rig.scenario(), recordings, catalogue())
+    model = CoilNetworkModel(rig.scenario(), recordings, catalogue())
     terms = {(t.identifier, t.place): t for t in model.terms()}
     points = [
         Point(np.zeros(len(model.parameters)), {terms["open_coil", "coil[1,1]"]: (1.0, 80.0)}),

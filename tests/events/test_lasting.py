@@ -1,4 +1,4 @@
-"""Events in a coil bank of three recordings with different programmes: predictions, slopes, bounds, cost."""
+"""Events in a coil network of three recordings with different programmes: predictions, slopes, bounds, cost."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import candidate, catalogue
 from diagnosis.judge.diagnosis import Estimate
 from diagnosis.judge.events import event_interval, event_of, local_estimates, local_instant
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.judge import estimates
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.masked import MaskedModel
 from tests.events import rig
 
 #: Begin of the third recording on the joint axis [s].
@@ -25,14 +25,14 @@ THIRD = 110.0
 
 
 @functools.cache
-def model() -> BankModel:
-    return BankModel(rig.scenario(), [rig.recorded(n) for n in range(3)], catalogue())
+def model() -> CoilNetworkModel:
+    return CoilNetworkModel(rig.scenario(), [rig.recorded(n) for n in range(3)], catalogue())
 
 
 @functools.cache
-def judge() -> BankModel:
+def judge() -> CoilNetworkModel:
     held_out = [rig.recorded(3), rig.recorded(3, title="again")]
-    return BankModel(rig.scenario(), held_out, catalogue(), timeline=model().timeline)
+    return CoilNetworkModel(rig.scenario(), held_out, catalogue(), timeline=model().timeline)
 
 
 def term(identifier: str, place: str) -> Term:
@@ -93,7 +93,7 @@ def test_a_drift_is_tried_in_every_recording_at_once_and_in_each_alone() -> None
 
 
 def test_of_one_recording_nothing_is_of_another_day() -> None:
-    alone = BankModel(rig.scenario(), [rig.recorded(0)], catalogue())
+    alone = CoilNetworkModel(rig.scenario(), [rig.recorded(0)], catalogue())
     drifts = {t.place for t in alone.terms() if t.identifier == "ambient_drift"}
     assert drifts == {"all coils", "string[1]", "string[2]"}
     (free,) = [p for p in term_of(alone, "open_coil", "coil[1,1]").parameters if p.is_instant]
@@ -102,7 +102,7 @@ def test_of_one_recording_nothing_is_of_another_day() -> None:
     assert len(free.scan) == 40
 
 
-def term_of(other: BankModel, identifier: str, place: str) -> Term:
+def term_of(other: CoilNetworkModel, identifier: str, place: str) -> Term:
     return next(t for t in other.terms() if t.identifier == identifier and t.place == place)
 
 
@@ -157,7 +157,7 @@ def test_an_event_is_told_by_its_recording_and_that_ones_clock() -> None:
 def test_an_estimate_carries_the_instant_and_its_interval_on_the_clock_of_its_recording() -> None:
     """A contact that comes loose while the supply is at 0 V (40 s to the end, and 4 s of the next day)."""
     training = [rig.recorded(3, rig.loose_contact(46.0)), rig.recorded(0, rig.loose_contact(rig.BEFORE))]
-    own = BankModel(rig.scenario(), training, catalogue())
+    own = CoilNetworkModel(rig.scenario(), training, catalogue())
     contact = term_of(own, "loose_contact", "string[2]")
     start = Point(np.zeros(len(own.parameters)), {contact: (1.0, 47.0)})
     found = fit(own, start)
@@ -167,7 +167,7 @@ def test_an_estimate_carries_the_instant_and_its_interval_on_the_clock_of_its_re
     # known no better than from 40 s of the first recording to 3 s of the second, which begins at 52 s of the first
     assert 39.5 < instant.lower < 40.3
     assert 55.0 < instant.upper < 57.0
-    sharp = BankModel(rig.scenario(), [rig.recorded(1), rig.recorded(0, rig.loose_contact(12.0))], catalogue())
+    sharp = CoilNetworkModel(rig.scenario(), [rig.recorded(1), rig.recorded(0, rig.loose_contact(12.0))], catalogue())
     contact = term_of(sharp, "loose_contact", "string[2]")
     found = fit(sharp, Point(np.zeros(len(sharp.parameters)), {contact: (1.0, 50.0 + 12.2)}))
     _, instant = local_estimates(estimates(found, contact), contact, found, sharp)
@@ -180,8 +180,8 @@ def test_an_estimate_carries_the_instant_and_its_interval_on_the_clock_of_its_re
 
 
 def test_cycles_made_before_count() -> None:
-    fresh = BankModel(rig.scenario(), [rig.recorded(0)], catalogue())
-    used = BankModel(rig.scenario(), [rig.recorded(0, cycles_before=10.0)], catalogue())
+    fresh = CoilNetworkModel(rig.scenario(), [rig.recorded(0)], catalogue())
+    used = CoilNetworkModel(rig.scenario(), [rig.recorded(0, cycles_before=10.0)], catalogue())
     for name, value in (("fatigue", 0.01), ("fatigue_shift", 0.2)):
         own = term_of(used, name, "all coils")
         point = Point(np.zeros(len(used.parameters)), {own: (value,)})
@@ -195,7 +195,7 @@ def test_cycles_made_before_count() -> None:
     # the first heating: a tenth of the effect is lost where none was before
     worn_out = Point(point.base, {term_of(used, "fatigue", "all coils"): (0.01,)})
     hot, cold = (
-        used.bank.simulate(used.bank_parameters(p, 0), used.runs[0].inputs, {"stiffness": np.array([21.0])})
+        used.network.simulate(used.network_parameters(p, 0), used.runs[0].inputs, {"stiffness": np.array([21.0])})
         for p in (worn_out, Point(point.base))
     )
     soft = 157.1  # heating_d [N/m]: what does not fade
@@ -206,10 +206,16 @@ def test_cycles_made_before_count() -> None:
 def test_every_candidate_with_an_instant_says_whether_it_lasts() -> None:
     with_instant = [c for c in catalogue() if any(p.is_instant for p in c.parameters)]
     assert {c.identifier: c.scope for c in with_instant} == {
-        "open_coil": "rig", "shorted_coil": "rig", "loose_contact": "rig", "unnamed_resistance_step": "rig",
-        "unnamed_series_step": "rig", "draught": "day", "ambient_step": "day", "unnamed_heat_step": "day",
+        "open_coil": "rig",
+        "shorted_coil": "rig",
+        "loose_contact": "rig",
+        "unnamed_resistance_step": "rig",
+        "unnamed_series_step": "rig",
+        "draught": "day",
+        "ambient_step": "day",
+        "unnamed_heat_step": "day",
         "unnamed_heat_excess_times_step": "day",
-    }  # fmt: skip
+    }
     assert all(c.scope_reason for c in with_instant)
     assert candidate("ambient_drift").scope == "day"
     assert all(candidate(c.same_as).scope == c.scope for c in catalogue() if c.same_as)

@@ -13,7 +13,7 @@ from diagnosis.diagnose import Found, Means, diagnose
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.judge.events import event_of
 from diagnosis.search.search import Settings
-from proving.effects.effect import Effect
+from evaluation.proving.effects.effect import Effect
 from tests.events import network
 
 pytestmark = pytest.mark.slow

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
+from diagnosis.models.timeline import ASIDE, Day, Timeline
 from diagnosis.recording.recording import Recording
-from diagnosis.simulator.timeline import ASIDE, Day, Timeline
 
 SPANS = [(0.0, 60.0), (10.0, 60.0), (0.0, 64.0)]
 
@@ -72,8 +72,12 @@ def test_recordings_held_out_come_last_or_where_they_say() -> None:
     late, between, early = line.others(
         [recording("a"), recording("b", order=3), recording("c", order=0)], [(0.0, 50.0)] * 3
     )
-    for instant, expected in ((5.0, (True, True, False)), (109.0, (True, True, False)), (118.0, (True, False, False)),
-                              (174.0, (True, False, False))):  # fmt: skip
+    for instant, expected in (
+        (5.0, (True, True, False)),
+        (109.0, (True, True, False)),
+        (118.0, (True, False, False)),
+        (174.0, (True, False, False)),
+    ):
         found = tuple(line.local(instant, s, lasts=True) for s in (late, between, early))
         assert found == tuple(-ASIDE if there else None for there in expected), instant
     assert line.local(118.0, late, lasts=False) is None

@@ -10,11 +10,11 @@ import numpy as np
 
 from cosim.scenario import Scenario, load_scenario
 from diagnosis.candidates.registry import catalogue
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.bank_model import BankModel
 
 SCENARIO = """
 title: Coils in series on one supply, a mass below each
@@ -39,9 +39,12 @@ connections:
 """
 #: Channel to period [s] and noise [SI].
 SENSORS = {
-    "coil[1,1].temperature": (0.5, 0.3), "coil[1,2].temperature": (0.5, 0.3), "coil[1,1].extension": (0.5, 3e-4),
-    "coil[1,2].extension": (0.5, 3e-4), "supply.current": (0.25, 3e-3),
-}  # fmt: skip
+    "coil[1,1].temperature": (0.5, 0.3),
+    "coil[1,2].temperature": (0.5, 0.3),
+    "coil[1,1].extension": (0.5, 3e-4),
+    "coil[1,2].extension": (0.5, 3e-4),
+    "supply.current": (0.25, 3e-3),
+}
 
 
 @dataclass(frozen=True)
@@ -65,15 +68,22 @@ def perfect(made: Scenario, title: str = "recording") -> Recording:
     channels = {}
     for name, (period, noise) in SENSORS.items():
         times = np.arange(period, stop + 1e-9, period)
-        channels[name] = Channel(name, parse_quantity(name), times, np.zeros(len(times)), noise, True,
-                                 is_clipped=np.zeros(len(times), dtype=bool))  # fmt: skip
+        channels[name] = Channel(
+            name,
+            parse_quantity(name),
+            times,
+            np.zeros(len(times)),
+            noise,
+            True,
+            is_clipped=np.zeros(len(times), dtype=bool),
+        )
     return Recording(made.path.parent, title, channels, (), {}, stop, 0.3)
 
 
 def measured(made: Scenario, effect: Effect, base: np.ndarray, random: np.random.Generator) -> Recording:
     """What the sensors read where an effect acts and the model's own parameters are off by `base` deviations."""
     empty = perfect(made)
-    model = BankModel(made, [empty], catalogue())
+    model = CoilNetworkModel(made, [empty], catalogue())
     day = np.array([" of recording " in p.name for p in model.parameters])
     z = np.where(day, random.standard_normal(len(day)), base)
     values = model.predict(Point(z, {named(model, effect.term): effect.values}), 0)
@@ -86,13 +96,13 @@ def measured(made: Scenario, effect: Effect, base: np.ndarray, random: np.random
 
 def off(made: Scenario, random: np.random.Generator) -> np.ndarray:
     """Distances of the true parameters from the nominal ones, in prior deviations."""
-    return random.standard_normal(len(BankModel(made, [perfect(made)], catalogue()).parameters))
+    return random.standard_normal(len(CoilNetworkModel(made, [perfect(made)], catalogue()).parameters))
 
 
-def named(model: BankModel, name: str) -> Term:
+def named(model: CoilNetworkModel, name: str) -> Term:
     return next(t for t in model.terms() if str(t) == name)
 
 
-def fitted(model: BankModel, effects: Sequence[Effect], base: Fit) -> list[Fit]:
+def fitted(model: CoilNetworkModel, effects: Sequence[Effect], base: Fit) -> list[Fit]:
     """Every effect fitted with all parameters."""
     return [fit(model, base.point.plus(named(model, e.term), e.values)) for e in effects]

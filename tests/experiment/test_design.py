@@ -15,28 +15,36 @@ from diagnosis.experiment.bench import Belief, Bench, Conditions
 from diagnosis.experiment.design import Open, SoFar, design, open_explanations
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.judge import probabilities
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, TermParameter
 from diagnosis.search.search import Explanation, Outcome, recalibrate
 from diagnosis.search.structure import Structure
-from diagnosis.simulator.bank_model import BankModel
 from tests.experiment.rig import Effect, fitted, measured, off, perfect, scenario
 
-STRESS = (Effect("stress_dependent_transformation at all coils", (4.0,)),
-          Effect("transformation_shift at all coils", (4.0,)))  # fmt: skip
+STRESS = (
+    Effect("stress_dependent_transformation at all coils", (4.0,)),
+    Effect("transformation_shift at all coils", (4.0,)),
+)
 MASS = (Effect("second_mass at all coils", (0.0005, 0.05)), Effect("ambient_drift at all coils", (0.009,)))
-LATENT = (Effect("latent_heat at all coils", (0.035,)),
-          Effect("temperature_dependent_resistance at all coils", (0.0002,)))  # fmt: skip
-RADIATION = (Effect("radiation at all coils", (3e-4,)),
-             Effect("temperature_dependent_convection at all coils", (0.0012,)))  # fmt: skip
+LATENT = (
+    Effect("latent_heat at all coils", (0.035,)),
+    Effect("temperature_dependent_resistance at all coils", (0.0002,)),
+)
+RADIATION = (
+    Effect("radiation at all coils", (3e-4,)),
+    Effect("temperature_dependent_convection at all coils", (0.0012,)),
+)
 LAG = (Effect("sensor_lag at every temperature", (0.28,)), Effect("sensor_clock_offset at every temperature", (0.25,)))
 #: ln of odds of 20 to 1.
 DECISIVE = np.log(20.0)
 
 
-def rivals(made: Scenario, recordings: list[Recording], pair: tuple[Effect, Effect]) -> tuple[BankModel, list[Fit]]:
-    model = BankModel(made, recordings, catalogue())
+def rivals(
+    made: Scenario, recordings: list[Recording], pair: tuple[Effect, Effect]
+) -> tuple[CoilNetworkModel, list[Fit]]:
+    model = CoilNetworkModel(made, recordings, catalogue())
     return model, fitted(model, pair, recalibrate(model))
 
 
@@ -51,9 +59,13 @@ def as_recorded(made: Scenario, base: Scenario, recording: Recording, title: str
     assert base.path is not None
     document = yaml.safe_load(made.path.read_text())
     supply = document["components"]["supply"]["outputs"]["voltage"]
-    overrides = {"time": {"stop": document["time"]["stop"]},
-                 "components": {"supply": {"outputs": {"voltage": supply}},
-                                "load": {"mass": document["components"]["load"]["mass"]}}}  # fmt: skip
+    overrides = {
+        "time": {"stop": document["time"]["stop"]},
+        "components": {
+            "supply": {"outputs": {"voltage": supply}},
+            "load": {"mass": document["components"]["load"]["mass"]},
+        },
+    }
     return replace(recording, overrides=overrides, title=title)
 
 
@@ -108,7 +120,7 @@ def test_designed_experiments_decide_more_often_than_repeats(tmp_path: Path) -> 
 
 def test_a_bench_predicts_what_a_model_of_the_new_recording_gives(tmp_path: Path) -> None:
     made = scenario(tmp_path)
-    model = BankModel(made, [perfect(made)], catalogue())
+    model = CoilNetworkModel(made, [perfect(made)], catalogue())
     # Readings without noise: what is fitted is the truth itself.
     values = model.predict(Point(np.zeros(len(model.parameters))), 0)
     empty = perfect(made)

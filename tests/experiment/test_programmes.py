@@ -7,24 +7,29 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from diagnosis.experiment.drivers import Rig, drive, rig
 from diagnosis.experiment.limits import parse_limits
 from diagnosis.experiment.plan import courses
 from diagnosis.experiment.programmes import Levels, again, shapes, stretched
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.next_experiment import NextExperiment
-from diagnosis.simulator.translate import translate
+from diagnosis.models.coil_network.translate import translate
 from tests.experiment.rig import SCENARIO, scenario
 
 #: A voltage per string, and a bath whose temperature cannot jump: 0.5 K/s at most.
-BATH = SCENARIO.replace(
-    "      temperature: {unit: K, constant: 22 degC}",
-    "      temperature: {unit: degC, interpolation: linear, points: [[0 s, 30 degC], [60 s, 60 degC]]}",
-).replace("{unit: V, points: [[0 s, 0 V], [3 s, 1.7 V], [30 s, 0 V]]}",
-          "{unit: V, dim: string, points: [[0 s, [0 V, 0 V]], [3 s, [1.7 V, 1 V]]]}",
-).replace("strings: [2], supply: common", "strings: [1, 1], supply: per_string")  # fmt: skip
+BATH = (
+    SCENARIO.replace(
+        "      temperature: {unit: K, constant: 22 degC}",
+        "      temperature: {unit: degC, interpolation: linear, points: [[0 s, 30 degC], [60 s, 60 degC]]}",
+    )
+    .replace(
+        "{unit: V, points: [[0 s, 0 V], [3 s, 1.7 V], [30 s, 0 V]]}",
+        "{unit: V, dim: string, points: [[0 s, [0 V, 0 V]], [3 s, [1.7 V, 1 V]]]}",
+    )
+    .replace("strings: [2], supply: common", "strings: [1, 1], supply: per_string")
+)
 
 
 def made_rig(folder: Path, text: str = SCENARIO, limits: dict[str, float] | None = None) -> Rig:
@@ -103,8 +108,9 @@ def test_the_scenario_that_is_written_drives_the_rig_as_designed(text: str, tmp_
             assert one is not None
             assert other is not None
             # The same numbers go through text of twelve digits.
-            np.testing.assert_allclose(one.over(moments[:-1], moments[1:]), other.over(moments[:-1], moments[1:]),
-                                       rtol=1e-9)  # fmt: skip
+            np.testing.assert_allclose(
+                one.over(moments[:-1], moments[1:]), other.over(moments[:-1], moments[1:]), rtol=1e-9
+            )
 
 
 def test_uneven_programmes_need_several_courses() -> None:

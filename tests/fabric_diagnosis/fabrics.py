@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
 
 SMALL, DRAPE = Path(__file__).with_name("small.yaml"), Path(__file__).with_name("drape.yaml")
-SENSORS = SensorFile.model_validate({
-    "default": {"rate": "20 Hz", "noise": "0.2 mm", "unit": "m"},
-    "channels": {"coil.temperature": {"rate": "10 Hz", "noise": "0.3 K"},
-                 "supply.current": {"rate": "20 Hz", "noise": "3 mA", "unit": "A"}},
-})  # fmt: skip
+SENSORS = SensorFile.model_validate(
+    {
+        "default": {"rate": "20 Hz", "noise": "0.2 mm", "unit": "m"},
+        "channels": {
+            "coil.temperature": {"rate": "10 Hz", "noise": "0.3 K"},
+            "supply.current": {"rate": "20 Hz", "noise": "3 mA", "unit": "A"},
+        },
+    }
+)
 ELECTRICAL = ["supply.current", "coil[1,1].temperature", "coil[3,2].temperature"]
 MARKERS = [f"marker[{i}].{axis}" for i in range(5, 11) for axis in "xyz"] + ["link[15].length", "link[12].length"]
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.scenario import load_scenario, parse_scenario
+from cosim.unit.errors import InputError
 from mechanics.added import AddedEffects, tilted
 from mechanics.bullet import World, woven
 from mechanics.fabric import layout
@@ -71,9 +71,11 @@ def test_a_damped_slide_loses_its_swing_at_the_rate_of_its_damping():
 
 @pytest.mark.parametrize(
     ("added", "rest"),
-    [(AddedEffects(coil_play=1e-3), REST + 1e-3),
-     (AddedEffects(coil_contraction=1e-5), REST - 1e-5 * (STIFFNESS - 157.1))],
-)  # fmt: skip
+    [
+        (AddedEffects(coil_play=1e-3), REST + 1e-3),
+        (AddedEffects(coil_contraction=1e-5), REST - 1e-5 * (STIFFNESS - 157.1)),
+    ],
+)
 def test_play_and_contraction_move_the_balance_of_the_springs(added, rest):
     damped = AddedEffects(**{**vars(added), "slide_damping": 1.0})
     design = prototype(**WEIGHTLESS, **BETWEEN, added=damped)

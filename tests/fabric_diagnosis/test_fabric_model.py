@@ -1,4 +1,4 @@
-"""Coil bank and Bullet together: the same as the closed co-simulation, and clear refusals."""
+"""Coil network and Bullet together: the same as the closed co-simulation, and clear refusals."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 
 from cosim.assemble import assemble
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
-from diagnosis.fabric.amended import amend_fabric
-from diagnosis.fabric.laws import fabric_laws
-from diagnosis.fabric.model import START_SPEED, FabricModel
-from diagnosis.fabric.search import search_fabric
+from diagnosis.models.build import model_of
+from diagnosis.models.fabric.amended import amend_fabric
+from diagnosis.models.fabric.laws import fabric_laws
+from diagnosis.models.fabric.model import START_SPEED, FabricModel
+from diagnosis.models.fabric.search import search_fabric
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.search.cosim_run import predicted
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
-from diagnosis.simulator.models import model_of
 from tests.fabric_diagnosis.fabrics import DRAPE, ELECTRICAL, MARKERS, made, shortened, small, with_fabric
 
 SHORT = 0.1
@@ -34,16 +34,18 @@ def found(short):
     return model_of(small(), [short], catalogue())
 
 
-def test_a_scenario_with_a_fabric_is_diagnosed_by_bank_and_bullet(found):
+def test_a_scenario_with_a_fabric_is_diagnosed_by_network_and_bullet(found):
     assert isinstance(found, FabricModel)
-    assert found.banked > 20
-    assert [p.name for p in found.parameters[found.banked :]] == [
-        "fabric.link_mass", "fabric.friction", "fabric.steel_stiffness",
-    ]  # fmt: skip
+    assert found.networked > 20
+    assert [p.name for p in found.parameters[found.networked :]] == [
+        "fabric.link_mass",
+        "fabric.friction",
+        "fabric.steel_stiffness",
+    ]
     assert {t.identifier for t in found.laws()} >= {"tilt", "slide_friction", "hinge_friction", "payload", "backlash"}
 
 
-def test_bullet_driven_by_the_bank_moves_like_the_closed_co_simulation(found, short):
+def test_bullet_driven_by_the_network_moves_like_the_closed_co_simulation(found, short):
     closed = run(shortened(small(), 0.5))
     values = found.predict(Point(np.zeros(len(found.parameters))), 0)
     names = list(short.channels)
@@ -71,7 +73,7 @@ def test_what_was_found_is_a_scenario_that_runs(found, tmp_path):
     laws = {t.identifier: t for t in found.laws()}
     tilt, slide = laws["tilt"], laws["slide_friction"]
     base = np.zeros(len(found.parameters))
-    base[found.banked + 1] = 2.0  # friction, by two deviations of 5 %
+    base[found.networked + 1] = 2.0  # friction, by two deviations of 5 %
     base[[p.name for p in found.parameters].index("conductance")] = 1.0
     path = amend_fabric(small(), found, Point(base, {tilt: (0.06,), slide: (0.3,)}), tmp_path / "amended")
     amended = load_scenario(path)
@@ -109,7 +111,7 @@ def test_a_drape_without_circuit_is_diagnosed_by_the_closed_co_simulation(tmp_pa
     recording = made(tmp_path / "r", 1, channels, scenario)
     model = model_of(scenario, [recording], catalogue())
     assert isinstance(model, FabricModel)
-    assert model.bank is None
+    assert model.network is None
     values = model.predict(Point(np.zeros(len(model.parameters))), 0)
     assert [len(v) for v in values] == [len(recording.channels[n].times) for n in channels]
     assert np.abs(values[0] - recording.channels["marker[6].z"].values).max() < 2e-3  # scatter and noise

@@ -10,25 +10,34 @@ import numpy as np
 import pytest
 
 from cosim.compute.cache import Cache
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario, scenario_folder
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.candidates.registry import catalogue
 from diagnosis.command import diagnose
-from diagnosis.fabric.model import FabricModel
+from diagnosis.models.build import model_of
+from diagnosis.models.fabric.model import FabricModel
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
-from diagnosis.simulator.models import model_of
 from tests.fabric_diagnosis.fabrics import DRAPE, shortened, with_fabric
 
 #: More samples than a channel has bins, so that neither can be taken for the other.
 SENSORS = SensorFile.model_validate({"default": {"rate": "200 Hz", "noise": "0.1 mm", "unit": "m"}})
 CHANNELS = [f"marker[{i}].{axis}" for i in (5, 6) for axis in "yz"]
 #: All but a lean of the stand: few simulations do.
-WITHOUT = ["contact_friction", "slide_friction", "viscous_damping", "hinge_friction", "supply_wire_stiffness",
-           "backlash", "thermal_contraction", "payload", "roll"]  # fmt: skip
+WITHOUT = [
+    "contact_friction",
+    "slide_friction",
+    "viscous_damping",
+    "hinge_friction",
+    "supply_wire_stiffness",
+    "backlash",
+    "thermal_contraction",
+    "payload",
+    "roll",
+]
 
 
 def tiny() -> Scenario:
@@ -67,8 +76,16 @@ def answer(out: Path) -> dict:
 def test_what_held_out_readings_refute_is_suggested_and_not_accepted_and_so_when_resumed(files, tmp_path):
     scenario, monday, tuesday = files
     out = tmp_path / "answer"
-    given = {"level": 0.05, "seed": 1, "jobs": 1, "cluster": None, "without": WITHOUT, "limit": None, "brief": False,
-             "despite_doubts": True}  # fmt: skip
+    given = {
+        "level": 0.05,
+        "seed": 1,
+        "jobs": 1,
+        "cluster": None,
+        "without": WITHOUT,
+        "limit": None,
+        "brief": False,
+        "despite_doubts": True,
+    }
     diagnose(str(scenario), [monday], out=out, held_out=[tuesday], resume=False, **given)
     found = answer(out)
     assert [f["effect"] for f in found["findings"]] == ["tilt"]
@@ -87,8 +104,21 @@ def test_what_held_out_readings_refute_is_suggested_and_not_accepted_and_so_when
 def test_without_held_out_recordings_stretches_of_the_training_judge_a_fabric(files, tmp_path):
     scenario, monday, _ = files
     out = tmp_path / "answer"
-    diagnose(str(scenario), [monday], out=out, held_out=[], level=0.05, seed=1, jobs=1, cluster=None, resume=False,
-             without=WITHOUT, limit=None, brief=True, despite_doubts=True)  # fmt: skip
+    diagnose(
+        str(scenario),
+        [monday],
+        out=out,
+        held_out=[],
+        level=0.05,
+        seed=1,
+        jobs=1,
+        cluster=None,
+        resume=False,
+        without=WITHOUT,
+        limit=None,
+        brief=True,
+        despite_doubts=True,
+    )
     (found,) = answer(out)["findings"]
     assert found["effect"] == "tilt"
     assert found["parameters"][0]["value"] == pytest.approx(0.3, abs=0.1)

@@ -7,17 +7,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.fabric.mechanical import MechanicalModel
-from diagnosis.fabric.scatter import FEWEST, Bins, Whitening, calibrated_scatter, scatter_covariance
-from diagnosis.fabric.surface import Surface
+from diagnosis.models.fabric.mechanical import MechanicalModel
+from diagnosis.models.fabric.scatter import FEWEST, Bins, Whitening, calibrated_scatter, scatter_covariance
+from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Settings, search
 
 CHANNELS, TIMES = 10, 12
 CHANNEL = np.tile(np.arange(CHANNELS), TIMES)
 TIME = np.repeat(np.linspace(0.0, 1.0, TIMES), CHANNELS)
-BINS = Bins(CHANNEL, TIME, np.zeros(len(TIME), dtype=int), np.zeros(len(TIME), dtype=int),
-            np.full(len(TIME), 2e-5), np.full(len(TIME), 1e-2))  # fmt: skip
+BINS = Bins(
+    CHANNEL,
+    TIME,
+    np.zeros(len(TIME), dtype=int),
+    np.zeros(len(TIME), dtype=int),
+    np.full(len(TIME), 2e-5),
+    np.full(len(TIME), 1e-2),
+)
 SCATTER = 3e-4  # m
 
 

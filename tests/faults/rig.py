@@ -1,4 +1,4 @@
-"""Two heaters whose recordings the coil bank simulates, with noise, wrong parameters and faults of our choice."""
+"""Two heaters whose recordings the coil network simulates, with noise, wrong parameters and faults of our choice."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from cosim.scenario import Scenario, load_scenario
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.faults.model import FaultyModel, with_faults
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings, search
-from diagnosis.simulator.bank_model import BankModel
 
 SCENARIO = """
 title: Two heaters
@@ -44,8 +44,16 @@ connections:
   - room.temperature -> heaters.ambient_temperature
 """
 #: A part of the catalogue, so that a search takes a second: what faults of a day were named before.
-LAWS = ("neighbour_heat", "radiation", "second_mass", "draught", "ambient_step", "sensor_bias", "sensor_lag",
-        "sensor_drift")  # fmt: skip
+LAWS = (
+    "neighbour_heat",
+    "radiation",
+    "second_mass",
+    "draught",
+    "ambient_step",
+    "sensor_bias",
+    "sensor_lag",
+    "sensor_drift",
+)
 PERIOD, NOISE, STOP = 6.0, 0.3, 600.0
 NAMES = ("coil[1].temperature", "coil[2].temperature")
 
@@ -77,11 +85,16 @@ def blank(made: Scenario, title: str) -> Recording:
     times = np.arange(PERIOD, STOP + 1e-9, PERIOD)
     channels = {
         name: Channel(
-            name, parse_quantity(name), times, np.zeros(len(times)), NOISE, True,
+            name,
+            parse_quantity(name),
+            times,
+            np.zeros(len(times)),
+            NOISE,
+            True,
             is_clipped=np.zeros(len(times), dtype=bool),
         )
         for name in NAMES
-    }  # fmt: skip
+    }
     return Recording(made.path.parent, title, channels, (), {}, STOP, 0.0)
 
 
@@ -91,7 +104,7 @@ def recorded(
     """Two recordings of a rig with terms, whose parameters are off as drawn; then the readings that are wrong."""
     random = np.random.default_rng(seed)
     empty = [blank(made, "first"), blank(made, "second")]
-    model = BankModel(made, empty, laws())
+    model = CoilNetworkModel(made, empty, laws())
     known = {str(t): t for t in (*model.terms(), *model.input_terms())}
     point = Point(0.5 * random.standard_normal(len(model.parameters)), {known[name]: values for name, values in terms})
     found = []
@@ -119,7 +132,7 @@ def sabotaged(channel: Channel, wrong: Wrong) -> Channel:
 
 
 def faulty(made: Scenario, recordings: Sequence[Recording]) -> FaultyModel:
-    return with_faults(BankModel(made, recordings, laws()))
+    return with_faults(CoilNetworkModel(made, recordings, laws()))
 
 
 def found(made: Scenario, recordings: Sequence[Recording]) -> Outcome:

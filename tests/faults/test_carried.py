@@ -5,21 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cosim.quantity import PhysicalValue
 from cosim.scenario import load_scenario
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.amend.changes import changes_of
 from diagnosis.experiment.bench import Belief
 from diagnosis.faults.given import GivenFaults, faults_of
 from diagnosis.faults.model import with_faults
 from diagnosis.faults.programme import with_gain
 from diagnosis.judge.held_out import carried_over
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.grow import interval_scores
 from diagnosis.search.problem import Point, strength_slopes
 from diagnosis.search.score import Projection
-from diagnosis.simulator.closed_loop import ClosedLoopModel
 from tests.faults.rig import NAMES, faulty, recorded, scenario
 
 
@@ -112,10 +112,17 @@ def test_the_closed_loop_runs_and_scans_faults_of_its_inputs_and_sensors(made, t
     """A coarse scan, before any fit: within a piece of the twelve (50 s) and 30 % of the gain."""
     times = np.arange(10.0, 600.0, 10.0)
     channels = {
-        n: Channel(n, parse_quantity(f"heaters.temperature[{i}]"), times, np.zeros(59), 0.1, True,
-                   is_clipped=np.zeros(59, dtype=bool))
+        n: Channel(
+            n,
+            parse_quantity(f"heaters.temperature[{i}]"),
+            times,
+            np.zeros(59),
+            0.1,
+            True,
+            is_clipped=np.zeros(59, dtype=bool),
+        )
         for i, n in ((1, "T1"), (2, "T2"))
-    }  # fmt: skip
+    }
     empty = Recording(tmp_path, "day", channels, (), {}, 600.0, 0.0)
     blank = with_faults(ClosedLoopModel(made, [empty]))
     term = term_of(blank, "input_gain_in_interval at drive.power_2")
@@ -138,8 +145,15 @@ def test_a_pendulum_has_faults_of_its_encoder(tmp_path):
     stop = base.time.model_copy(update={"stop": PhysicalValue(4.0, "s")})
     short = base.model_copy(update={"time": stop})
     times = np.arange(0.1, 4.0, 0.02)
-    channel = Channel("arm.angle", parse_quantity("arm.angle"), times, np.zeros(len(times)), 2e-3, True,
-                      is_clipped=np.zeros(len(times), dtype=bool))  # fmt: skip
+    channel = Channel(
+        "arm.angle",
+        parse_quantity("arm.angle"),
+        times,
+        np.zeros(len(times)),
+        2e-3,
+        True,
+        is_clipped=np.zeros(len(times), dtype=bool),
+    )
     empty = Recording(tmp_path, "swing", {"arm.angle": channel}, (), {}, 4.0, 0.0)
     swing = ClosedLoopModel(short, [empty])
     values = swing.predict(Point(np.zeros(len(swing.parameters))), 0)[0]

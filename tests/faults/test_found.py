@@ -39,10 +39,13 @@ def test_a_thermometer_that_is_wrong_for_a_while_is_a_fault_of_that_sensor_then_
     assert outcome.best.fit.point.terms[term][0] == pytest.approx(strength, abs=0.15)
     titles = [r.title for r in recordings]
     accepted = accept(
-        model, outcome, left_out_stretches(model, titles), left_out_stretches(model, titles),
+        model,
+        outcome,
+        left_out_stretches(model, titles),
+        left_out_stretches(model, titles),
         lambda t: is_shown_there_alone(t, outcome.best.fit.point.terms[t], model, None),
         lambda: left_out_readings(model, titles),
-    )  # fmt: skip
+    )
     (finding,) = findings(model, outcome, accepted, titles)
     assert finding.is_accepted
     assert finding.recording == "second"

@@ -16,10 +16,10 @@ from cosim.scenario import Scenario
 from diagnosis.candidates.registry import candidate
 from diagnosis.judge.judge import UNSEPARATED
 from diagnosis.judge.plausibility import implausible
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Point
 from diagnosis.search.search import recalibrate
-from diagnosis.simulator.bank_model import BankModel
 from tests.faults.rig import NAMES, NOISE, SCENARIO, blank, scenario
 
 LAWS = [candidate("sensor_bias"), candidate("sensor_gain")]
@@ -36,11 +36,11 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     return scenario(tmp_path_factory.mktemp("rig"), request.param)
 
 
-def _read(made: Scenario, gain: float, about: float, bias: float) -> BankModel:
+def _read(made: Scenario, gain: float, about: float, bias: float) -> CoilNetworkModel:
     """The model of recordings of a rig like the scenario, whose first thermometer has a wrong gain or a bias."""
     random = np.random.default_rng(3)
     empty = [blank(made, "first"), blank(made, "second")]
-    model = BankModel(made, empty, LAWS)
+    model = CoilNetworkModel(made, empty, LAWS)
     nominal = Point(np.zeros(len(model.parameters)))
     found = []
     for number, recording in enumerate(empty):
@@ -49,10 +49,10 @@ def _read(made: Scenario, gain: float, about: float, bias: float) -> BankModel:
             off = gain * (truth - about) + bias if name == NAMES[0] else 0.0
             channels[name] = replace(channel, values=truth + off + NOISE * random.standard_normal(len(truth)))
         found.append(replace(recording, channels=channels))
-    return BankModel(made, found, LAWS)
+    return CoilNetworkModel(made, found, LAWS)
 
 
-def _fits(model: BankModel) -> dict[str, Fit]:
+def _fits(model: CoilNetworkModel) -> dict[str, Fit]:
     """Of each law at the first thermometer, from all of its starts."""
     base = recalibrate(model)
     found = {}

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from cosim.scenario import Scenario
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import candidate
 from diagnosis.faults.model import with_faults
 from diagnosis.judge.acceptance import accept
@@ -22,9 +22,9 @@ from diagnosis.judge.diagnosis import Domain, Finding, Searched, Standing, Verdi
 from diagnosis.judge.judge import findings, verdict
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_readings, left_out_stretches
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Settings, search
-from diagnosis.simulator.bank_model import BankModel
 from tests.faults.rig import NAMES, NOISE, blank, scenario
 
 LAWS = [candidate(name) for name in ("second_mass", "sensor_bias")]
@@ -84,16 +84,20 @@ def _recorded(made: Scenario, title: str, above: float, fault: float, seed: int)
 def _diagnosed(folder: Path, above: float, fault: float) -> tuple[Verdict, tuple[Finding, ...]]:
     made = scenario(folder)
     *training, judge = (_recorded(made, t, above, fault, n) for n, t in enumerate(PROGRAMMES))
-    bank = BankModel(made, training, LAWS)
-    model = with_faults(bank)
+    network = CoilNetworkModel(made, training, LAWS)
+    model = with_faults(network)
     outcome = search(model, model.terms(), Settings(nulls=1, most_terms=2), model.groups())
     known = {t: v for e in (*outcome.rivals, outcome.best) for t, v in e.fit.point.terms.items()}
-    held_out = BankModel(made, [judge], LAWS, timeline=bank.timeline)
+    held_out = CoilNetworkModel(made, [judge], LAWS, timeline=network.timeline)
     unfitted, titles = HeldOutReadings(held_out, model, [judge]), [r.title for r in training]
     accepted = accept(
-        model, outcome, unfitted, left_out_stretches(model, titles),
-        lambda t: is_shown_there_alone(t, known[t], model, held_out), lambda: left_out_readings(model, titles),
-    )  # fmt: skip
+        model,
+        outcome,
+        unfitted,
+        left_out_stretches(model, titles),
+        lambda t: is_shown_there_alone(t, known[t], model, held_out),
+        lambda: left_out_readings(model, titles),
+    )
     told = findings(model, outcome, accepted, titles)
     return verdict(outcome, told, adequacy(accepted, unfitted.readings, ()), TRIED), told
 

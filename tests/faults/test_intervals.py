@@ -15,8 +15,13 @@ def pieces_of(values, nuisance, noise):
     """Pieces of one sample each, with some directions projected out by least squares."""
     left = np.eye(COUNT) - nuisance @ np.linalg.pinv(nuisance)
     slopes = -np.eye(COUNT)
-    return Pieces(slopes @ left @ slopes.T, np.eye(COUNT), slopes @ left @ values, slopes @ left @ noise,
-                  np.ones(COUNT, dtype=int))  # fmt: skip
+    return Pieces(
+        slopes @ left @ slopes.T,
+        np.eye(COUNT),
+        slopes @ left @ values,
+        slopes @ left @ noise,
+        np.ones(COUNT, dtype=int),
+    )
 
 
 def test_the_best_interval_is_the_best_of_all_least_squares_fits():

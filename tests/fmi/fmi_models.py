@@ -28,10 +28,19 @@ def build(model: str, version: int, folder: Path) -> Path:
     """The .fmu file of one model."""
     library = folder / f"{model}{version}.so"
     subprocess.run(
-        ["gcc", *_FLAGS, f"-I{MODELS / 'shim'}", f"-isystem{HEADERS}", MODELS / "shim" / f"fmi{version}.c",
-         MODELS / model / "model.c", "-o", library, "-lm"],
+        [
+            "gcc",
+            *_FLAGS,
+            f"-I{MODELS / 'shim'}",
+            f"-isystem{HEADERS}",
+            MODELS / "shim" / f"fmi{version}.c",
+            MODELS / model / "model.c",
+            "-o",
+            library,
+            "-lm",
+        ],
         check=True,
-    )  # fmt: skip
+    )
     platform = fmpy.platform_tuple if version == 3 else fmpy.platform
     path = folder / f"{model}_fmi{version}.fmu"
     with zipfile.ZipFile(path, "w") as archive:

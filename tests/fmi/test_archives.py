@@ -13,13 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from cosim.errors import InputError
 from cosim.fmu import extraction
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.temporary import PREFIX, make_folder, remove_folder, sweep
 from cosim.fmu.unit import FmuSettings
-from cosim.unit import NANOSECONDS
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS
 from tests.fmi.fmi_models import described
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.unit import NANOSECONDS
+from cosim.unit.protocol import NANOSECONDS
 
 STEP = NANOSECONDS // 10
 

@@ -13,31 +13,39 @@ import yaml
 
 from cosim.assemble import assemble
 from cosim.connection import Connection
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.settings import FmuSettings
-from cosim.quantity import PhysicalValue, conversion
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
 from cosim.system import System
-from cosim.unit import AnyArray, Causality, Unit, UnitError, Variable, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Causality, Unit, UnitError, Variable, VariableType
+from cosim.unit.quantity import PhysicalValue, conversion
 from tests.fmi.fmi_models import described
 
 Built = dict[tuple[str, int], Path]
 
 
 def scenario(
-    folder: Path, fmus: dict[str, Path | dict[str, Any]], connections: list[Any], algorithm: str = "gauss_seidel",
-    stop: str = "1.4 s", **more: Any,
-) -> Scenario:  # fmt: skip
+    folder: Path,
+    fmus: dict[str, Path | dict[str, Any]],
+    connections: list[Any],
+    algorithm: str = "gauss_seidel",
+    stop: str = "1.4 s",
+    **more: Any,
+) -> Scenario:
     components = {
         name: {"kind": "fmu", **({"fmu": str(fmu)} if isinstance(fmu, Path) else fmu)} for name, fmu in fmus.items()
     }
     data = {
-        "title": "connected", "time": {"stop": stop, "macro_step": "0.1 s", "output_step": "0.1 s"},
-        "algorithm": {"kind": algorithm}, "components": components, "connections": connections, **more,
-    }  # fmt: skip
+        "title": "connected",
+        "time": {"stop": stop, "macro_step": "0.1 s", "output_step": "0.1 s"},
+        "algorithm": {"kind": algorithm},
+        "components": components,
+        "connections": connections,
+        **more,
+    }
     path = folder / "scenario.yaml"
     path.write_text(yaml.safe_dump(data, sort_keys=False))
     return load_scenario(path)
@@ -64,8 +72,11 @@ def test_a_tick_arrives_once(built: Built, tmp_path: Path, algorithm: str, order
 @pytest.mark.parametrize("version", [2, 3])
 def test_a_boolean_goes_to_numbers_as_0_or_1_and_may_be_scaled(built: Built, tmp_path: Path, version: int) -> None:
     echo = built["echo", version]
-    wires = ["a.boolean_out -> b.float64_in", "a.boolean_out -> b.int32_in",
-             {"connect": "b.boolean_out -> c.float64_in", "factor": 230.0}]  # fmt: skip
+    wires = [
+        "a.boolean_out -> b.float64_in",
+        "a.boolean_out -> b.int32_in",
+        {"connect": "b.boolean_out -> c.float64_in", "factor": 230.0},
+    ]
     on = {"fmu": str(echo), "fmi": version, "start": {"boolean_in": True}}
     plain = {"fmu": str(echo), "fmi": version}
     found = result(tmp_path, {"a": on, "b": on, "c": plain}, wires, stop="0.2 s")
@@ -115,11 +126,18 @@ def test_hertz_become_radians_per_second(
 @pytest.mark.parametrize(
     ("source", "target", "factor"),
     [
-        ("Hz", "rad/s", 2 * np.pi), ("kHz", "deg/s", 360e3), ("rpm", "Hz", 1 / 60), ("Hz", "rpm", 60.0),
-        ("1/s", "rad/s", 1.0), ("1/s", "Hz", 1.0), ("V*s/rad", "V/Hz", 2 * np.pi), ("N*m", "N*m/rad", 1.0),
-        ("Hz", "1/min", 60.0), ("rad/s**2", "rad/s**2", 1.0),
+        ("Hz", "rad/s", 2 * np.pi),
+        ("kHz", "deg/s", 360e3),
+        ("rpm", "Hz", 1 / 60),
+        ("Hz", "rpm", 60.0),
+        ("1/s", "rad/s", 1.0),
+        ("1/s", "Hz", 1.0),
+        ("V*s/rad", "V/Hz", 2 * np.pi),
+        ("N*m", "N*m/rad", 1.0),
+        ("Hz", "1/min", 60.0),
+        ("rad/s**2", "rad/s**2", 1.0),
     ],
-)  # fmt: skip
+)
 def test_conversions_between_cycles_and_angles(source: str, target: str, factor: float) -> None:
     assert conversion(source, target) == (pytest.approx(factor, rel=1e-14), 0.0)
     assert PhysicalValue.parse(f"3 {source}").to(target) == pytest.approx(3.0 * factor, rel=1e-14)
@@ -158,10 +176,12 @@ def test_a_ring_that_never_settles_is_an_error_that_says_so() -> None:
 
     class Inverter(Unit):
         name = "not"
-        variables = MappingProxyType({
-            "u": Variable("u", Causality.INPUT, (), "1", start=False, type=VariableType.BOOLEAN),
-            "y": Variable("y", Causality.OUTPUT, (), "1", type=VariableType.BOOLEAN),
-        })  # fmt: skip
+        variables = MappingProxyType(
+            {
+                "u": Variable("u", Causality.INPUT, (), "1", start=False, type=VariableType.BOOLEAN),
+                "y": Variable("y", Causality.OUTPUT, (), "1", type=VariableType.BOOLEAN),
+            }
+        )
         feedthrough = initial_feedthrough = MappingProxyType({"y": frozenset({"u"})})
 
         def get(self, name: str) -> AnyArray:

@@ -9,9 +9,9 @@ import pytest
 import xarray as xr
 import yaml
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from tests.fmi.conftest import Maker
 
 GIVEN: dict[str, Any] = {"gain": 3.0, "count": 5, "flipped": True, "single": 0.1}
@@ -57,6 +57,6 @@ def test_a_run_has_the_stop_time_and_the_parameters_of_its_scenario(
 
 def test_a_run_with_a_value_that_is_not_kept_ends_with_an_input_error(
     built: dict[tuple[str, int], Path], tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     with pytest.raises(InputError, match=r"early\.parameters\.limited.*does not take 7: it keeps 1"):
         run(load_scenario(scenario(tmp_path, built["early", 2], limited=7)), tmp_path / "run")

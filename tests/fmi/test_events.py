@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from cosim.unit import NANOSECONDS, StepStatus, UnitError
+from cosim.unit.protocol import NANOSECONDS, StepStatus, UnitError
 
 both_versions = pytest.mark.parametrize("version", [2, 3])
 kinds = pytest.mark.parametrize(("version", "interface"), [(2, "cs"), (2, "me"), (3, "cs"), (3, "me")])

@@ -16,10 +16,16 @@ from tests.fmi.fmi_models import described
 
 #: As XML has it, to the name of the variable.
 NAMES = {
-    "a/b": "a/b", "line&#10;break": "line\nbreak", "tab&#9;": "tab\t", "100%/h": "100%/h", "blank ": "blank ",
-    "Größe μ": "Größe μ", "comma, &quot;quote&quot;": 'comma, "quote"',
-    "&lt;der(x)&gt;": "<der(x)>", "der(x)": "der(x)",
-}  # fmt: skip
+    "a/b": "a/b",
+    "line&#10;break": "line\nbreak",
+    "tab&#9;": "tab\t",
+    "100%/h": "100%/h",
+    "blank ": "blank ",
+    "Größe μ": "Größe μ",
+    "comma, &quot;quote&quot;": 'comma, "quote"',
+    "&lt;der(x)&gt;": "<der(x)>",
+    "der(x)": "der(x)",
+}
 
 
 def results(folder: Path, fmu: Path, fmi: int = 2, **settings: Any) -> xr.Dataset:
@@ -35,7 +41,7 @@ def results(folder: Path, fmu: Path, fmi: int = 2, **settings: Any) -> xr.Datase
 @pytest.mark.parametrize(("written", "name"), NAMES.items(), ids=range(len(NAMES)))
 def test_every_name_is_stored_and_read_back(
     built: dict[tuple[str, int], Path], tmp_path: Path, written: str, name: str
-) -> None:  # fmt: skip
+) -> None:
     named = described(built["early", 2], tmp_path / "named.fmu", 'name="y"', f'name="{written}"')
     found = results(tmp_path, named, parameters={"gain": 3})
     (values,) = [v for n, v in found.data_vars.items() if v.attrs.get("name", n) == f"u.{name}"]
@@ -48,7 +54,7 @@ def test_every_name_is_stored_and_read_back(
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_texts_numbers_and_bytes_are_stored_and_read_back(
     built: dict[tuple[str, int], Path], tmp_path: Path, fmi: int
-) -> None:  # fmt: skip
+) -> None:
     start: dict[str, Any] = {"string_in": 'Größe, "μ" ', "int32_in": -(2**31), "boolean_in": True}
     found = results(tmp_path, built["echo", fmi], fmi, start=start | ({"binary_in": "00ff10"} if fmi == 3 else {}))
     assert found["u.string_out"].values.tolist() == ['Größe, "μ" '] * 5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cosim.unit import NANOSECONDS, Causality, UnitError, VariableType
+from cosim.unit.protocol import NANOSECONDS, Causality, UnitError, VariableType
 from tests.fmi.fmi_models import FMUS
 
 KINDS = [

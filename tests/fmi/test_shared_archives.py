@@ -11,7 +11,7 @@ import numpy as np
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.settings import FmuSettings
-from cosim.unit import NANOSECONDS
+from cosim.unit.protocol import NANOSECONDS
 
 Built = dict[tuple[str, int], Path]
 

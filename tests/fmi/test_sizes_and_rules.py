@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 import yaml
 
-from cosim.errors import InputError
 from cosim.fmu import access, settings, sizes
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
@@ -18,7 +17,8 @@ from cosim.fmu_tools.info import read_info
 from cosim.run import RunStopped, run
 from cosim.scenario import load_scenario
 from cosim.ssp.fmus import Fmu
-from cosim.unit import NANOSECONDS, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, UnitError
 from tests.fmi.fmi_models import described
 
 Built = dict[tuple[str, int], Path]

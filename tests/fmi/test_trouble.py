@@ -7,11 +7,11 @@ import zipfile
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuSettings
-from cosim.unit import NANOSECONDS, StepStatus, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, StepStatus, UnitError
 
 both_versions = pytest.mark.parametrize("version", [2, 3])
 SIZE = NANOSECONDS

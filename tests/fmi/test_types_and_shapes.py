@@ -5,21 +5,28 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
-from cosim.quantity import PhysicalValue, conversion
-from cosim.unit import NANOSECONDS, Causality, UnitError, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import NANOSECONDS, Causality, UnitError, VariableType
+from cosim.unit.quantity import PhysicalValue, conversion
 
 both_interfaces = pytest.mark.parametrize("interface", ["cs", "me"])
 #: The extreme values of every type: a conversion through another type would lose them.
 EXTREMES = {
     "float64": (-1.7976931348623157e308, 5e-324),
     "float32": (np.float32(3.4028235e38), np.float32(1e-45)),
-    "int8": (-128, 127), "uint8": (0, 255), "int16": (-(2**15), 2**15 - 1), "uint16": (0, 2**16 - 1),
-    "int32": (-(2**31), 2**31 - 1), "uint32": (0, 2**32 - 1),
-    "int64": (-(2**63), 2**63 - 1), "uint64": (0, 2**64 - 1),
-    "boolean": (True, False), "enumeration": (7, 1),
-    "string": ("", "Größe μ"), "binary": (b"", b"\x00\xff\x00"),
-}  # fmt: skip
+    "int8": (-128, 127),
+    "uint8": (0, 255),
+    "int16": (-(2**15), 2**15 - 1),
+    "uint16": (0, 2**16 - 1),
+    "int32": (-(2**31), 2**31 - 1),
+    "uint32": (0, 2**32 - 1),
+    "int64": (-(2**63), 2**63 - 1),
+    "uint64": (0, 2**64 - 1),
+    "boolean": (True, False),
+    "enumeration": (7, 1),
+    "string": ("", "Größe μ"),
+    "binary": (b"", b"\x00\xff\x00"),
+}
 FMI2 = ("float64", "int32", "boolean", "enumeration", "string")
 
 
@@ -106,10 +113,14 @@ def test_a_start_value_of_a_local_variable_is_converted(started, given, expected
 
 def test_start_values_of_inputs_of_every_type(started):
     start = {
-        "enumeration_in": "deep blue", "binary_in": "00ff", "string_in": PhysicalValue.parse("6 V"),
-        "uint64_in": PhysicalValue.parse(str(2**64 - 1)), "boolean_in": True, "texts_in": ["x", "y"],
+        "enumeration_in": "deep blue",
+        "binary_in": "00ff",
+        "string_in": PhysicalValue.parse("6 V"),
+        "uint64_in": PhysicalValue.parse(str(2**64 - 1)),
+        "boolean_in": True,
+        "texts_in": ["x", "y"],
         "matrix_in": [[1, 2, 3], [4, 5, 6]],
-    }  # fmt: skip
+    }
     unit = started("echo", 3, start=start)
     assert unit.get("enumeration_out") == 7
     assert unit.get("binary_out")[()] == b"\x00\xff"

@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 import yaml
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
+from cosim.unit.errors import InputError
 from tests.fmi.fmi_models import described
 
 
@@ -34,7 +34,7 @@ def mute(built: dict[tuple[str, int], Path], tmp_path: Path) -> Path:
 @pytest.mark.parametrize("isolation", ["none", "process"])
 def test_a_long_run_goes_on_without_checkpoints_and_says_so_once(
     mute: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture, isolation: str
-) -> None:  # fmt: skip
+) -> None:
     run(scenario(tmp_path, mute, component={"isolation": isolation}), tmp_path / "run")
     assert xr.load_dataset(tmp_path / "run" / "results.nc").sizes["time"] == 13
     (line,) = caplog.messages
@@ -52,7 +52,7 @@ def test_a_short_run_has_no_checkpoint_to_miss(mute: Path, tmp_path: Path, caplo
 @pytest.mark.parametrize(("output", "wanted"), [("10 s", 10.0), ("0.3 s", 2.1), ("0.5 s", 2.0), ("2 s", 2.0)])
 def test_the_interval_of_checkpoints_follows_the_output_step(
     mute: Path, tmp_path: Path, output: str, wanted: float
-) -> None:  # fmt: skip
+) -> None:
     found = scenario(tmp_path, mute, output_step=output, stop="60 s")
     assert found.time.checkpoint_step.to("s") == pytest.approx(wanted)
     again = tmp_path / "again.yaml"

@@ -32,8 +32,10 @@ def build(tmp_path_factory: pytest.TempPathFactory) -> Builder:
         if coils not in built:
             done = subprocess.run(
                 ["make", "-C", FMUS, f"PYTHON={sys.executable}", f"BUILD={folder}", f"COILS={coils}"],
-                capture_output=True, text=True, check=False,
-            )  # fmt: skip
+                capture_output=True,
+                text=True,
+                check=False,
+            )
             assert done.returncode == 0, done.stderr
             assert "warning" not in done.stderr, done.stderr
             built.add(coils)
@@ -59,9 +61,13 @@ def make_unit(fmu_file: Callable[..., Path]) -> Iterator[UnitMaker]:
     units: list[FmuUnit] = []
 
     def make(
-        model: str = "thermal_stiffness", version: int = 3, interface: str = "co_simulation", coils: int = 36,
-        parameters: Mapping[str, Any] | None = None, **settings: Any,
-    ) -> FmuUnit:  # fmt: skip
+        model: str = "thermal_stiffness",
+        version: int = 3,
+        interface: str = "co_simulation",
+        coils: int = 36,
+        parameters: Mapping[str, Any] | None = None,
+        **settings: Any,
+    ) -> FmuUnit:
         archive = open_fmu(fmu_file(model, version, coils))
         unit = INTERFACES[interface]("actuator", archive, FmuSettings({"coils": coils}, parameters or {}, **settings))
         units.append(unit)

@@ -28,9 +28,13 @@ def drive_of(unit: FmuUnit) -> str:
 
 
 def advance(
-    unit: FmuUnit, drives: np.ndarray, outputs: tuple[str, ...], size: int = STEP, begin: int = 0,
+    unit: FmuUnit,
+    drives: np.ndarray,
+    outputs: tuple[str, ...],
+    size: int = STEP,
+    begin: int = 0,
     tensions: np.ndarray | None = None,
-) -> np.ndarray:  # fmt: skip
+) -> np.ndarray:
     """Step with `drives` of shape (steps, coils); returns outputs of shape (steps, len(outputs), coils).
 
     `tensions` [N] of the same shape go to models that hear them.

@@ -37,8 +37,10 @@ def binary(folder, model, version):
 def test_only_the_functions_of_the_standard_are_exported(unpacked, model, version):
     listing = subprocess.run(
         ["nm", "-D", "--defined-only", binary(unpacked(model, version), model, version)],
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     exported = {line.split()[-1] for line in listing.splitlines()}
     header = (HEADERS / f"fmi{version}Functions.h").read_text()
     standard = set(re.findall(rf"#define (fmi{version}\w+)\s+fmi{version}FullName\(fmi{version}\w+\)", header))
@@ -64,20 +66,41 @@ def test_a_c_host_leaks_nothing(unpacked, tmp_path, model, version):
     folder = unpacked(model, version)
     library, host = binary(folder, model, version), tmp_path / "host"
     subprocess.run(
-        ["gcc", *WARNINGS, "-g", "-isystem", HEADERS, HERE / f"host_fmi{version}.c", library, "-o", host,
-         f"-Wl,-rpath,{library.parent}", "-lm"],
+        [
+            "gcc",
+            *WARNINGS,
+            "-g",
+            "-isystem",
+            HEADERS,
+            HERE / f"host_fmi{version}.c",
+            library,
+            "-o",
+            host,
+            f"-Wl,-rpath,{library.parent}",
+            "-lm",
+        ],
         check=True,
-    )  # fmt: skip
+    )
     description = read_model_description(folder)
     drive = next(v for v in description.modelVariables if v.name.split("[")[0] in ("power", "voltage"))
     assert drive.valueReference == 2  # as the hosts have it
     states = sum(variable.derivative is not None for variable in description.modelVariables)
     done = subprocess.run(
-        ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=all", "--errors-for-leak-kinds=all",
-         "--error-exitcode=255", host, description.guid or description.instantiationToken,
-         str(states)],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            "valgrind",
+            "--quiet",
+            "--leak-check=full",
+            "--show-leak-kinds=all",
+            "--errors-for-leak-kinds=all",
+            "--error-exitcode=255",
+            host,
+            description.guid or description.instantiationToken,
+            str(states),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (done.returncode, done.stderr) == (0, "")
     assert int(done.stdout.split()[0]) >= 4  # refusals were logged
 
@@ -94,8 +117,9 @@ def test_the_sources_in_the_fmu_build_on_their_own(unpacked, tmp_path, model, ve
     assert len(files) == 9
     subprocess.run(
         ["gcc", *WARNINGS, "-fPIC", "-shared", "-isystem", HEADERS, *files, "-o", tmp_path / "again.so", "-lm"],
-        cwd=folder / "sources", check=True,
-    )  # fmt: skip
+        cwd=folder / "sources",
+        check=True,
+    )
     assert (tmp_path / "again.so").stat().st_size > 10_000
 
 

@@ -8,8 +8,8 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 from fmu_runs import drive_of, every_fmu, every_model
 
-from cosim.paper.laws import Coil
-from cosim.unit import Causality
+from chainmail.equations import Coil
+from cosim.unit.protocol import Causality
 
 POWER = 1.0 / 2.2
 
@@ -139,9 +139,14 @@ def test_a_plain_importer_reproduces_equation_3(fmu_file, interface, version):
     else:
         start, name = {f"power[{i}]": POWER for i in range(1, 37)}, "temperature[36]"
     result = simulate_fmu(
-        fmu_file(version=version), fmi_type=interface, start_values=start, stop_time=12.0, output_interval=0.5,
-        relative_tolerance=1e-8, output=[name],
-    )  # fmt: skip
+        fmu_file(version=version),
+        fmi_type=interface,
+        start_values=start,
+        stop_time=12.0,
+        output_interval=0.5,
+        relative_tolerance=1e-8,
+        output=[name],
+    )
     assert len(result) == 25
     end = np.ravel(result[name][-1])[-1]
     # Co-Simulation is exact; fmpy's CVODE at rtol 1e-8 of 300 K errs by about 1e-6 K in each of some hundred steps.

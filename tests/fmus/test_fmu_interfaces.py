@@ -5,7 +5,7 @@ import pytest
 from fmu_runs import STEP, advance, drive_of, every_model
 from thermal_twin import simulate
 
-from cosim.unit import Causality, seconds
+from cosim.unit.protocol import Causality, seconds
 
 OUTPUTS = ("temperature", "stiffness", "convected_energy")
 ALL_OUTPUTS = ("temperature", "stiffness", "rest_length", "resistance", "stored_energy", "convected_energy")
@@ -120,9 +120,13 @@ def test_every_model_has_the_interface_of_an_actuator(make_unit, model):
     unit = make_unit(model)
     inputs = {"power": "W", "voltage": "V", "tension": "N", "extension": "m"}
     outputs = {
-        "stiffness": "N/m", "rest_length": "m", "temperature": "K", "resistance": "ohm", "stored_energy": "J",
+        "stiffness": "N/m",
+        "rest_length": "m",
+        "temperature": "K",
+        "resistance": "ohm",
+        "stored_energy": "J",
         "convected_energy": "J",
-    }  # fmt: skip
+    }
     for name, variable in unit.variables.items():
         if variable.causality is Causality.INPUT and name != "ambient_temperature":
             assert (variable.unit, variable.shape) == (inputs[name], (36,))

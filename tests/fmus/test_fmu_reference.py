@@ -23,9 +23,12 @@ OUTPUTS = {
     "niti_kinetics": {"temperature": 1e-7, "martensite_fraction": 1e-8, "convected_energy": 1e-8},
     "tcp_muscle": {"temperature": 1e-8, "rest_length": 1e-12, "stored_energy": 1e-9, "convected_energy": 1e-9},
     "polypyrrole_film": {
-        "rest_length": 1e-14, "stored_energy": 1e-12, "convected_energy": 1e-11, "film_current": 1e-12,
+        "rest_length": 1e-14,
+        "stored_energy": 1e-12,
+        "convected_energy": 1e-11,
+        "film_current": 1e-12,
     },
-}  # fmt: skip
+}
 every_reference = pytest.mark.parametrize("model", OUTPUTS)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from fmu_runs import drive_of, every_model
 
-from cosim.errors import InputError
-from cosim.unit import UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import UnitError
 
 both_versions = pytest.mark.parametrize("version", [3, 2])
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fmu_runs import MODELS, STEP, advance
 
-from cosim.unit import UnitError
+from cosim.unit.protocol import UnitError
 
 OUTPUTS = ("temperature", "stiffness", "rest_length", "resistance", "stored_energy", "convected_energy")
 COUNT = 60

@@ -5,8 +5,8 @@ import pytest
 from fmu_runs import STEP, advance
 from thermal_twin import CELSIUS
 
-from cosim.paper.laws import Coil
-from cosim.unit import seconds
+from chainmail.equations import Coil
+from cosim.unit.protocol import seconds
 
 COIL = Coil()
 POWER = 1.0 / COIL.resistance  # 1 V on each coil

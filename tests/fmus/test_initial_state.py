@@ -5,7 +5,7 @@ import pytest
 import thermal_twin
 from fmu_runs import STEP, advance
 
-from cosim.unit import UnitError, seconds
+from cosim.unit.protocol import UnitError, seconds
 
 CELSIUS, ROOM = 273.15, 295.15
 STARTS = np.array([55.0, 48.0]) + CELSIUS
@@ -55,8 +55,9 @@ def test_coils_with_phases_start_apart_too(make_unit):
 
 def test_a_coil_starts_where_it_stood_in_its_loop(make_unit):
     place = [0.0, 0.25, 1.0]
-    unit = started(make_unit, "thermal_stiffness", coils=3, initial_temperature=50.0 + CELSIUS,
-                   initial_loop_position=place)  # fmt: skip
+    unit = started(
+        make_unit, "thermal_stiffness", coils=3, initial_temperature=50.0 + CELSIUS, initial_loop_position=place
+    )
     heating, cooling = float(thermal_twin.heating(50.0)), float(thermal_twin.cooling(50.0))
     assert cooling - heating > 50.0
     expected = heating + np.array(place) * (cooling - heating)
@@ -65,8 +66,9 @@ def test_a_coil_starts_where_it_stood_in_its_loop(make_unit):
 
 def test_phases_start_where_they_stood_in_their_loop(make_unit):
     reduced = 305.0  # between both starts and finishes: 297.42 to 320.37 K rising, 278.34 to 310.37 K falling
-    unit = started(make_unit, "niti_kinetics", coils=3, initial_temperature=reduced,
-                   initial_loop_position=[0.0, 0.5, 1.0])  # fmt: skip
+    unit = started(
+        make_unit, "niti_kinetics", coils=3, initial_temperature=reduced, initial_loop_position=[0.0, 0.5, 1.0]
+    )
     heating = 0.5 - 0.5 * np.cos(np.pi * (reduced - 297.42) / (320.37 - 297.42))
     cooling = 0.5 - 0.5 * np.cos(np.pi * (reduced - 278.34) / (310.37 - 278.34))
     expected = 1.0 - np.array([heating, 0.5 * (heating + cooling), cooling])

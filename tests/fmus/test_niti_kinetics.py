@@ -7,7 +7,7 @@ from niti_twin import NITI
 from scipy.optimize import curve_fit
 from thermal_twin import CELSIUS, cooling, heating
 
-from cosim.unit import UnitError, seconds
+from cosim.unit.protocol import UnitError, seconds
 
 WEIGHT = 0.5 * 9.81  # the paper's 500 g [N]
 LATENT, CAPACITY = NITI.mass * NITI.latent_heat, NITI.mass * NITI.specific_heat

@@ -5,7 +5,7 @@ import polypyrrole_twin as twin
 import pytest
 from fmu_runs import STEP, advance
 
-from cosim.unit import seconds
+from cosim.unit.protocol import seconds
 
 
 def started(make_unit, **given):
@@ -85,8 +85,12 @@ def test_one_long_step_equals_many_short_ones(make_unit):
     volts, runs = np.linspace(-1.0, 1.0, 36), []
     for steps in (1, 1000):
         unit = started(make_unit)
-        run = advance(unit, np.tile(volts, (steps, 1)), ("rest_length", "stored_energy", "convected_energy"),
-                      size=20 * 10**9 // steps)  # fmt: skip
+        run = advance(
+            unit,
+            np.tile(volts, (steps, 1)),
+            ("rest_length", "stored_energy", "convected_energy"),
+            size=20 * 10**9 // steps,
+        )
         runs.append(run[-1])
     # A thousand roundings of some ten joules.
     np.testing.assert_allclose(runs[0], runs[1], rtol=1e-12, atol=1e-11)

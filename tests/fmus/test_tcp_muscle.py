@@ -5,7 +5,7 @@ import pytest
 from fmu_runs import STEP, advance
 from tcp_twin import AMBIENT, CAPACITY, CONDUCTANCE, CONTRACTION, LENGTH, MUSCLES, STIFFNESS
 
-from cosim.unit import seconds
+from cosim.unit.protocol import seconds
 
 #: The step is exact; what remains are rounding errors of some thousand steps, 1e-13 each.
 EXACT = 1e-10

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from cosim.paper.laws import COOLING, HEATING, Coil
+from chainmail.equations import COOLING, HEATING, Coil
 
 CELSIUS = 273.15
 PAPER = Coil()
@@ -68,9 +68,14 @@ def simulate(powers, step, coil=PAPER, regressed=True, substeps=20):
             return np.concatenate([(power - out) / coil.heat_capacity, out])
 
         solution = solve_ivp(
-            rates, (0.0, step), np.concatenate([temperature, convected]), "DOP853", rtol=1e-12, atol=1e-12,
+            rates,
+            (0.0, step),
+            np.concatenate([temperature, convected]),
+            "DOP853",
+            rtol=1e-12,
+            atol=1e-12,
             t_eval=np.linspace(0.0, step, substeps + 1),
-        )  # fmt: skip
+        )
         memory = follow(solution.y[:coils].T, memory)
         temperature, convected = solution.y[:coils, -1], solution.y[coils:, -1]
         record.append([temperature + CELSIUS, memory, convected])

@@ -5,8 +5,8 @@ import zipfile
 import pytest
 
 from cosim import shipped
-from cosim.errors import InputError
 from cosim.fmu_build.at_first_use import file_name, shipped_fmu
+from cosim.unit.errors import InputError
 
 
 @pytest.fixture

@@ -90,8 +90,9 @@ def test_an_actuator_of_one_s_own_is_begun_and_built(cosim):
 
 def test_the_packaged_example_is_diagnosed(cosim):
     cosim("example", "rig")
-    said = cosim("diagnose", "rig/scenario.yaml", "--recording", "rig/monday", "--held-out", "rig/tuesday",
-                 "--out", "answer")  # fmt: skip
+    said = cosim(
+        "diagnose", "rig/scenario.yaml", "--recording", "rig/monday", "--held-out", "rig/tuesday", "--out", "answer"
+    )
     assert "MISSING PHYSICS" in said
     assert "temperature-dependent resistance" in said
     assert (cosim.folder / "answer" / "report.html").is_file()

@@ -30,9 +30,13 @@ EVERY = "pybullet,sksundae,PySpice"
 def cosim_without(shipped_fmus, tmp_path):
     def call(hidden, *arguments):
         return subprocess.run(
-            [sys.executable, "-c", PROGRAM, hidden, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True,
-            check=False, env={**os.environ, "PYTHONPATH": str(ROOT), "COSIM_FMU_PATH": str(shipped_fmus)},
-        )  # fmt: skip
+            [sys.executable, "-c", PROGRAM, hidden, *map(str, arguments)],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "PYTHONPATH": str(ROOT), "COSIM_FMU_PATH": str(shipped_fmus)},
+        )
 
     return call
 
@@ -74,7 +78,10 @@ def test_everything_else_works_without_any_of_them(cosim_without, tmp_path):
     done = cosim_without(EVERY, "run", "water_bath", "--set", "time.stop=20 s", "--out", "out")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "out" / "figures" / "stiffness_loops.png").is_file()
-    for arguments in (("list",), ("diagnose", "--help"), ("record", "tclab", "--set", "time.stop=2 s", "--out", "r",
-                                                         "--channels", "coil[1].temperature")):  # fmt: skip
+    for arguments in (
+        ("list",),
+        ("diagnose", "--help"),
+        ("record", "tclab", "--set", "time.stop=2 s", "--out", "r", "--channels", "coil[1].temperature"),
+    ):
         done = cosim_without(EVERY, *arguments)
         assert done.returncode == 0, done.stderr

@@ -62,9 +62,11 @@ def test_one_coil_without_current_cannot_tell_electrical_from_thermal():
 
 @pytest.mark.parametrize(
     ("quantities", "best"),
-    [(("current", "extension"), "temperature of every coil"),
-     (("current", "temperature", "extension"), "stiffness of every coil")],
-)  # fmt: skip
+    [
+        (("current", "extension"), "temperature of every coil"),
+        (("current", "temperature", "extension"), "stiffness of every coil"),
+    ],
+)
 def test_the_channel_that_would_help_most(quantities, best):
     own = rig(*quantities)
     found = extra_channels(own, analyse(own))
@@ -79,11 +81,14 @@ def test_classes_have_the_same_order_in_every_process():
     )
     told = {
         subprocess.run(
-            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True,
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
             check=True,
         ).stdout
         for seed in ("1", "2", "3")
-    }  # fmt: skip
+    }
     assert len(told) == 1
     assert "sensor of supply.current" in told.pop()
 

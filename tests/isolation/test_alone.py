@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 
 from cosim.alone import alone
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.run_folder import RunFolder
+from cosim.unit.errors import InputError
 
 
 def test_a_second_run_into_a_folder_is_refused_and_the_first_keeps_its_results(tmp_path, fmu, scenario, start):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
 from cosim.run import RunStopped, run
-from cosim.unit import UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import UnitError
 
 from .conftest import processes, remaining, rising
 

@@ -8,10 +8,10 @@ import time
 import pytest
 import xarray as xr
 
-from cosim.errors import InputError
 from cosim.isolation.ending import last_lines
 from cosim.run import RunStopped, run
-from cosim.unit import UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import UnitError
 
 from .conftest import processes, rising
 

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
@@ -14,7 +13,8 @@ from cosim.fmu.settings import FmuSettings
 from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
 from cosim.run import run
-from cosim.unit import Causality, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, UnitError
 
 from .conftest import rising
 

@@ -6,10 +6,10 @@ from functools import partial
 import numpy as np
 import pytest
 
-from cosim.errors import InputError
 from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
-from cosim.unit import StepStatus, Unit, UnitError, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import StepStatus, Unit, UnitError, VariableType
 
 from .conftest import descriptors
 from .units import Babbler, Echo, Modules, refusing

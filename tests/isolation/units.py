@@ -7,8 +7,8 @@ import sys
 
 import numpy as np
 
-from cosim.errors import InputError
-from cosim.unit import Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable, VariableType
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Causality, Coordinate, StepOutcome, StepStatus, Unit, UnitError, Variable, VariableType
 
 SHAPE = (2, 3)
 

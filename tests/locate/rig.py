@@ -1,4 +1,4 @@
-"""A rig of two strings whose recordings are simulated by the coil bank, with an effect and parameters of our choice."""
+"""A rig of two strings whose recordings the coil network simulates, with an effect and parameters of our choice."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.locate.fitted import Fitted, fitted
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import recalibrate
-from diagnosis.simulator.bank_model import BankModel
 
 SCENARIO = Path(__file__).with_name("two_strings.yaml")
 TITLES = ("pulses", "levels")
@@ -42,16 +42,23 @@ def blank(number: int) -> Recording:
     for name in names():
         period, noise = SENSORS[name.rpartition(".")[2]]
         times = np.arange(period, 60.0 + 1e-9, period)
-        channels[name] = Channel(name, parse_quantity(name), times, np.zeros(len(times)), noise, True,
-                                 is_clipped=np.zeros(len(times), dtype=bool))  # fmt: skip
+        channels[name] = Channel(
+            name,
+            parse_quantity(name),
+            times,
+            np.zeros(len(times)),
+            noise,
+            True,
+            is_clipped=np.zeros(len(times), dtype=bool),
+        )
     points = [[f"{t:g} s", f"{v:g} V"] for t, v in PROGRAMMES[number]]
     overrides = {"components": {"supply": {"outputs": {"voltage": {"points": points}}}}}
     return Recording(SCENARIO.parent, TITLES[number], channels, (), overrides, 60.0, 0.3)
 
 
 @functools.cache
-def perfect_model() -> BankModel:
-    return BankModel(load_scenario(SCENARIO), [blank(0), blank(1)], catalogue())
+def perfect_model() -> CoilNetworkModel:
+    return CoilNetworkModel(load_scenario(SCENARIO), [blank(0), blank(1)], catalogue())
 
 
 def term(identifier: str, place: str) -> Term:
@@ -66,7 +73,7 @@ def truth(effects: dict[Term, tuple[float, ...]], seed: int = 1) -> Point:
     return Point(base, effects)
 
 
-def fit_to(point: Point, seed: int = 2) -> tuple[BankModel, Fit]:
+def fit_to(point: Point, seed: int = 2) -> tuple[CoilNetworkModel, Fit]:
     """Recordings of the true model, and the model without effects, recalibrated to them."""
     rng = np.random.default_rng(seed)
     source, recordings = perfect_model(), []
@@ -77,11 +84,11 @@ def fit_to(point: Point, seed: int = 2) -> tuple[BankModel, Fit]:
             noisy = values + channel.deviation * rng.standard_normal(len(values))
             channels[name] = replace(channel, values=noisy)
         recordings.append(replace(recording, channels=channels))
-    model = BankModel(load_scenario(SCENARIO), recordings, catalogue())
+    model = CoilNetworkModel(load_scenario(SCENARIO), recordings, catalogue())
     return model, recalibrate(model)
 
 
-def at(model: BankModel, fit: Fit) -> Fitted:
+def at(model: CoilNetworkModel, fit: Fit) -> Fitted:
     found = fitted(model, fit)
     assert found is not None
     return found

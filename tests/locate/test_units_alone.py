@@ -61,18 +61,21 @@ def test_a_stiffness_effect_lights_the_last_unit_alone():
     assert line_of(located, "stiffness or mechanical").element == "coil[1,2]"
 
 
-def test_the_response_to_heat_is_that_of_the_bank():
+def test_the_response_to_heat_is_that_of_the_network():
     model, fit = fit_to(truth({}))
     own = at(model, fit)
     run, values = model.runs[0], own.values(0)
-    warm = model.bank.simulate(values.with_term("ambient_step", step_size=np.eye(4)[2] * 5.0, instant=20.0), run.inputs,
-                               {"temperature": np.arange(0.5, 60.0, 0.5)})["temperature"]  # fmt: skip
-    cold = model.bank.simulate(values, run.inputs, {"temperature": np.arange(0.5, 60.0, 0.5)})["temperature"]
+    warm = model.network.simulate(
+        values.with_term("ambient_step", step_size=np.eye(4)[2] * 5.0, instant=20.0),
+        run.inputs,
+        {"temperature": np.arange(0.5, 60.0, 0.5)},
+    )["temperature"]
+    cold = model.network.simulate(values, run.inputs, {"temperature": np.arange(0.5, 60.0, 0.5)})["temperature"]
     now = course(own, 0)
     conductance = now.loss[:, 2] * now.capacity[2]
     share = np.clip((now.time[1:] - 20.0) / now.size, 0.0, 1.0)
     expected = heat_response(now, 2, np.arange(0.5, 60.0, 0.5)) @ (5.0 * conductance * share)
-    # Both are exact exponentials; the bank's samples are joined linearly between its steps: (0.2 s / 5 s)^2 / 8 of 5 K.
+    # Both are exact exponentials; the network's samples are joined linearly between steps: (0.2 s / 5 s)^2 / 8 of 5 K.
     assert np.abs(warm - cold)[:, 2] == pytest.approx(expected, abs=3e-3)
     assert np.abs(warm - cold)[-1, 2] == pytest.approx(5.0, abs=0.05)
 
@@ -107,9 +110,18 @@ def test_the_terms_are_those_of_the_catalogue():
     model, fit = fit_to(truth({}))
     now = course(at(model, fit), 0)
     laws = {c.identifier: c.law for c in catalogue()}
-    here = {"T": now.temperature, "T_ambient": now.ambient, "P": now.power, "dTdt": now.rate, "energy": now.energy,
-            "extension": now.extension, "phase": now.phase, "I": now.current, "tension": now.load + 0 * now.power,
-            "t": now.middle[:, None] + 0 * now.power}  # fmt: skip
+    here = {
+        "T": now.temperature,
+        "T_ambient": now.ambient,
+        "P": now.power,
+        "dTdt": now.rate,
+        "energy": now.energy,
+        "extension": now.extension,
+        "phase": now.phase,
+        "I": now.current,
+        "tension": now.load + 0 * now.power,
+        "t": now.middle[:, None] + 0 * now.power,
+    }
     compared = 0
     for feature in features(now, "heat"):
         if not feature.identifier or "delay" in feature.formula:

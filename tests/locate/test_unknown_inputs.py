@@ -26,22 +26,34 @@ def shares_inside(located, point, fit, unit, input_of, days=(0, 1)):
 
 CASES = {
     "heat that steps": (
-        "ambient_step", "string[2]", (4.0, 25.0), "W",
+        "ambient_step",
+        "string[2]",
+        (4.0, 25.0),
+        "W",
         lambda c: np.where(c.middle > 25.0, 4.0 * c.loss[:, 2] * c.capacity[2], 0.0),
     ),
     "heat that grows": (
-        "unnamed_heat_excess_times_time", "coil[1,2]", (0.03,), "W",
+        "unnamed_heat_excess_times_time",
+        "coil[1,2]",
+        (0.03,),
+        "W",
         lambda c: 0.03 * (c.temperature - c.ambient)[:, 1] / 30.0 * c.middle / 60.0,
     ),
     "voltage": (
-        "unnamed_resistance_linear_time", "string[1]", (0.05,), "V",
+        "unnamed_resistance_linear_time",
+        "string[1]",
+        (0.05,),
+        "V",
         lambda c: -c.current[:, 0] * 0.05 * c.middle / 60.0 * c.resistance[:2].sum(),
     ),
     "force": (
-        "unnamed_length_square_time", "coil[2,2]", (6e-4,), "N",
+        "unnamed_length_square_time",
+        "coil[2,2]",
+        (6e-4,),
+        "N",
         lambda c: c.stiffness[:, 3] * 6e-4 * (c.middle / 60.0) ** 2,
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -11,9 +11,9 @@ import pytest
 
 from cosim.assemble import assemble
 from cosim.cli import WRONG_INPUT, main
-from cosim.errors import InputError
 from cosim.scenario import load_scenario, parse_scenario
-from cosim.unit import Unit, UnitError
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Unit, UnitError
 from mechanics import mujoco_world
 from mechanics.added import AddedEffects
 from mechanics.bullet import World as BulletWorld
@@ -293,9 +293,12 @@ def test_a_hot_stop_in_mujoco_gives_by_less_than_a_tenth_of_a_millimetre():
 
 @pytest.mark.parametrize(
     ("design", "settings", "words"),
-    [({"restitution": 0.5}, {}, "restitution"), ({}, {"springs": "motor"}, "motor"),
-     ({}, {"friction_model": "pyramid"}, "pyramid")],
-)  # fmt: skip
+    [
+        ({"restitution": 0.5}, {}, "restitution"),
+        ({}, {"springs": "motor"}, "motor"),
+        ({}, {"friction_model": "pyramid"}, "pyramid"),
+    ],
+)
 def test_what_mujoco_does_not_have_is_refused(design, settings, words):
     with pytest.raises(ValueError, match=words):
         woven_unit(prototype(rows=3, **design), solver=replace(COARSE["mujoco"], **settings))

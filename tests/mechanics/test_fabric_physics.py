@@ -6,7 +6,7 @@ import numpy as np
 import pybullet
 import pytest
 
-from cosim.unit import Unit, UnitError
+from cosim.unit.protocol import Unit, UnitError
 from mechanics.bullet import World, woven
 from mechanics.fabric import layout
 from mechanics.half import half

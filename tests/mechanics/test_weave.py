@@ -26,8 +26,12 @@ def test_resolution_counts_links_of_one_orientation(rows, links):
 
 def test_a_taut_weave_has_the_longest_pitch():
     d, length = 8.1e-3, 33e-3
-    best = minimize_scalar(lambda t: -2 * (length * math.cos(t) - d / math.sin(t)), bounds=(0.2, 1.3), method="bounded",
-                           options={"xatol": 1e-12})  # fmt: skip
+    best = minimize_scalar(
+        lambda t: -2 * (length * math.cos(t) - d / math.sin(t)),
+        bounds=(0.2, 1.3),
+        method="bounded",
+        options={"xatol": 1e-12},
+    )
     weave = taut_weave(length, d)
     assert weave.pitch == pytest.approx(-best.fun, rel=1e-9)
     assert weave.tilt == pytest.approx(best.x, abs=1e-5)
@@ -35,8 +39,12 @@ def test_a_taut_weave_has_the_longest_pitch():
 
 
 def test_a_jammed_weave_is_the_shortest_that_leaves_no_slack():
-    best = minimize_scalar(lambda t: (1 + 3 / math.sin(t)) / (2 * math.cos(t)), bounds=(0.2, 1.3), method="bounded",
-                           options={"xatol": 1e-12})  # fmt: skip
+    best = minimize_scalar(
+        lambda t: (1 + 3 / math.sin(t)) / (2 * math.cos(t)),
+        bounds=(0.2, 1.3),
+        method="bounded",
+        options={"xatol": 1e-12},
+    )
     jam = jammed_weave(1.0)
     assert jam.bar_distance == pytest.approx(best.fun, rel=1e-9)
     # Both conditions hold as equalities: the bar rests on the arms, and bars of one layer touch.

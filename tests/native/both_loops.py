@@ -16,7 +16,7 @@ from cosim.native.plan import Grid
 from cosim.native.planning import Watch, native_plan
 from cosim.observers.trace import Trace
 from cosim.system import System
-from cosim.unit import StepStatus, UnitError
+from cosim.unit.protocol import StepStatus, UnitError
 
 STEP = {"jacobi": jacobi.step, "gauss_seidel": gauss_seidel.step}
 

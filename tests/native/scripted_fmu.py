@@ -13,12 +13,22 @@ import fmpy
 SOURCE = Path(__file__).parent / "models" / "scripted.c"
 
 #: Name, FMI 3.0 type, value reference, number of elements; inputs, then outputs.
-INPUTS = (("u", "Float64", 1, 1), ("ua", "Float64", 2, 3), ("uf", "Float32", 5, 1), ("ui", "Int32", 6, 1),
-          ("ub", "Boolean", 7, 1))  # fmt: skip
-OUTPUTS = (("y", "Float64", 11, 1), ("ya", "Float64", 12, 3), ("yf", "Float32", 15, 1), ("yi", "Int32", 16, 1),
-           ("yb", "Boolean", 17, 1), ("z", "Float64", 18, 1))  # fmt: skip
-PARAMETERS = (("rate", 21, 1.0), ("moment", 22, 0.0), ("kind", 23, 0.0), ("gain", 24, 1.0),
-              ("fixed_step", 25, 0.0))  # fmt: skip
+INPUTS = (
+    ("u", "Float64", 1, 1),
+    ("ua", "Float64", 2, 3),
+    ("uf", "Float32", 5, 1),
+    ("ui", "Int32", 6, 1),
+    ("ub", "Boolean", 7, 1),
+)
+OUTPUTS = (
+    ("y", "Float64", 11, 1),
+    ("ya", "Float64", 12, 3),
+    ("yf", "Float32", 15, 1),
+    ("yi", "Int32", 16, 1),
+    ("yb", "Boolean", 17, 1),
+    ("z", "Float64", 18, 1),
+)
+PARAMETERS = (("rate", 21, 1.0), ("moment", 22, 0.0), ("kind", 23, 0.0), ("gain", 24, 1.0), ("fixed_step", 25, 0.0))
 FMI2_TYPES = {"Float64": "Real", "Float32": "Real", "Int32": "Integer", "Boolean": "Boolean"}
 
 
@@ -47,8 +57,21 @@ def build(folder: Path, version: int, has_event_mode: bool = False) -> Path:
     names = re.findall(r"TYPE\s+(fmi\d\w+);", (headers / f"fmi{version}Functions.h").read_text())
     absent = folder / f"absent{version}.c"
     absent.write_text("".join(f"__attribute__((weak)) int {n}(void) {{ return 3; }}\n" for n in names))
-    command = ["gcc", "-std=c99", "-O2", f"-DFMI_VERSION={version}", "-fPIC", "-shared", "-isystem", headers,
-               "-o", library, SOURCE, absent, "-lm"]  # fmt: skip
+    command = [
+        "gcc",
+        "-std=c99",
+        "-O2",
+        f"-DFMI_VERSION={version}",
+        "-fPIC",
+        "-shared",
+        "-isystem",
+        headers,
+        "-o",
+        library,
+        SOURCE,
+        absent,
+        "-lm",
+    ]
     subprocess.run(command, check=True)
     with zipfile.ZipFile(fmu, "w") as archive:
         archive.writestr("modelDescription.xml", _fmi2() if version == 2 else _fmi3(has_event_mode))
@@ -67,22 +90,28 @@ def _fmi3(has_event_mode: bool) -> str:
             start = f' start="{_start(kind, count)}"' if causality == "input" else ""
             discrete = "" if kind.startswith("Float") else ' variability="discrete"'
             dimension = f'<Dimension start="{count}"/>' if count > 1 else ""
-            variables.append(f'<{kind} name="{name}" valueReference="{reference}" causality="{causality}"'
-                             f"{discrete}{start}>{dimension}</{kind}>")  # fmt: skip
+            variables.append(
+                f'<{kind} name="{name}" valueReference="{reference}" causality="{causality}"'
+                f"{discrete}{start}>{dimension}</{kind}>"
+            )
     for name, reference, start in PARAMETERS:
-        variables.append(f'<Float64 name="{name}" valueReference="{reference}" causality="parameter" '
-                         f'variability="fixed" start="{start}"/>')  # fmt: skip
+        variables.append(
+            f'<Float64 name="{name}" valueReference="{reference}" causality="parameter" '
+            f'variability="fixed" start="{start}"/>'
+        )
     structure = "".join(
         f'<{element} valueReference="{reference}" dependencies="{"1" if name == "z" else ""}"/>'
         for element in ("Output", "InitialUnknown")
         for name, _, reference, _ in OUTPUTS
     )
-    return (f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="3.0" modelName="scripted" '
-            f'instantiationToken="scripted"><CoSimulation modelIdentifier="scripted" '
-            f'canHandleVariableCommunicationStepSize="true" mightReturnEarlyFromDoStep="true" '
-            f'hasEventMode="{str(has_event_mode).lower()}"/>'
-            f"<ModelVariables>{''.join(variables)}</ModelVariables><ModelStructure>{structure}</ModelStructure>"
-            f"</fmiModelDescription>")  # fmt: skip
+    return (
+        f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="3.0" modelName="scripted" '
+        f'instantiationToken="scripted"><CoSimulation modelIdentifier="scripted" '
+        f'canHandleVariableCommunicationStepSize="true" mightReturnEarlyFromDoStep="true" '
+        f'hasEventMode="{str(has_event_mode).lower()}"/>'
+        f"<ModelVariables>{''.join(variables)}</ModelVariables><ModelStructure>{structure}</ModelStructure>"
+        f"</fmiModelDescription>"
+    )
 
 
 def _fmi2() -> str:
@@ -93,17 +122,23 @@ def _fmi2() -> str:
                 label = f"{name}[{i + 1}]" if count > 1 else name
                 start = f' start="{_start(kind)}"' if causality == "input" else ""
                 variability = "continuous" if kind.startswith("Float") else "discrete"
-                variables.append(f'<ScalarVariable name="{label}" valueReference="{reference + i}" '
-                                 f'causality="{causality}" variability="{variability}"><{FMI2_TYPES[kind]}{start}/>'
-                                 "</ScalarVariable>")  # fmt: skip
+                variables.append(
+                    f'<ScalarVariable name="{label}" valueReference="{reference + i}" '
+                    f'causality="{causality}" variability="{variability}"><{FMI2_TYPES[kind]}{start}/>'
+                    "</ScalarVariable>"
+                )
                 if causality == "output":
                     outputs.append(f'<Unknown index="{len(variables)}" dependencies="{"1" if name == "z" else ""}"/>')
     for name, reference, start in PARAMETERS:
-        variables.append(f'<ScalarVariable name="{name}" valueReference="{reference}" causality="parameter" '
-                         f'variability="fixed"><Real start="{start}"/></ScalarVariable>')  # fmt: skip
-    return (f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="2.0" modelName="scripted" '
-            f'guid="scripted"><CoSimulation modelIdentifier="scripted" canHandleVariableCommunicationStepSize="true"/>'
-            f"<ModelVariables>{''.join(variables)}</ModelVariables>"
-            f"<ModelStructure><Outputs>{''.join(outputs)}</Outputs>"
-            f"<InitialUnknowns>{''.join(outputs)}</InitialUnknowns></ModelStructure>"
-            f"</fmiModelDescription>")  # fmt: skip
+        variables.append(
+            f'<ScalarVariable name="{name}" valueReference="{reference}" causality="parameter" '
+            f'variability="fixed"><Real start="{start}"/></ScalarVariable>'
+        )
+    return (
+        f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="2.0" modelName="scripted" '
+        f'guid="scripted"><CoSimulation modelIdentifier="scripted" canHandleVariableCommunicationStepSize="true"/>'
+        f"<ModelVariables>{''.join(variables)}</ModelVariables>"
+        f"<ModelStructure><Outputs>{''.join(outputs)}</Outputs>"
+        f"<InitialUnknowns>{''.join(outputs)}</InitialUnknowns></ModelStructure>"
+        f"</fmiModelDescription>"
+    )

@@ -50,12 +50,14 @@ def test_doubles_of_every_exponent_are_written_as_repr_writes_them():
 
 
 def test_random_bits_subnormals_and_short_decimals_are_written_as_repr_writes_them():
-    values = np.concatenate([
-        RNG.integers(0, 2**64, 60_000, dtype=np.uint64).view(np.float64),
-        RNG.integers(0, 2**52, 20_000, dtype=np.uint64).view(np.float64),
-        RNG.integers(-(10**7), 10**7, 20_000) / 1000,
-        [float(f"{d}e{k}") for k in range(-323, 309) for d in (1, 5, 9)],
-    ])  # fmt: skip
+    values = np.concatenate(
+        [
+            RNG.integers(0, 2**64, 60_000, dtype=np.uint64).view(np.float64),
+            RNG.integers(0, 2**52, 20_000, dtype=np.uint64).view(np.float64),
+            RNG.integers(-(10**7), 10**7, 20_000) / 1000,
+            [float(f"{d}e{k}") for k in range(-323, 309) for d in (1, 5, 9)],
+        ]
+    )
     assert lines_of(values) == list(map(repr, values.tolist()))
 
 
@@ -106,8 +108,13 @@ def test_native_and_python_writer_give_the_same_bytes(pieces, monkeypatch):
 def test_headings_name_component_variable_element_and_unit():
     times, columns = table()
     first = next(csv.reader(io.StringIO(written(times, columns).decode())))
-    assert first[:5] == ["time [s]", "unit.temperature[1] [K]", "unit.temperature[2] [K]", "unit.temperature[3] [K]",
-                         "unit.x[0,0] [m]"]  # fmt: skip
+    assert first[:5] == [
+        "time [s]",
+        "unit.temperature[1] [K]",
+        "unit.temperature[2] [K]",
+        "unit.temperature[3] [K]",
+        "unit.x[0,0] [m]",
+    ]
     assert len(first) == 1 + 3 + 4 + 2 + 8 + 1
 
 
@@ -139,9 +146,22 @@ def test_a_trace_of_every_type_is_written(scripted, tmp_path):
     system.terminate()
     write_trace(tmp_path / "run.csv", trace)
     first, *rows = csv.reader((tmp_path / "run.csv").read_text().splitlines())
-    assert set(first) == {"time [s]", "a.y [1]", "a.yf [1]", "a.yi [1]", "a.yb [1]", "a.z [1]", "a.ya[1] [1]",
-                          "a.ya[2] [1]", "a.ya[3] [1]"}  # fmt: skip
+    assert set(first) == {
+        "time [s]",
+        "a.y [1]",
+        "a.yf [1]",
+        "a.yi [1]",
+        "a.yb [1]",
+        "a.z [1]",
+        "a.ya[1] [1]",
+        "a.ya[2] [1]",
+        "a.ya[3] [1]",
+    }
     assert len(rows) == 2
     last = dict(zip(first, rows[1]))
-    assert (last["time [s]"], last["a.yi [1]"], last["a.yb [1]"], last["a.yf [1]"]) == ("0.001", "7", "0", repr(
-        float(np.float32(0.1))))  # fmt: skip
+    assert (last["time [s]"], last["a.yi [1]"], last["a.yb [1]"], last["a.yf [1]"]) == (
+        "0.001",
+        "7",
+        "0",
+        repr(float(np.float32(0.1))),
+    )

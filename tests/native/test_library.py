@@ -49,9 +49,11 @@ def test_a_file_that_is_no_library_says_so(elsewhere):
 
 @pytest.mark.parametrize(
     ("source", "problem"),
-    [("int cosim_layout_version(void) { return 0; }", "is older than its Python side"),
-     ("int something_else(void) { return 0; }", "cannot be loaded .*cosim_layout_version")],
-)  # fmt: skip
+    [
+        ("int cosim_layout_version(void) { return 0; }", "is older than its Python side"),
+        ("int something_else(void) { return 0; }", "cannot be loaded .*cosim_layout_version"),
+    ],
+)
 def test_a_library_of_other_sources_is_refused(elsewhere, source, problem):
     command = ["gcc", "-shared", "-fPIC", "-x", "c", "-o", elsewhere, "-"]
     subprocess.run(command, input=source, text=True, check=True)

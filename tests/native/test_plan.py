@@ -15,7 +15,7 @@ from cosim.observers.trace import Trace
 from cosim.programme import Course as ProgrammeCourse
 from cosim.programme import ProgrammeUnit
 from cosim.system import System
-from cosim.unit import StepStatus
+from cosim.unit.protocol import StepStatus
 from tests.cosim.scripted import Relaxation
 from tests.native.both_loops import Course, compare, fmu, held, linear, run
 from tests.native.scripted_fmu import Fault
@@ -162,8 +162,10 @@ def test_a_failure_while_outputs_settle_before_a_record_records_nothing(scripted
 def test_shipped_actuator_heated_by_a_programme(shipped_fmus, version, kind):
     def make():
         power = held([0, 100 * MS, 900 * MS], [0.0, 3.0, 0.5])
-        units = {"given": ProgrammeUnit("given", {"power": power}),
-                 "coils": fmu("coils", shipped_fmus / f"thermal_stiffness_fmi{version}.fmu")}  # fmt: skip
+        units = {
+            "given": ProgrammeUnit("given", {"power": power}),
+            "coils": fmu("coils", shipped_fmus / f"thermal_stiffness_fmi{version}.fmu"),
+        }
         return System(units, [Connection(("given", "power"), ("coils", "power"))], frozenset({"given"}))
 
     native = compare(make, Course(kind, steps=120, per_record=3))
@@ -203,9 +205,12 @@ def test_python_can_go_on_after_any_step_and_hand_back(scripted, version, kind, 
 def test_programmes_held_and_linear(scripted, kind):
     def make():
         three = ProgrammeCourse((0, 30 * MS), np.array([[1.0, 2.0, 3.0], [0.1, -0.7, 1e-3]]), "1", "coil", True)
-        courses = {"step": held([0, 20 * MS, 70 * MS], [0.0, 1.0, 0.3]), "constant": held([0], [4.0]),
-                   "ramp": linear([-5 * MS, 33 * MS, 34 * MS, 90 * MS], [0.1, 1.7, -0.3, 0.7]),
-                   "three": three}  # fmt: skip
+        courses = {
+            "step": held([0, 20 * MS, 70 * MS], [0.0, 1.0, 0.3]),
+            "constant": held([0], [4.0]),
+            "ramp": linear([-5 * MS, 33 * MS, 34 * MS, 90 * MS], [0.1, 1.7, -0.3, 0.7]),
+            "three": three,
+        }
         units = {"given": ProgrammeUnit("given", courses), "first": fmu("first", scripted[3])}
         wires = [Connection(("given", "step"), ("first", "u")), Connection(("given", "three"), ("first", "ua"))]
         return System(units, wires, frozenset({"given"}))
@@ -220,10 +225,16 @@ def test_programmes_held_and_linear(scripted, kind):
 
 def test_units_without_a_native_form_are_called_in_their_place(scripted):
     def make():
-        units = {"first": fmu("first", scripted[3], rate=5.0), "python": Relaxation("python", 2.0, 1.0),
-                 "second": fmu("second", scripted[2], rate=4.0)}  # fmt: skip
-        wires = [Connection(("first", "y"), ("python", "input")), Connection(("python", "state"), ("second", "u")),
-                 Connection(("second", "y"), ("first", "u"))]  # fmt: skip
+        units = {
+            "first": fmu("first", scripted[3], rate=5.0),
+            "python": Relaxation("python", 2.0, 1.0),
+            "second": fmu("second", scripted[2], rate=4.0),
+        }
+        wires = [
+            Connection(("first", "y"), ("python", "input")),
+            Connection(("python", "state"), ("second", "u")),
+            Connection(("second", "y"), ("first", "u")),
+        ]
         return System(units, wires)
 
     for kind in ("jacobi", "gauss_seidel"):
@@ -277,8 +288,11 @@ def test_callbacks_run_after_every_step_and_every_record(scripted):
     system.initialise(0, {})
     trace = Trace(system, range(0, 12 * MS + 1, 4 * MS))
     seen = {"step": [], "record": []}
-    watch = Watch(trace, lambda: seen["step"].append(float(system.units["a"].get("yi"))),
-                  lambda: seen["record"].append(float(system.units["a"].get("yi"))))  # fmt: skip
+    watch = Watch(
+        trace,
+        lambda: seen["step"].append(float(system.units["a"].get("yi"))),
+        lambda: seen["record"].append(float(system.units["a"].get("yi"))),
+    )
     plan = native_plan(system, "jacobi", Grid(0, MS, 4), watch)
     plan.advance(0, 12)
     system.terminate()

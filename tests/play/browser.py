@@ -16,10 +16,17 @@ from typing import Any
 #: Names under which Chromium is installed.
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _ARGUMENTS = (
-    "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
-    "--no-first-run", "--disable-extensions", "--disable-background-networking", "--disable-dev-shm-usage",
+    "--headless",
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--disable-extensions",
+    "--disable-background-networking",
+    "--disable-dev-shm-usage",
     "--remote-debugging-pipe",
-)  # fmt: skip
+)
 
 
 def chromium() -> str | None:
@@ -47,9 +54,12 @@ class Browser:
             os.dup2(second, 4)
 
         self._process = subprocess.Popen(
-            [path, *_ARGUMENTS, f"--user-data-dir={self._profile.name}"], preexec_fn=connect, close_fds=False,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
+            [path, *_ARGUMENTS, f"--user-data-dir={self._profile.name}"],
+            preexec_fn=connect,
+            close_fds=False,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(to_browser)
         os.close(from_browser)
         self._rest = b""

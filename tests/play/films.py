@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.play.film import Curve, Fabric, Field, Shape
+from chainmail.play.film import Curve, Fabric, Field, Shape
 
 #: Of the prototype's links.
 SHAPE = Shape(bar_diameter=8.35e-3, outer_width=34.4e-3, length_offset=0.85e-3)
@@ -43,17 +43,22 @@ def fabric(rows: int = 6, per_row: int = 3, frames: int = 50, duration: float = 
         Curve("Coil temperature", "degC", "", times, warm.mean(axis=1), warm.min(axis=1), warm.max(axis=1)),
         Curve("Maximum curvature", "1/m", "", times, 12 * sink),
     )
-    return Fabric("sinking", "fabric", SHAPE, times, position, orientation, length, row + 1, place + 1, is_held, fields,
-                  curves)  # fmt: skip
+    return Fabric(
+        "sinking", "fabric", SHAPE, times, position, orientation, length, row + 1, place + 1, is_held, fields, curves
+    )
 
 
 def corners(fabric_shape: Shape, position: np.ndarray, orientation: np.ndarray, distance: np.ndarray) -> np.ndarray:
     """Outermost corners of every link [m], shape (..., 8, 3), from middles, quaternions and bar distances."""
     signs = np.array([[a, b, c] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)], dtype=float)
-    half = np.stack([
-        np.full(distance.shape, fabric_shape.outer_width / 2), (distance + fabric_shape.bar_diameter) / 2,
-        np.full(distance.shape, fabric_shape.bar_diameter / 2),
-    ], axis=-1)  # fmt: skip
+    half = np.stack(
+        [
+            np.full(distance.shape, fabric_shape.outer_width / 2),
+            (distance + fabric_shape.bar_diameter) / 2,
+            np.full(distance.shape, fabric_shape.bar_diameter / 2),
+        ],
+        axis=-1,
+    )
     local = half[..., None, :] * signs
     vector, scalar = orientation[..., None, :3], orientation[..., None, 3:]
     first = np.cross(vector, local) + scalar * local

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cosim.play.film import Film, Finding, Marks, Point, Track
-from cosim.play.links import markers, pose_at
-from cosim.play.page import LARGEST_ERROR, page
+from chainmail.play.film import Film, Finding, Marks, Point, Track
+from chainmail.play.links import markers, pose_at
+from chainmail.play.page import LARGEST_ERROR, page
 
 from .browser import NAMES, Browser, chromium
 from .films import corners, fabric
@@ -249,7 +249,7 @@ def test_nothing_hangs_over_at_any_size(opened, size, tmp_path):
 
 
 def test_the_controls_are_linked_to_a_page_that_a_notebook_holds(browser, film, tmp_path):
-    from cosim.play.notebook import Player
+    from chainmail.play.notebook import Player
 
     path = tmp_path / "notebook.html"
     path.write_text(f"<!doctype html><body>{Player(page(film), 500)._repr_html_()}</body>")

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cosim.play.codec import LARGEST, Block, decode, encode, quantised
+from chainmail.play.codec import LARGEST, Block, decode, encode, quantised
 
 _CODES = drawn.arrays(
     np.int64, st.tuples(st.integers(1, 4), st.integers(1, 30)), elements=st.integers(-LARGEST + 1, LARGEST - 1)

@@ -8,15 +8,18 @@ import xarray as xr
 import yaml
 from typer.testing import CliRunner
 
+from chainmail.play import play as play_in_notebook
 from cosim.cli import app
-from cosim.play import play as play_in_notebook
 
 from .test_page import content
 
 FINDING = {
-    "place": "coil[2,3]", "elements": ["coil[2,3]"], "intervals": [[0.05, 0.1], [0.15, None]], "is_accepted": True,
+    "place": "coil[2,3]",
+    "elements": ["coil[2,3]"],
+    "intervals": [[0.05, 0.1], [0.15, None]],
+    "is_accepted": True,
     "statement": "coil[2,3] is open",
-}  # fmt: skip
+}
 
 
 def is_one_clear_error(answer):
@@ -31,8 +34,10 @@ def is_one_clear_error(answer):
 def recording(run_folder, tmp_path):
     folder = tmp_path / "camera"
     wanted = "marker[*].y marker[*].z fabric.max_curvature coil[1].tension"
-    answer = CliRunner().invoke(app, ["record", str(run_folder), "--out", str(folder), "--channels", wanted,
-                                      "--sensor", str(_sensors(tmp_path))])  # fmt: skip
+    answer = CliRunner().invoke(
+        app,
+        ["record", str(run_folder), "--out", str(folder), "--channels", wanted, "--sensor", str(_sensors(tmp_path))],
+    )
     assert answer.exit_code == 0, answer.output
     return folder
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from cosim.play.from_diagnosis import findings_of
+from chainmail.play.from_diagnosis import findings_of
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.report.json_file import write_json
 from diagnosis.report.network import Network

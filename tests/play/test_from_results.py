@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from chainmail.play.from_results import fabric_of
+from chainmail.play.links import markers, pose_at
+from chainmail.play.run_results import run_results
 from cosim.assemble import assemble
-from cosim.errors import InputError
-from cosim.play.from_results import fabric_of
-from cosim.play.links import markers, pose_at
-from cosim.play.run_results import run_results
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 
 
 @pytest.fixture(scope="module")

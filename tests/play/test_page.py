@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cosim.play.codec import decode
-from cosim.play.film import Film, Finding, Marks, Point, Shape, Track
-from cosim.play.page import LARGEST_ERROR, page
+from chainmail.play.codec import decode
+from chainmail.play.film import Film, Finding, Marks, Point, Shape, Track
+from chainmail.play.page import LARGEST_ERROR, page
 
 from .films import SHAPE, corners, fabric
 
@@ -42,9 +42,10 @@ def test_no_point_of_a_link_is_off_by_more_than_10_um(scale):
     given = replace(
         given,
         shape=Shape(scale * SHAPE.bar_diameter, scale * SHAPE.outer_width, scale * SHAPE.length_offset),
-        position=scale * given.position, link_length=scale * given.link_length,
+        position=scale * given.position,
+        link_length=scale * given.link_length,
         orientation=turns / np.linalg.norm(turns, axis=2, keepdims=True),
-    )  # fmt: skip
+    )
     position, orientation, distance = poses(page(Film((given,))))
     there = corners(given.shape, given.position, given.orientation, given.bar_distance)
     error = np.linalg.norm(corners(given.shape, position, orientation, distance) - there, axis=-1)

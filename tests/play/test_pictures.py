@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cosim.errors import InputError
-from cosim.play.camera import VIEWS, Camera, camera, reach_of
-from cosim.play.film import Film, Marks, Point, Track
-from cosim.play.links import bodies, markers, pose_at
-from cosim.play.movie import MovieStyle, moments, write_gif, write_mp4
-from cosim.play.page import ranges_of
-from cosim.play.picture import Painter, Style, pairs
-from cosim.play.raster import Body, draw, empty
+from chainmail.play.camera import VIEWS, Camera, camera, reach_of
+from chainmail.play.film import Film, Marks, Point, Track
+from chainmail.play.links import bodies, markers, pose_at
+from chainmail.play.movie import MovieStyle, moments, write_gif, write_mp4
+from chainmail.play.page import ranges_of
+from chainmail.play.picture import Painter, Style, pairs
+from chainmail.play.raster import Body, draw, empty
+from cosim.unit.errors import InputError
 
 from .films import fabric
 

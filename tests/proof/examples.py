@@ -7,24 +7,42 @@ from typing import Any
 
 from diagnosis.judge.diagnosis import Alternative, ChannelFit, Diagnosis, Estimate, Finding, Verdict
 from diagnosis.judge.isolability import Isolability
-from diagnosis.proof.answer import Answer, Concealed, Sabotage
-from diagnosis.proof.place import Rig
-from diagnosis.proof.reference import Reference
-from diagnosis.proof.result import CaseResult
-from diagnosis.proof.scoring import score
+from evaluation.proof.answer import Answer, Concealed, Sabotage
+from evaluation.proof.place import Rig
+from evaluation.proof.reference import Reference
+from evaluation.proof.result import CaseResult
+from evaluation.proof.scoring import score
 
 SMALL = Rig((3, 3), True, ("coil[1,1].temperature", "coil[2,3].temperature", "string[1].current", "supply.current"))
 BATH = Rig((1,), False, ("coil[1].extension", "coil[1].temperature"))
 DURATION = 100.0
 
 RADIATION = Concealed(
-    "radiation", "thermal", True, False, "weak", "string", ("string[2]",), (), {"emissivity_area": 2e-4},
-    ("emissivity_area",), None,
-)  # fmt: skip
+    "radiation",
+    "thermal",
+    True,
+    False,
+    "weak",
+    "string",
+    ("string[2]",),
+    (),
+    {"emissivity_area": 2e-4},
+    ("emissivity_area",),
+    None,
+)
 SHORT = Concealed(
-    "shorted_coil", "electrical", True, False, "strong", "coil", ("coil[2,3]",), (), {"bridged": 1.0, "instant": 40.0},
-    ("bridged", "instant"), 40.0,
-)  # fmt: skip
+    "shorted_coil",
+    "electrical",
+    True,
+    False,
+    "strong",
+    "coil",
+    ("coil[2,3]",),
+    (),
+    {"bridged": 1.0, "instant": 40.0},
+    ("bridged", "instant"),
+    40.0,
+)
 
 
 def finding(effect: str = "radiation", unit: str = "thermal", place: str = "string[2]", **changes: Any) -> Finding:
@@ -46,9 +64,7 @@ def diagnosis(*findings: Finding, verdict: Verdict = Verdict.MISSING_PHYSICS, af
     fits = tuple(
         ChannelFit("r", True, n, "K", stages, stages, stages, samples) for n, samples in zip(names, (100, 200))
     )
-    return Diagnosis(
-        verdict, "", findings, fits, 12.0, 0.01, 9.0, 3.0, {}, Isolability(), None, 1.0, 10, 0
-    )  # fmt: skip
+    return Diagnosis(verdict, "", findings, fits, 12.0, 0.01, 9.0, 3.0, {}, Isolability(), None, 1.0, 10, 0)
 
 
 def answer(
@@ -63,9 +79,15 @@ def answer(
 
 #: The true term explains 100 in the training recordings; 300 held-out samples.
 REFERENCE = Reference(
-    "case_0001", {"coil[1,1].temperature": 100, "coil[2,3].temperature": 200}, recalibrated=3.0, oracle=1.0, floor=0.95,
-    training_gain=100.0, baselines={"gaussian process": 2.0, "sparse regression": None}, terms=21.0,
-)  # fmt: skip
+    "case_0001",
+    {"coil[1,1].temperature": 100, "coil[2,3].temperature": 200},
+    recalibrated=3.0,
+    oracle=1.0,
+    floor=0.95,
+    training_gain=100.0,
+    baselines={"gaussian process": 2.0, "sparse regression": None},
+    terms=21.0,
+)
 
 
 def result(given: Diagnosis | None, truth: Answer, outcome: str = "diagnosed", case: str = "case_0001") -> CaseResult:

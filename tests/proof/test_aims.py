@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.judge.diagnosis import Verdict
-from diagnosis.proof.aims import Aim, aims
-from diagnosis.proof.answer import Sabotage
-from diagnosis.proof.breakdown import (
+from evaluation.proof.aims import Aim, aims
+from evaluation.proof.answer import Sabotage
+from evaluation.proof.breakdown import (
     by_effect,
     by_kind,
     by_method,
@@ -23,10 +23,10 @@ from diagnosis.proof.breakdown import (
     confusions,
     unit_matrix,
 )
-from diagnosis.proof.command import write_all
-from diagnosis.proof.result import read_results, row
-from diagnosis.proof.tables import page_of, short
-from diagnosis.proof.wilson import Share
+from evaluation.proof.command import write_all
+from evaluation.proof.result import read_results, row
+from evaluation.proof.tables import page_of, short
+from evaluation.proof.wilson import Share
 from tests.proof.examples import RADIATION, REFERENCE, SHORT, answer, diagnosis, finding, result
 
 NULL = answer(kind="null", verdicts=("consistent", "recalibrated"))
@@ -133,8 +133,10 @@ def test_false_claims_are_of_sabotaged_cases_and_a_refusal_claims_nothing() -> N
         ("swapped_columns", 3, 1, Share(1, 2), 1, "1 missing physics, 1 cannot tell, 1 refused")
     ]
     assert by_verdict([careful, QUIET, MISSED]) == [
-        ("cannot tell", 1, Share(1, 1)), ("consistent", 1, Share(0, 1)), ("recalibrated", 1, Share(1, 1))
-    ]  # fmt: skip
+        ("cannot tell", 1, Share(1, 1)),
+        ("consistent", 1, Share(0, 1)),
+        ("recalibrated", 1, Share(1, 1)),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.judge.diagnosis import Verdict
-from diagnosis.proof.command import write_all
+from evaluation.proof.command import write_all
 from tests.proof.examples import RADIATION, answer, diagnosis, finding, result
 
 RUNNER = CliRunner()

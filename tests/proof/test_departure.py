@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Met, Moved, Used, Verdict
-from diagnosis.proof.answer import Answer
-from diagnosis.proof.departure import departures, is_within_noise, noise_limit
-from diagnosis.proof.headline import is_headline_true
-from diagnosis.proof.reference import Reference
+from evaluation.proof.answer import Answer
+from evaluation.proof.departure import departures, is_within_noise, noise_limit
+from evaluation.proof.headline import is_headline_true
+from evaluation.proof.reference import Reference
 from tests.diagnosis.report_examples import ADEQUACY
 from tests.proof.examples import RADIATION, REFERENCE, SMALL, answer, diagnosis
 
@@ -50,9 +50,11 @@ def _told(
         noises[name] = (sizes[2], NOISE)
     day = (Moved("ambient_offset of recording tuesday", "K", stated, False, stated / 0.5),) if stated else ()
     told = replace(
-        diagnosis(verdict=Verdict.RECALIBRATED), fit=tuple(fits), adequacy=replace(ADEQUACY, day=day, met=tuple(met)),
+        diagnosis(verdict=Verdict.RECALIBRATED),
+        fit=tuple(fits),
+        adequacy=replace(ADEQUACY, day=day, met=tuple(met)),
         recordings=(Used("tuesday", "", True, 0.0, 1.0, tuple(noises)),),
-    )  # fmt: skip
+    )
     floor = float(np.mean([(n / NOISE) ** 2 for n, _ in noises.values()]))
     samples = dict.fromkeys(noises, COUNT)
     return told, replace(NULL, room=room), replace(REFERENCE, samples=samples, noises=noises, floor=floor)

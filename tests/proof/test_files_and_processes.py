@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 import yaml
 
-from cosim.errors import InputError
-from diagnosis.proof.answer import read_answer
-from diagnosis.proof.ground import Draw, make_cases, read_task
-from diagnosis.proof.isolated import diagnose_apart, files_of, write_files
-from diagnosis.proof.proof import Effort, Folder, prove
-from diagnosis.proof.workers import Given, Workers
+from cosim.unit.errors import InputError
+from evaluation.proof.answer import read_answer
+from evaluation.proof.ground import Draw, make_cases, read_task
+from evaluation.proof.isolated import diagnose_apart, files_of, write_files
+from evaluation.proof.proof import Effort, Folder, prove
+from evaluation.proof.workers import Given, Workers
 
 DRAW = Draw(2, 3, ("leave_one_out",), ("bath",))
 
@@ -101,9 +101,13 @@ def _times(folder: Folder) -> dict[str, int]:
     return {f"{p.parent.name}/{p.name}": p.stat().st_mtime_ns for p in files}
 
 
-@pytest.mark.parametrize(("stop_after", "kept"), [(1, ["attempts/case_0001.json"]), (3, [
-    "attempts/case_0001.json", "attempts/case_0002.json", "references/case_0001.json"
-])])  # fmt: skip
+@pytest.mark.parametrize(
+    ("stop_after", "kept"),
+    [
+        (1, ["attempts/case_0001.json"]),
+        (3, ["attempts/case_0001.json", "attempts/case_0002.json", "references/case_0001.json"]),
+    ],
+)
 def test_what_is_done_is_kept_and_not_done_again(
     ground: Path, tmp_path: Path, stop_after: int, kept: list[str]
 ) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from diagnosis.proof.ground import Draw
-from diagnosis.proof.proof import Effort, Folder, prove
-from diagnosis.proof.result import CaseResult
-from diagnosis.proof.workers import workers
+from evaluation.proof.ground import Draw
+from evaluation.proof.proof import Effort, Folder, prove
+from evaluation.proof.result import CaseResult
+from evaluation.proof.workers import workers
 
 #: On the two quick rigs: one null, a fault of a sensor, and effects in the heat and in the length.
 DRAW = Draw(5, 27, ("null", "single", "sensor"), ("bath", "heaters"))

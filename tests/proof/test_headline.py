@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from diagnosis.judge.diagnosis import Diagnosis, Doubt, Moved, Standing, Verdict
-from diagnosis.proof.answer import Answer, Concealed, Sabotage, read_answer
-from diagnosis.proof.departure import noise_limit
-from diagnosis.proof.headline import is_headline_true
-from diagnosis.proof.scoring import score
+from evaluation.proof.answer import Answer, Concealed, Sabotage, read_answer
+from evaluation.proof.departure import noise_limit
+from evaluation.proof.headline import is_headline_true
+from evaluation.proof.scoring import score
 from tests.diagnosis.report_examples import ADEQUACY
 from tests.proof.examples import DURATION, RADIATION, REFERENCE, SHORT, SMALL, alternative, answer, diagnosis, finding
 
@@ -199,10 +199,17 @@ def test_physics_that_is_there_besides_is_no_false_claim() -> None:
 
 def test_answers_of_now_and_of_before_are_read(tmp_path: Path) -> None:
     effect = {
-        "effect": "open_coil", "unit": "electrical", "is_in_catalogue": True, "is_hidden": False, "strength": "weak",
-        "place": "coil", "elements": ["coil[1,1]"], "channels": [], "parameters": {"instant": 40.0},
+        "effect": "open_coil",
+        "unit": "electrical",
+        "is_in_catalogue": True,
+        "is_hidden": False,
+        "strength": "weak",
+        "place": "coil",
+        "elements": ["coil[1,1]"],
+        "channels": [],
+        "parameters": {"instant": 40.0},
         "comparable_parameters": ["instant"],
-    }  # fmt: skip
+    }
     told = {"case": "c", "kind": "single", "setup": "small", "engine": "own", "verdicts": ["missing physics"]}
     now = {"recording": "training_2", "title": "small, training 2", "order": 2, "begin": 40.0, "end": 100.0}
     path = tmp_path / "c.json"

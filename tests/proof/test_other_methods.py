@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from diagnosis.proof import gaussian_process, sparse_regression
-from diagnosis.proof.baselines import baselines
-from diagnosis.proof.ground import Draw, make_cases
-from diagnosis.proof.oracle import read_data
-from diagnosis.proof.variables import NAMES, Course, courses
 from diagnosis.search.search import recalibrate
+from evaluation.proof import gaussian_process, sparse_regression
+from evaluation.proof.baselines import baselines
+from evaluation.proof.ground import Draw, make_cases
+from evaluation.proof.oracle import read_data
+from evaluation.proof.variables import NAMES, Course, courses
 
 SAMPLES = 240
 

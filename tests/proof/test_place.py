@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from diagnosis.proof.answer import Concealed
-from diagnosis.proof.place import Rig, found_place, read_duration, read_rig, true_place
+from evaluation.proof.answer import Concealed
+from evaluation.proof.place import Rig, found_place, read_duration, read_rig, true_place
 from tests.proof.examples import BATH, RADIATION, SMALL
 
 
@@ -58,8 +58,18 @@ def test_the_place_of_a_truth_is_that_of_the_label_which_means_the_same(truth: C
 
 
 def test_other_coils_strings_and_gradients_are_other_places() -> None:
-    labels = ["coil[1,1]", "coil[1,2]", "string[1]", "string[2]", "all coils", "gradient over rows", "supply",
-              "gradient over columns", "every temperature", "coil[1,1].temperature"]  # fmt: skip
+    labels = [
+        "coil[1,1]",
+        "coil[1,2]",
+        "string[1]",
+        "string[2]",
+        "all coils",
+        "gradient over rows",
+        "supply",
+        "gradient over columns",
+        "every temperature",
+        "coil[1,1].temperature",
+    ]
     assert len({found_place(label, SMALL) for label in labels}) == len(labels)
 
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from diagnosis.judge.diagnosis import Estimate, Standing, Used, Verdict
-from diagnosis.proof.headline import held_out_chi_square
-from diagnosis.proof.reference import Reference
-from diagnosis.proof.scoring import Score, score
+from evaluation.proof.headline import held_out_chi_square
+from evaluation.proof.reference import Reference
+from evaluation.proof.scoring import Score, score
 from tests.proof.examples import (
     DURATION,
     RADIATION,
@@ -146,7 +146,7 @@ def test_the_right_name_at_the_head_of_a_class_counts_and_below_no_name_does_not
     assert not _scored(finding(standing=Standing.UNNAMED)).effects[0].is_named
 
 
-def test_without_a_bank_the_gain_of_a_composed_law_ends_at_noise() -> None:
+def test_without_a_network_the_gain_of_a_composed_law_ends_at_noise() -> None:
     truth = answer(replace(RADIATION, effect="composed", is_in_catalogue=False), kind="composed")
     none = Reference("case_0001", failure="no reference")
     held = score(diagnosis(finding(is_named=False), after=1.2), truth, SMALL, none, DURATION).held_out

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.proof.ground import Draw, make_cases
-from diagnosis.proof.isolated import files_of
-from diagnosis.proof.proof import Folder, answer_files
-from diagnosis.proof.reference import Reference
-from diagnosis.proof.references import make_reference
+from evaluation.proof.ground import Draw, make_cases
+from evaluation.proof.isolated import files_of
+from evaluation.proof.proof import Folder, answer_files
+from evaluation.proof.reference import Reference
+from evaluation.proof.references import make_reference
 
 CASE = "case_0001"
 
@@ -61,7 +61,7 @@ def test_without_a_twin_everything_else_is_the_same(folder: Folder, reference: R
     assert replace(found, twin=reference.twin, seconds=reference.seconds) == reference
 
 
-def test_of_a_rig_without_a_bank_the_noise_is_known_all_the_same(tmp_path: Path) -> None:
+def test_of_a_rig_without_a_network_the_noise_is_known_all_the_same(tmp_path: Path) -> None:
     """A pendulum: readings about the truth scatter by the noise that is stated and the encoder's steps."""
     made = Folder(tmp_path)
     make_cases(made.path / "ground", Draw(1, 2, ("null",), ("pendulum",)))

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from cosim.errors import InputError
-from diagnosis.proof.progress import Progress
-from diagnosis.proof.workers import WAITING, Lost, Workers, workers
+from cosim.unit.errors import InputError
+from evaluation.proof.progress import Progress
+from evaluation.proof.workers import WAITING, Lost, Workers, workers
 
 
 def _square(number: int) -> tuple[int, int]:
@@ -56,7 +56,7 @@ def test_a_cluster_is_used_by_its_address(crew: Workers) -> None:
 
 
 def test_a_cluster_that_does_not_answer_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("diagnosis.proof.workers.CONNECT_TIME", 0.5)
+    monkeypatch.setattr("evaluation.proof.workers.CONNECT_TIME", 0.5)
     with pytest.raises(InputError, match="does not answer"), workers(1, "tcp://127.0.0.1:9"):
         pass
 

@@ -11,15 +11,15 @@ from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
-from proving.case import Case
-from proving.pendulum.arm import EFFECTS, Arm, middle
-from proving.pendulum.case import behind_play
-from proving.pendulum.engines import own
-from proving.rig import ideal_rig
-from proving.sensors import drawn_sensors
-from proving.setups import SETUPS
+from evaluation.proving.case import Case
+from evaluation.proving.pendulum.arm import EFFECTS, Arm, middle
+from evaluation.proving.pendulum.case import behind_play
+from evaluation.proving.pendulum.engines import own
+from evaluation.proving.rig import ideal_rig
+from evaluation.proving.sensors import drawn_sensors
+from evaluation.proving.setups import SETUPS
 
-SCENARIOS = Path(__file__).resolve().parents[2] / "proving" / "scenarios"
+SCENARIOS = Path(__file__).resolve().parents[2] / "evaluation" / "proving" / "scenarios"
 
 
 @pytest.fixture(autouse=True)
@@ -79,8 +79,9 @@ def test_an_ideal_rig_is_its_scenario(name, tmp_path):
         assert np.ptp(values) > 50 * tolerances[quantity]
 
 
-@pytest.mark.parametrize("effect", [None, *(e for e in EFFECTS if e.is_named)],
-                         ids=lambda e: "none" if e is None else e.identifier)  # fmt: skip
+@pytest.mark.parametrize(
+    "effect", [None, *(e for e in EFFECTS if e.is_named)], ids=lambda e: "none" if e is None else e.identifier
+)
 def test_an_arm_is_its_scenario_with_the_effect_switched_on(effect):
     parameters = {} if effect is None else middle(effect)
     distance, mass = 0.115, 0.1
@@ -88,9 +89,17 @@ def test_an_arm_is_its_scenario_with_the_effect_switched_on(effect):
     angle = behind_play(own(arm, math.pi - 1.2, 0.5, 12.0, 0.01), arm.of("backlash"))
     scenario = load_scenario(SCENARIOS / "pendulum.yaml")
     listed = {"initial_angle": math.pi - 1.2, "initial_angular_velocity": 0.5} | parameters
-    units = {"initial_angle": "rad", "tilt": "rad", "backlash": "rad", "initial_angular_velocity": "rad/s",
-             "stribeck_speed": "rad/s", "viscous_damping": "N*m*s", "coulomb_friction": "N*m", "stiction": "N*m",
-             "quadratic_drag": "N*m*s^2"}  # fmt: skip
+    units = {
+        "initial_angle": "rad",
+        "tilt": "rad",
+        "backlash": "rad",
+        "initial_angular_velocity": "rad/s",
+        "stribeck_speed": "rad/s",
+        "viscous_damping": "N*m*s",
+        "coulomb_friction": "N*m",
+        "stiction": "N*m",
+        "quadratic_drag": "N*m*s^2",
+    }
     data = yaml.safe_load((SCENARIOS / "pendulum.yaml").read_text())
     data["components"]["arm"]["parameters"] |= {n: f"{v!r} {units[n]}" for n, v in listed.items()}
     found = run(parse_scenario(yaml.safe_dump(data), scenario.path))

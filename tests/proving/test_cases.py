@@ -13,12 +13,12 @@ from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
-from proving.__main__ import main
-from proving.case import Case
-from proving.cases import KINDS, drawn_cases, hidden_with, write_cases
-from proving.effects import measurement
-from proving.pendulum.case import PendulumCase
-from proving.setups import EFFECTS, SETUPS
+from evaluation.proving.__main__ import main
+from evaluation.proving.case import Case
+from evaluation.proving.cases import KINDS, drawn_cases, hidden_with, write_cases
+from evaluation.proving.effects import measurement
+from evaluation.proving.pendulum.case import PendulumCase
+from evaluation.proving.setups import EFFECTS, SETUPS
 
 SEED = 12
 
@@ -50,7 +50,7 @@ def test_every_recording_loads_and_its_scenario_follows_what_was_done(written):
 
 @pytest.mark.parametrize("setup", SETUPS)
 def test_scenarios_are_valid_and_name_the_coils_of_their_sheet(setup):
-    path = Path("proving/scenarios") / f"{setup}.yaml"
+    path = Path("evaluation/proving/scenarios") / f"{setup}.yaml"
     scenario = load_scenario(Path(__file__).resolve().parents[2] / path)
     circuit = scenario.components.get("circuit")
     strings = [1] * SETUPS[setup].sheet.coils if circuit is None else circuit.strings

@@ -7,21 +7,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from proving.case import Case, drawn_chain, run_truth, twin
-from proving.cases import drawn_cases
-from proving.composed import shapes
-from proving.composed.case import ComposedCase
-from proving.composed.effect import TARGETS, Composed, ComposedReading
-from proving.composed.law import Chain, Law, Scale, drawn_law
-from proving.composed.search import Wanted, amount_of, strength_of
-from proving.composed.strength import FINE, LEAST_IN_TRAINING, LEFT, Gauge, Left
-from proving.composed.torque import ComposedTorque, left
-from proving.effects.effect import everywhere
-from proving.effects.measurement import SensorFault
-from proving.pendulum.arm import Arm
-from proving.pendulum.engines import own
-from proving.rig import ROOM, drawn_rig
-from proving.setups import SETUPS
+from evaluation.proving.case import Case, drawn_chain, run_truth, twin
+from evaluation.proving.cases import drawn_cases
+from evaluation.proving.composed import shapes
+from evaluation.proving.composed.case import ComposedCase
+from evaluation.proving.composed.effect import TARGETS, Composed, ComposedReading
+from evaluation.proving.composed.law import Chain, Law, Scale, drawn_law
+from evaluation.proving.composed.search import Wanted, amount_of, strength_of
+from evaluation.proving.composed.strength import FINE, LEAST_IN_TRAINING, LEFT, Gauge, Left
+from evaluation.proving.composed.torque import ComposedTorque, left
+from evaluation.proving.effects.effect import everywhere
+from evaluation.proving.effects.measurement import SensorFault
+from evaluation.proving.pendulum.arm import Arm
+from evaluation.proving.pendulum.engines import own
+from evaluation.proving.rig import ROOM, drawn_rig
+from evaluation.proving.setups import SETUPS
 
 ONE = np.ones(1)
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from proving.draw import drawn_effect, fits
-from proving.effects import electrical, mechanical, outside, stiffness, thermal
-from proving.effects.effect import Place, coil_place, string_place
-from proving.rig import ideal_rig
-from proving.sensors import KINDS
-from proving.setups import EFFECTS, SETUPS
-from proving.truth import Truth
+from evaluation.proving.draw import drawn_effect, fits
+from evaluation.proving.effects import electrical, mechanical, outside, stiffness, thermal
+from evaluation.proving.effects.effect import Place, coil_place, string_place
+from evaluation.proving.rig import ideal_rig
+from evaluation.proving.sensors import KINDS
+from evaluation.proving.setups import EFFECTS, SETUPS
+from evaluation.proving.truth import Truth
 
 SMALL, ZONES = SETUPS["small"], SETUPS["zones"]
 RIG = ideal_rig(SMALL.sheet)

@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from proving.case import Case, drawn_chain, run_truth
-from proving.cases import drawn_cases
-from proving.draw import drawn_effect
-from proving.effects import measurement
-from proving.effects.effect import STRENGTHS, coil_place, drawn_values, everywhere, value_at
-from proving.effects.electrical import OpenCoil
-from proving.effects.thermal import Draught
-from proving.pendulum import arm
-from proving.rig import drawn_rig
-from proving.setups import EFFECTS, SETUPS
+from evaluation.proving.case import Case, drawn_chain, run_truth
+from evaluation.proving.cases import drawn_cases
+from evaluation.proving.draw import drawn_effect
+from evaluation.proving.effects import measurement
+from evaluation.proving.effects.effect import STRENGTHS, coil_place, drawn_values, everywhere, value_at
+from evaluation.proving.effects.electrical import OpenCoil
+from evaluation.proving.effects.thermal import Draught
+from evaluation.proving.pendulum import arm
+from evaluation.proving.rig import drawn_rig
+from evaluation.proving.setups import EFFECTS, SETUPS
 
 SETUP = replace(SETUPS["small"], stop=30.0, step=0.5)
 

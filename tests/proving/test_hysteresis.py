@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from proving.hysteresis import CELSIUS, Loop, lower, upper
-from proving.rig import DataSheet, ideal_rig
+from evaluation.proving.hysteresis import CELSIUS, Loop, lower, upper
+from evaluation.proving.rig import DataSheet, ideal_rig
 
 RIG = ideal_rig(DataSheet(strings=(1,)))
 

@@ -3,13 +3,19 @@
 import numpy as np
 import pytest
 
-from proving.effects.effect import everywhere
-from proving.effects.mechanical import SlideFriction, SupplyWireStiffness, ThermalContraction, Tilt, ViscousDamping
-from proving.effects.thermal import Draught
-from proving.mujoco_load import SUPPORTED, hang
-from proving.rig import ideal_rig
-from proving.setups import SETUPS
-from proving.truth import Truth
+from evaluation.proving.effects.effect import everywhere
+from evaluation.proving.effects.mechanical import (
+    SlideFriction,
+    SupplyWireStiffness,
+    ThermalContraction,
+    Tilt,
+    ViscousDamping,
+)
+from evaluation.proving.effects.thermal import Draught
+from evaluation.proving.mujoco_load import SUPPORTED, hang
+from evaluation.proving.rig import ideal_rig
+from evaluation.proving.setups import SETUPS
+from evaluation.proving.truth import Truth
 
 SMALL = SETUPS["small"]
 RIG = ideal_rig(SMALL.sheet)

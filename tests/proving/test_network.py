@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from proving.network import OPEN, Branches, solve
+from evaluation.proving.network import OPEN, Branches, solve
 
 
 def network(coil, strings, **others):

@@ -11,10 +11,10 @@ from scipy.special import ellipk
 from cosim.scenario import load_scenario
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
-from proving.effects.effect import STRENGTHS
-from proving.pendulum.arm import EFFECTS, GRAVITY, Arm, middle
-from proving.pendulum.case import behind_play, drawn_pendulum
-from proving.pendulum.engines import ENGINES
+from evaluation.proving.effects.effect import STRENGTHS
+from evaluation.proving.pendulum.arm import EFFECTS, GRAVITY, Arm, middle
+from evaluation.proving.pendulum.case import behind_play, drawn_pendulum
+from evaluation.proving.pendulum.engines import ENGINES
 
 MOMENT, DISTANCE = 0.1 * GRAVITY * 0.115, 0.115
 INERTIA = 4408e-7 + 0.1 * DISTANCE**2
@@ -74,8 +74,9 @@ def test_the_arm_sticks_where_the_weight_is_less_than_friction(engine):
 
 
 @pytest.mark.parametrize("engine", ["bullet", "mujoco"])
-@pytest.mark.parametrize("effect", [e for e in EFFECTS if e.identifier not in ("stiction", "backlash")],
-                         ids=lambda e: e.identifier)  # fmt: skip
+@pytest.mark.parametrize(
+    "effect", [e for e in EFFECTS if e.identifier not in ("stiction", "backlash")], ids=lambda e: e.identifier
+)
 def test_engines_agree_on_every_effect(effect, engine):
     parameters = middle(effect)
     difference = np.abs(swing(engine, parameters, stop=6.0) - swing("own", parameters, stop=6.0)).max()

@@ -10,15 +10,15 @@ import pytest
 import yaml
 
 from diagnosis.recording.recording import load_recording
-from proving.case import Case, drawn_chain, run_truth
-from proving.cases import drawn_cases
-from proving.pendulum.case import drawn_pendulum
-from proving.programme import delayed, offset, soak
-from proving.rig import drawn_rig
-from proving.sabotage import inputs, pendulum, readings, structure
-from proving.sabotage.deal import PAIRS
-from proving.sabotage.sabotage import Bench, Sabotage
-from proving.setups import SETUPS
+from evaluation.proving.case import Case, drawn_chain, run_truth
+from evaluation.proving.cases import drawn_cases
+from evaluation.proving.pendulum.case import drawn_pendulum
+from evaluation.proving.programme import delayed, offset, soak
+from evaluation.proving.rig import drawn_rig
+from evaluation.proving.sabotage import inputs, pendulum, readings, structure
+from evaluation.proving.sabotage.deal import PAIRS
+from evaluation.proving.sabotage.sabotage import Bench, Sabotage
+from evaluation.proving.setups import SETUPS
 
 
 def made_case(name, sabotage=None, stop=30.0):

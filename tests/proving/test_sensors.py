@@ -5,11 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from proving.effects.effect import Place
-from proving.effects.measurement import Clipping, ClockOffset, CurrentPickup, Gain, Lag, WrongIdentity, drawn_fault
-from proving.rig import DataSheet
-from proving.sensors import KINDS, channel_names, drawn_sensors, read
-from proving.truth import Trace
+from evaluation.proving.effects.effect import Place
+from evaluation.proving.effects.measurement import (
+    Clipping,
+    ClockOffset,
+    CurrentPickup,
+    Gain,
+    Lag,
+    WrongIdentity,
+    drawn_fault,
+)
+from evaluation.proving.rig import DataSheet
+from evaluation.proving.sensors import KINDS, channel_names, drawn_sensors, read
+from evaluation.proving.truth import Trace
 
 SHEET = DataSheet(strings=(1, 1))
 TIME = np.linspace(0.0, 60.0, 601)
@@ -120,13 +128,13 @@ def test_names_follow_strings_and_places():
 
 
 def test_faults_are_drawn_on_sensors_that_can_have_them():
-    banks = {name: drawn_sensors(kind, SHEET, np.random.default_rng(1)) for name, kind in KINDS.items()}
+    networks = {name: drawn_sensors(kind, SHEET, np.random.default_rng(1)) for name, kind in KINDS.items()}
     rng = np.random.default_rng(3)
     for _ in range(20):
-        swap = drawn_fault(WrongIdentity, banks, "medium", rng)
+        swap = drawn_fault(WrongIdentity, networks, "medium", rng)
         assert len(set(swap.place.channels)) == 2
         assert len({c.partition(".")[2] for c in swap.place.channels}) == 1
-        lag = drawn_fault(Lag, banks, "strong", rng)
+        lag = drawn_fault(Lag, networks, "strong", rng)
         assert all("current" not in c for c in lag.place.channels)
         # Strong is the upper third of 0.6 to 2.5 s on a logarithmic scale: from 0.6 (2.5 / 0.6)^(2/3) on.
         assert 1.55 <= lag.parameters["lag_time"] <= 2.5

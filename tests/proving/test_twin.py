@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from proving.case import Case
-from proving.cases import drawn_cases, write_cases
-from proving.draw import drawn_effect
-from proving.effects.effect import Effect
-from proving.effects.measurement import BentScale, CurrentPickup, SensorFault, drawn_fault
-from proving.effects.outside import ContactVoltage, PeltierJunction, TwoWaySquare
-from proving.setups import SETUPS
+from evaluation.proving.case import Case
+from evaluation.proving.cases import drawn_cases, write_cases
+from evaluation.proving.draw import drawn_effect
+from evaluation.proving.effects.effect import Effect
+from evaluation.proving.effects.measurement import BentScale, CurrentPickup, SensorFault, drawn_fault
+from evaluation.proving.effects.outside import ContactVoltage, PeltierJunction, TwoWaySquare
+from evaluation.proving.setups import SETUPS
 
 RECORDINGS = ("training_1", "training_2", "held_out_1")
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from proving.programme import Programme, staircase
-from proving.rig import ROOM, DataSheet, drawn_rig, ideal_rig
-from proving.truth import Truth
-from proving.wire import WireError, Wires
+from evaluation.proving.programme import Programme, staircase
+from evaluation.proving.rig import ROOM, DataSheet, drawn_rig, ideal_rig
+from evaluation.proving.truth import Truth
+from evaluation.proving.wire import WireError, Wires
 
 ONE = DataSheet(strings=(1,))
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 
 #: Readings per channel.

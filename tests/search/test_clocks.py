@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point
 from diagnosis.search.search import with_clocks_set

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.held_out import root_mean_square
+from diagnosis.models.coil_network.free import Free, FreeSet
 from diagnosis.search.explanation import Settings
 from diagnosis.search.fit import fit
 from diagnosis.search.posterior import cost
@@ -12,7 +13,6 @@ from diagnosis.search.score import Scoring, score
 from diagnosis.search.search import recalibrate, search
 from diagnosis.search.switches import costs_at
 from diagnosis.search.validation import Validation
-from diagnosis.simulator.free import Free, FreeSet
 from tests.search.line_model import BEND, COUNT, TERMS, TIME, LineModel
 
 SIZES = (0.1, -0.1, 5.0)

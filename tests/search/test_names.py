@@ -25,7 +25,9 @@ BREAK = replace(STEP, parameters=(replace(STEP.parameters[0], upper=1.0, plausib
 @pytest.mark.parametrize(
     ("term", "values", "is_doubtful"),
     [
-        (LID, (1.0, 0.7), False), (LID, (1.0, 50.0), True), (LID, (1.0, -50.0), True),
+        (LID, (1.0, 0.7), False),
+        (LID, (1.0, 50.0), True),
+        (LID, (1.0, -50.0), True),
         (STEP, (0.4, 1.0), False),  # an instant may lie anywhere
         (STEP, (10.0, 0.5), True),  # a strength at its bound is not identified
         (BREAK, (1.0, 0.5), False),  # a clean break is all there is
@@ -33,7 +35,7 @@ BREAK = replace(STEP, parameters=(replace(STEP.parameters[0], upper=1.0, plausib
         (WIRE, (1.0, 0.0), False),  # nothing of a part of the law
         (WIRE, (1.0, 0.05), True),
     ],
-)  # fmt: skip
+)
 def test_a_law_at_a_bound_is_not_identified_unless_a_rig_can_have_that(term, values, is_doubtful):
     base = recalibrate(LineModel(LINE))
     found = replace(base, point=base.point.plus(term, values))

@@ -38,10 +38,14 @@ def test_what_a_recalibration_does_as_well_cannot_be_seen():
 
 @pytest.mark.parametrize(
     ("truth", "term"),
-    [(LINE + 2.0 * TIME**2, BEND), (LINE + 0.2 * np.sin(25 * TIME), WAVE), (LINE + 0.4 * (TIME > 0.63), STEP),
-     (np.minimum(0.3 + TIME, 0.8), LID)],
+    [
+        (LINE + 2.0 * TIME**2, BEND),
+        (LINE + 0.2 * np.sin(25 * TIME), WAVE),
+        (LINE + 0.4 * (TIME > 0.63), STEP),
+        (np.minimum(0.3 + TIME, 0.8), LID),
+    ],
     ids=["bend", "wave", "jump", "lid"],
-)  # fmt: skip
+)
 def test_the_term_that_is_missing_is_found_alone(truth, term):
     outcome = search(LineModel(truth, seed=3), TERMS, Settings())
     assert outcome.best.terms == (term,)

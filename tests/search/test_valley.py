@@ -7,9 +7,15 @@ from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.valley import FACTORS, along, down_valley
 
-STICTION = Term("stiction", "arm", "mechanical", (
-    TermParameter("torque", "N*m", 0.0, 100.0, (1.0,)), TermParameter("speed", "rad/s", 1e-3, 100.0, (1.0,)),
-))  # fmt: skip
+STICTION = Term(
+    "stiction",
+    "arm",
+    "mechanical",
+    (
+        TermParameter("torque", "N*m", 0.0, 100.0, (1.0,)),
+        TermParameter("speed", "rad/s", 1e-3, 100.0, (1.0,)),
+    ),
+)
 TRUE = (6.0, 0.4)
 
 

@@ -179,10 +179,8 @@ def array(name, size, bindings=""):
 
 def test_arrays_connect_whole_and_by_elements_counted_from_1(pack, tmp_path):
     start = p.bindings(
-        p.inline(
-            p.parameter("n", 3, "UInt64"), p.parameter("u", "10 20 30", "Float64", shape=(3,)), version="2.0"
-        )
-    )  # fmt: skip
+        p.inline(p.parameter("n", 3, "UInt64"), p.parameter("u", "10 20 30", "Float64", shape=(3,)), version="2.0")
+    )
     root = p.system(
         "root",
         array("a", 3, start),
@@ -264,12 +262,18 @@ def test_a_local_variable_that_is_connected_is_read_like_an_output(pack, tmp_pat
 @pytest.mark.parametrize(
     ("annotation", "type_"),
     [
-        ('<o:Algorithm xmlns:o="http://opensimulationplatform.com/SSP/OSPAnnotations"><o:FixedStepAlgorithm '
-         'baseStepSize="2e-3"/></o:Algorithm>', "com.opensimulationplatform"),
-        ('<o:SimulationInformation xmlns:o="urn:oms"><o:FixedStepMaster description="oms-ma" stepSize="0.002000"/>'
-         "</o:SimulationInformation>", "org.openmodelica"),
+        (
+            '<o:Algorithm xmlns:o="http://opensimulationplatform.com/SSP/OSPAnnotations"><o:FixedStepAlgorithm '
+            'baseStepSize="2e-3"/></o:Algorithm>',
+            "com.opensimulationplatform",
+        ),
+        (
+            '<o:SimulationInformation xmlns:o="urn:oms"><o:FixedStepMaster description="oms-ma" stepSize="0.002000"/>'
+            "</o:SimulationInformation>",
+            "org.openmodelica",
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_step_of_another_tools_annotation_is_taken_with_a_note(pack, tmp_path, annotation, type_):
     annotated = f'<ssd:Annotations><ssc:Annotation type="{type_}">{annotation}</ssc:Annotation></ssd:Annotations>'
     experiment = f'<ssd:DefaultExperiment startTime="1" stopTime="1.01">{annotated}</ssd:DefaultExperiment>'

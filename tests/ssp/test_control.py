@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cosim.errors import InputError
 from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
 from tests.control.files import loop
 from tests.ssp.runs import round_trip
 

@@ -11,11 +11,11 @@ from lxml import etree
 from typer.testing import CliRunner
 
 from cosim.cli import app
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario
 from cosim.ssp.importer import check_ssp, import_ssp
 from cosim.ssp.schemas import named_schemas, schema
+from cosim.unit.errors import InputError
 from tests.fmi.fmi_models import described
 from tests.ssp import packages as p
 from tests.ssp.runs import STEP

@@ -81,8 +81,12 @@ def test_bindings_of_systems_reach_inside_and_the_highest_level_counts(pack, tmp
 def test_equal_hierarchical_names_all_get_the_value(pack, tmp_path):
     """The standard's punning: element f in system A.B, and element A.B.f beside it."""
     nested = p.system("A", p.system("B", p.feedthrough("f", p.bindings(ONE))))
-    root = p.system("root", nested, p.feedthrough("A.B.f", p.bindings(ONE)), bindings=p.bindings(
-        p.inline(p.parameter("A.B.f.gain", "2"))))  # fmt: skip
+    root = p.system(
+        "root",
+        nested,
+        p.feedthrough("A.B.f", p.bindings(ONE)),
+        bindings=p.bindings(p.inline(p.parameter("A.B.f.gain", "2"))),
+    )
     assert final(pack(p.description(root)), tmp_path / "in", "A_B_f.y", "A_B_f_2.y") == [2.0, 2.0]
 
 
@@ -110,12 +114,22 @@ MEGA = p.units("ssv", Mg={"kg": 1, "factor": 1000}, t={"kg": 1, "factor": 500}, 
         (p.inline(p.parameter("mass", "0.5", unit="Mg"), units=MEGA), 500.0),
         (p.inline(p.parameter("mass", "0.5", unit="t"), units=MEGA), 250.0),  # as defined there, not as pint knows t
         (p.inline(p.parameter("mass", "0.5")), 0.5),
-        (p.inline(p.parameter("k", "1", unit="Mg"), units=MEGA,
-                  mapping=p.mapping(p.entry("k", "mass", p.linear(1, 1)))), 1001.0),
-        (p.inline(p.parameter("k", "2", unit="Mg"), units=MEGA,
-                  mapping=p.mapping(p.entry("k", "mass", p.linear(3, 1), suppressUnitConversion="true"))), 7.0),
+        (
+            p.inline(
+                p.parameter("k", "1", unit="Mg"), units=MEGA, mapping=p.mapping(p.entry("k", "mass", p.linear(1, 1)))
+            ),
+            1001.0,
+        ),
+        (
+            p.inline(
+                p.parameter("k", "2", unit="Mg"),
+                units=MEGA,
+                mapping=p.mapping(p.entry("k", "mass", p.linear(3, 1), suppressUnitConversion="true")),
+            ),
+            7.0,
+        ),
     ],
-)  # fmt: skip
+)
 def test_units_of_parameters_are_those_that_the_file_defines(pack, tmp_path, given, expected):
     ssd = p.description(p.system("root", p.component("c", "chassis_fmi2.fmu", bindings=p.bindings(given))))
     result = import_ssp(pack(ssd, fmus=("chassis_fmi2",)), tmp_path / "in", STEP)
@@ -138,8 +152,10 @@ NUMBERS = ("Float64", "Float32", "Int8", "UInt8", "Int16", "UInt16", "Int32", "U
 
 def types_fmu(folder):
     """The description of an FMU with a parameter of every type, and of arrays."""
-    rows = [f'<{t} name="p{t}" valueReference="{i}" causality="parameter" variability="fixed" start="0"/>'
-            for i, t in enumerate(NUMBERS, 1)]  # fmt: skip
+    rows = [
+        f'<{t} name="p{t}" valueReference="{i}" causality="parameter" variability="fixed" start="0"/>'
+        for i, t in enumerate(NUMBERS, 1)
+    ]
     fixed = 'causality="parameter" variability="fixed"'
     rows += [
         f'<Enumeration name="pEnumeration" declaredType="Mode" valueReference="20" {fixed} start="7"/>',
@@ -157,9 +173,22 @@ def types_fmu(folder):
 
 
 def test_values_of_every_type_and_arrays_reach_the_scenario(pack, tmp_path):
-    values = {"Float64": "0.1", "Float32": "0.5", "Int8": "-128", "UInt8": "255", "Int16": "-3", "UInt16": "4",
-              "Int32": "-5", "UInt32": "6", "Int64": "-9007199254740993", "UInt64": "18446744073709551615",
-              "Boolean": "true", "Enumeration": "on", "String": "5 V", "Binary": "00ff00"}  # fmt: skip
+    values = {
+        "Float64": "0.1",
+        "Float32": "0.5",
+        "Int8": "-128",
+        "UInt8": "255",
+        "Int16": "-3",
+        "UInt16": "4",
+        "Int32": "-5",
+        "UInt32": "6",
+        "Int64": "-9007199254740993",
+        "UInt64": "18446744073709551615",
+        "Boolean": "true",
+        "Enumeration": "on",
+        "String": "5 V",
+        "Binary": "00ff00",
+    }
     given = [p.parameter(f"p{t}", v, t) for t, v in values.items()]
     given += [
         p.parameter("matrix", "1 2 3 4 5 6", "Float64", shape=(2, 3)),
@@ -174,26 +203,58 @@ def test_values_of_every_type_and_arrays_reach_the_scenario(pack, tmp_path):
     sourced = yaml.safe_load((tmp_path / "in" / "parameter_sets" / "c.yaml").read_text())["parameters"]
     found = component["parameters"] | {k: v["value"] for k, v in sourced.items()}
     assert found == {
-        "pFloat64": 0.1, "pFloat32": 0.5, "pInt8": -128, "pUInt8": 255, "pInt16": -3, "pUInt16": 4, "pInt32": -5,
-        "pUInt32": 6, "pInt64": "-9007199254740993", "pUInt64": "18446744073709551615", "pBoolean": True,
-        "pEnumeration": 9, "pString": "5 V", "pBinary": "00ff00", "matrix": [[1, 2, 3], [4, 5, 6]],
+        "pFloat64": 0.1,
+        "pFloat32": 0.5,
+        "pInt8": -128,
+        "pUInt8": 255,
+        "pInt16": -3,
+        "pUInt16": 4,
+        "pInt32": -5,
+        "pUInt32": 6,
+        "pInt64": "-9007199254740993",
+        "pUInt64": "18446744073709551615",
+        "pBoolean": True,
+        "pEnumeration": 9,
+        "pString": "5 V",
+        "pBinary": "00ff00",
+        "matrix": [[1, 2, 3], [4, 5, 6]],
         "texts": ["a b", "c"],
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize(
     ("kind", "given", "table", "expected"),
     [
-        ("Boolean", "true", '<ssc:BooleanMappingTransformation><ssc:MapEntry source="true" target="false"/>'
-         "</ssc:BooleanMappingTransformation>", False),
-        ("Int32", "3", '<ssc:IntegerMappingTransformation><ssc:MapEntry source="3" target="-4"/>'
-         "</ssc:IntegerMappingTransformation>", -4),
-        ("Int32", "5", '<ssc:IntegerMappingTransformation><ssc:MapEntry source="3" target="-4"/>'
-         "</ssc:IntegerMappingTransformation>", 5),  # what is not listed stays
-        ("Enumeration", "high", '<ssc:EnumerationMappingTransformation><ssc:MapEntry source="high" target="on"/>'
-         "</ssc:EnumerationMappingTransformation>", 9),
+        (
+            "Boolean",
+            "true",
+            '<ssc:BooleanMappingTransformation><ssc:MapEntry source="true" target="false"/>'
+            "</ssc:BooleanMappingTransformation>",
+            False,
+        ),
+        (
+            "Int32",
+            "3",
+            '<ssc:IntegerMappingTransformation><ssc:MapEntry source="3" target="-4"/>'
+            "</ssc:IntegerMappingTransformation>",
+            -4,
+        ),
+        (
+            "Int32",
+            "5",
+            '<ssc:IntegerMappingTransformation><ssc:MapEntry source="3" target="-4"/>'
+            "</ssc:IntegerMappingTransformation>",
+            5,
+        ),  # what is not listed stays
+        (
+            "Enumeration",
+            "high",
+            '<ssc:EnumerationMappingTransformation><ssc:MapEntry source="high" target="on"/>'
+            "</ssc:EnumerationMappingTransformation>",
+            9,
+        ),
     ],
-)  # fmt: skip
+)
 def test_mappings_transform_single_values(pack, tmp_path, kind, given, table, expected):
     entries = p.mapping(p.entry("k", f"p{kind}", table), version="2.0")
     bound = p.bindings(p.inline(p.parameter("k", given, kind), mapping=entries, version="2.0"))

@@ -7,9 +7,9 @@ import zipfile
 
 import pytest
 
-from cosim.errors import InputError
 from cosim.ssp.import_time import TimeRequest
 from cosim.ssp.importer import check_ssp, import_ssp
+from cosim.unit.errors import InputError
 from tests.ssp import packages as p
 from tests.ssp.runs import STEP
 
@@ -46,12 +46,25 @@ REAL_TO_NOTHING = p.component("a", "feedthrough_fmi2.fmu", p.connector("x", "out
         ("<a>", r"this is no XML"),
         ("<a/>", r"the element is a, not ssd:SystemStructureDescription"),
         (p.description(p.system("root", *TWO), version="Draft20180219"), r"its version is `Draft20180219`"),
-        (root(*TWO).replace("<ssd:Elements>", "<ssd:Parts>").replace("</ssd:Elements>", "</ssd:Parts>"),
-         r"breaks the schema of SSP 1\.0: Element 'ssd:Parts'"),
-        (root(p.component("c", "chassis_fmi2.fmu", p.connector("z", "output", unit="blorb")), p.feedthrough("f"),
-              connections=[p.connection("c.z", "f.u")]), r"connector `z`: m cannot be converted to blorb"),
-        *((p.description(p.system("root", *TWO), experiment=f'<ssd:DefaultExperiment stopTime="{time}"/>'),
-           f"stopTime is `{time}`, which is no time") for time in ("NaN", "INF")),
+        (
+            root(*TWO).replace("<ssd:Elements>", "<ssd:Parts>").replace("</ssd:Elements>", "</ssd:Parts>"),
+            r"breaks the schema of SSP 1\.0: Element 'ssd:Parts'",
+        ),
+        (
+            root(
+                p.component("c", "chassis_fmi2.fmu", p.connector("z", "output", unit="blorb")),
+                p.feedthrough("f"),
+                connections=[p.connection("c.z", "f.u")],
+            ),
+            r"connector `z`: m cannot be converted to blorb",
+        ),
+        *(
+            (
+                p.description(p.system("root", *TWO), experiment=f'<ssd:DefaultExperiment stopTime="{time}"/>'),
+                f"stopTime is `{time}`, which is no time",
+            )
+            for time in ("NaN", "INF")
+        ),
         (root(p.system("empty")), r"there is no component in it"),
         (root(*TWO, connections=[p.connection("a.y", "c.u")]), r"there is no element `c`"),
         (root(*TWO, connections=[p.connection("a.z", "b.u")]), r"`a` has no connector `z`"),
@@ -64,10 +77,14 @@ REAL_TO_NOTHING = p.component("a", "feedthrough_fmi2.fmu", p.connector("x", "out
         (root(p.component("a", "missing.fmu")), r"there is no file `resources/missing.fmu`"),
         (root(p.component("a", "../../etc/passwd")), r"leaves the package"),
         (root(p.component("a", "x").replace("resources/x", "file:///etc/passwd")), r"no relative reference"),
-        (root('<ssd:Component name="a" type="text/x-modelica" source="resources/feedthrough_fmi2.fmu"/>'),
-         r"`a` is of type text/x-modelica"),
-        (root('<ssd:Component name="a" source="resources/feedthrough_fmi2.fmu" implementation="ModelExchange"/>'),
-         r"the FMU of `a` has no ModelExchange"),
+        (
+            root('<ssd:Component name="a" type="text/x-modelica" source="resources/feedthrough_fmi2.fmu"/>'),
+            r"`a` is of type text/x-modelica",
+        ),
+        (
+            root('<ssd:Component name="a" source="resources/feedthrough_fmi2.fmu" implementation="ModelExchange"/>'),
+            r"the FMU of `a` has no ModelExchange",
+        ),
         (one('<ssd:ParameterBinding type="text/csv" source="resources/x.csv"/>'), r"the type `text/csv` is not read"),
         (one("<ssd:ParameterBinding/>"), r"neither a source nor content"),
         (one('<ssd:ParameterBinding sourceBase="component" source="x.ssv"/>'), r"lies inside a component"),
@@ -76,16 +93,41 @@ REAL_TO_NOTHING = p.component("a", "feedthrough_fmi2.fmu", p.connector("x", "out
         (one(p.inline(p.parameter("gain", "INF"))), r"not a finite number"),
         (one(p.inline(p.parameter("gain", "true", "Boolean"))), r"`f.gain` is Real, the value is Boolean"),
         (one(p.inline(p.parameter("y", "1"))), r"`f.y` is output and calculated"),
-        (root(p.component("c", "chassis_fmi2.fmu", bindings=p.bindings(p.inline(
-            p.parameter("mass", "1", unit="s"), units=p.units("ssv", s={"s": 1}))))), r"s cannot be converted to kg"),
-        (one(p.inline(p.parameter("a", "1"), p.parameter("b", "1"),
-                      mapping=p.mapping(p.entry("a", "gain"), p.entry("b", "gain")))), r"are mapped to `gain`"),
+        (
+            root(
+                p.component(
+                    "c",
+                    "chassis_fmi2.fmu",
+                    bindings=p.bindings(p.inline(p.parameter("mass", "1", unit="s"), units=p.units("ssv", s={"s": 1}))),
+                )
+            ),
+            r"s cannot be converted to kg",
+        ),
+        (
+            one(
+                p.inline(
+                    p.parameter("a", "1"),
+                    p.parameter("b", "1"),
+                    mapping=p.mapping(p.entry("a", "gain"), p.entry("b", "gain")),
+                )
+            ),
+            r"are mapped to `gain`",
+        ),
         (one(p.inline(p.parameter("gain", "1", shape=(2,)), version="2.0")), r"has 1 values; its dimensions ask for 2"),
-        (root(p.system("loop", interface=[p.connector("i", "input"), p.connector("o", "output")],
-                       connections=[p.connection("i", "o")]), p.feedthrough("a"),
-              connections=[p.connection("loop.o", "loop.i"), p.connection("loop.o", "a.u")]), r"form a ring"),
+        (
+            root(
+                p.system(
+                    "loop",
+                    interface=[p.connector("i", "input"), p.connector("o", "output")],
+                    connections=[p.connection("i", "o")],
+                ),
+                p.feedthrough("a"),
+                connections=[p.connection("loop.o", "loop.i"), p.connection("loop.o", "a.u")],
+            ),
+            r"form a ring",
+        ),
     ],
-)  # fmt: skip
+)
 def test_each_fault_has_one_clear_error(pack, tmp_path, ssd, problem):
     error = refused(pack(ssd, fmus=("feedthrough_fmi2", "chassis_fmi2")), tmp_path)
     assert re.search(problem, error.problem), error.problem
@@ -213,10 +255,12 @@ OWN = '<ssd:Component name="own" type="application/vnd.active-chainmail.componen
         ("{", "not valid YAML"),
         ("kind: hanging_mass", "`own` is no component"),
         ("{kind: fmu, fmu: /etc/passwd}", "is of kind fmu"),
-        ("{kind: bullet_fabric, rows: 3, columns: 1, tether: {kind: hanging}, parameter_set: ../../etc/passwd}",
-         "there is no parameter set `../../etc/passwd`"),
+        (
+            "{kind: bullet_fabric, rows: 3, columns: 1, tether: {kind: hanging}, parameter_set: ../../etc/passwd}",
+            "there is no parameter set `../../etc/passwd`",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_component_of_ours_is_checked_before_it_is_taken(pack, tmp_path, text, problem):
     assert problem in refused(pack(root(OWN), own_yaml=text), tmp_path).problem
 

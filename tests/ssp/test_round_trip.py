@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario, shipped_scenarios
 from cosim.ssp.export import export_ssp
 from cosim.ssp.importer import import_ssp
+from cosim.unit.errors import InputError
 from tests.cosim.short_runs import changed, drape, heating, prototype, shortened, without_fabric
 from tests.ssp.runs import round_trip
 

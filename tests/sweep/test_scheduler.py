@@ -70,20 +70,41 @@ def test_a_killed_worker_costs_the_run_under_way_and_nothing_else(tmp_path):
     scenario.write_text(scenario.read_text().replace("fmu: thermal_stiffness", "fmu: own.fmu"))
     sweep(path, tmp_path / "alone", Here(), False)
     told = tmp_path / "scheduler.json"
-    begun = [_begin(tmp_path / "s", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0",
-                    "--no-dashboard", "--scheduler-file", str(told))]  # fmt: skip
+    begun = [
+        _begin(
+            tmp_path / "s",
+            "distributed.cli.dask_scheduler",
+            "--host",
+            "127.0.0.1",
+            "--port",
+            "0",
+            "--no-dashboard",
+            "--scheduler-file",
+            str(told),
+        )
+    ]
     try:
         _wait(told.is_file, "no scheduler")
         address = json.loads(told.read_text())["address"]
         for number in range(2):
-            begun.append(_begin(tmp_path / f"w{number}", "distributed.cli.dask_worker", address, "--nthreads", "1",
-                                "--no-nanny", "--no-dashboard"))  # fmt: skip
+            begun.append(
+                _begin(
+                    tmp_path / f"w{number}",
+                    "distributed.cli.dask_worker",
+                    address,
+                    "--nthreads",
+                    "1",
+                    "--no-nanny",
+                    "--no-dashboard",
+                )
+            )
         from distributed import Client
 
         with Client(address) as client:
             client.wait_for_workers(2, timeout=60)
-        command = _begin(tmp_path / "command", "cosim.cli", "sweep", str(path), "--cluster", address, "--out",
-                         str(tmp_path / "out"))  # fmt: skip
+        command = _begin(
+            tmp_path / "command", "cosim.cli", "sweep", str(path), "--cluster", address, "--out", str(tmp_path / "out")
+        )
         begun.append(command)
         kept = Cache(tmp_path / "out" / "runs")
         _wait(lambda: kept.count() >= 3, "no run was made")

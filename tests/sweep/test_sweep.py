@@ -14,12 +14,12 @@ from scipy.stats import norm, qmc
 
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Here, choose_place
-from cosim.errors import InputError
 from cosim.run import run
 from cosim.scenario import load_scenario
 from cosim.sweep.command import plan, sweep
 from cosim.sweep.keys import changed, parts_of
 from cosim.sweep.result import reasons
+from cosim.unit.errors import InputError
 from tests.sweep.files import SWEEP, written
 
 DRAWN = """
@@ -50,8 +50,11 @@ def test_outputs_follow_the_closed_form_on_all_axes(tmp_path):
         np.testing.assert_allclose(data["temperature"].values.max(axis=-1) - 273.15, data["hottest"].values)
         assert set(data["failure"].values.ravel()) == {""}
     rows = list(csv.reader(io.StringIO((tmp_path / "out" / "table.csv").read_text())))
-    assert rows[0][1:4] == ["voltage", "volume.components.actuator.parameters.volume",
-                            "volume.room.outputs.temperature.constant"]  # fmt: skip
+    assert rows[0][1:4] == [
+        "voltage",
+        "volume.components.actuator.parameters.volume",
+        "volume.room.outputs.temperature.constant",
+    ]
     assert len(rows) == 7
 
 
@@ -135,8 +138,10 @@ def test_sobol_indices_of_a_known_function(tmp_path):
 
 def test_indices_of_a_sweep_are_written_and_drawn(tmp_path):
     pytest.importorskip("SALib")
-    of = ("{key: actuator.parameters.volume, from: 7 mm^3, to: 7.1 mm^3}, "
-          "{key: supply.outputs.voltage.constant, from: 0.5 V, to: 1 V}")  # fmt: skip
+    of = (
+        "{key: actuator.parameters.volume, from: 7 mm^3, to: 7.1 mm^3}, "
+        "{key: supply.outputs.voltage.constant, from: 0.5 V, to: 1 V}"
+    )
     text = DRAWN.replace("count: 8", "count: 4, indices: true").replace("OF", of)
     assert sweep(written(tmp_path, text, "1 s"), tmp_path / "out", Here(), False) == 0
     lines = list(csv.reader(io.StringIO((tmp_path / "out" / "indices.csv").read_text())))
@@ -179,8 +184,11 @@ WRONG = {
     "not from 1": ("voltage.constant", "voltage[0]", "counted from 1"),
     "misspelt key": ("voltage.constant", "voltage.constants", "no such key"),
     "unknown parameter": ("parameters.volume", "parameters.volum", "volum"),
-    "set twice": ("room.outputs.temperature.constant, values: [22 degC, 25 degC]",
-                  "supply.outputs.voltage.constant, values: [1 V, 2 V]", "is set twice"),
+    "set twice": (
+        "room.outputs.temperature.constant, values: [22 degC, 25 degC]",
+        "supply.outputs.voltage.constant, values: [1 V, 2 V]",
+        "is set twice",
+    ),
     "wrong unit": ("0.8 V, 1.0 V", "0.8 m, 1.0 V", "with voltage = 0.8 m, volume = 7 mm.3 the scenario is wrong"),
     "no scenario": ("coil.yaml", "cable.yaml", "there is no such scenario"),
     "at without time": ("over: max,", "over: at,", "`at` gives the time"),
@@ -189,10 +197,13 @@ WRONG = {
     "too many": ("values: [0.6 V, 0.8 V, 1.0 V]", "range: {from: 0 V, to: 1 V, count: 99999}", "more than 100000"),
     "equal ends": ("values: [0.6 V, 0.8 V, 1.0 V]", "range: {from: 1 V, to: 1 V, count: 3}", "are both 1 V"),
     "log of zero": ("values: [0.6 V, 0.8 V, 1.0 V]", "range: {from: 0 V, to: 1 V, count: 3, scale: log}", "positive"),
-    "series of other times": ("\"supply.outputs.voltage.constant\", values: [0.6 V, 0.8 V, 1.0 V]",
-                              "time.stop, values: [2 s, 4 s]", "no common axis"),
+    "series of other times": (
+        '"supply.outputs.voltage.constant", values: [0.6 V, 0.8 V, 1.0 V]',
+        "time.stop, values: [2 s, 4 s]",
+        "no common axis",
+    ),
     "no list of it": ("outputs:\n", "outputs: 3\nx:\n", "outputs"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("old", "new", "what"), WRONG.values(), ids=WRONG)

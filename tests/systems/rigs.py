@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from evaluation.fmus.model import OdeModel
 
 OSCILLATOR = OdeModel(
@@ -63,9 +63,12 @@ def held(rate: Callable[[Array, float], Array], start: Array, inputs: Array, ste
 
 
 def write_recording(
-    folder: Path, columns: dict[str, Array], inputs: dict[str, tuple[str, str]],
-    channels: dict[str, tuple[str, str, str]], extra: str = "",
-) -> Path:  # fmt: skip
+    folder: Path,
+    columns: dict[str, Array],
+    inputs: dict[str, tuple[str, str]],
+    channels: dict[str, tuple[str, str, str]],
+    extra: str = "",
+) -> Path:
     """A recording folder; inputs and channels are column and unit, channels with their noise too."""
     folder.mkdir(parents=True, exist_ok=True)
     names = list(columns)
@@ -89,7 +92,7 @@ def oscillator(folder: Path, integrator: str = "cvode") -> Path:
 
 def oscillator_recordings(
     folder: Path, law: Callable[[float, float], float], sizes: tuple[float, ...] = (0.3, 0.4, 0.5)
-) -> list[Path]:  # fmt: skip
+) -> list[Path]:
     """Recordings of an oscillator that has a law more, all numbers 1 to 2 % off, noise 1 mm.
 
     Args:
@@ -107,6 +110,9 @@ def oscillator_recordings(
         states = held(rate, np.zeros(2), u, STEP)
         noise = 1e-3 * np.random.default_rng(100 + number).standard_normal(COUNT)
         columns = {"t": STEP * np.arange(COUNT), "u": u, "x": states[:, 0] + noise}
-        found.append(write_recording(folder / f"run_{number + 1}", columns, {"drive.u": ("u", "V")},
-                                     {"rig.position": ("x", "m", "1 mm")}))  # fmt: skip
+        found.append(
+            write_recording(
+                folder / f"run_{number + 1}", columns, {"drive.u": ("u", "V")}, {"rig.position": ("x", "m", "1 mm")}
+            )
+        )
     return found

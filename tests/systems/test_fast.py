@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.quantity import PhysicalValue
 from cosim.run import run
 from cosim.scenario import Scenario, parse_scenario
+from cosim.unit.quantity import PhysicalValue
+from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.placed import Placed, PlacedState
 from diagnosis.search.cosim_run import Changes
-from diagnosis.systems.fast import FastSystem
-from diagnosis.systems.fmu_layout import NotFast
-from diagnosis.systems.placed import Placed, PlacedState
 from tests.fmi.fmi_models import build
 from tests.systems.rigs import LUMP, OSCILLATOR, TANK
 
@@ -98,8 +98,14 @@ def test_a_law_with_a_memory_is_what_the_scenario_with_it_runs(folder: Path, int
     """A Maxwell element at the velocity, or at the input of an FMU that hides its states."""
     is_open = integrator == "cvode"
     place, unit, length = ("der(v)", "1/s^2", "x") if is_open else ("u", "V/m", "position")
-    law = Placed("rig", place, f"-branch * ({length} - slack)", (("branch", unit), ("time_constant", "ms")), {},
-                 (PlacedState("slack", f"({length} - slack) / time_constant", length, "m"),))  # fmt: skip
+    law = Placed(
+        "rig",
+        place,
+        f"-branch * ({length} - slack)",
+        (("branch", unit), ("time_constant", "ms")),
+        {},
+        (PlacedState("slack", f"({length} - slack) / time_constant", length, "m"),),
+    )
     values = (150.0 if is_open else 1.5, 50.0)
     system = FastSystem(_scenario(folder, integrator), [law])
     system.set_substeps(2)
@@ -157,9 +163,11 @@ components:
 def test_what_it_cannot_simulate_is_said(folder: Path) -> None:
     steps = "algorithm: {kind: iterated}\ncomponents"
     scenario = parse_scenario(
-        _OSCILLATOR.replace("INTEGRATOR", "internal").replace("algorithm: {kind: KIND}\ncomponents", steps)
-        .replace("TERMS", "start: {}"), folder / "scenario.yaml",
-    )  # fmt: skip
+        _OSCILLATOR.replace("INTEGRATOR", "internal")
+        .replace("algorithm: {kind: KIND}\ncomponents", steps)
+        .replace("TERMS", "start: {}"),
+        folder / "scenario.yaml",
+    )
     with pytest.raises(NotFast, match="repeats steps"):
         FastSystem(scenario)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Point, Term
@@ -42,7 +42,7 @@ class Run:
 
 
 class Lines(LineModel):
-    """See `diagnosis.simulator.models.DiagnosisModel`; one recording with one channel.
+    """See `diagnosis.models.build.DiagnosisModel`; one recording with one channel.
 
     Args:
         truth: Signal without noise, shape (samples,).

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.constancy import CONSTANT, Constancy
 from diagnosis.judge.diagnosis import Standing
 from diagnosis.judge.judge import findings
 from diagnosis.judge.unfitted import left_out_stretches, raw_residuals
+from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.search.problem import Point, Term
-from diagnosis.simulator.runs import ZERO
 from tests.search.line_model import BEND, LID, TIME
 from tests.verdict.lines import Lines
 from tests.verdict.test_parameter_error import LINE, SHORT, Seen, fitted, held_out, judged

@@ -20,9 +20,12 @@ STEP = Doubt(
     "monday", "coil[1,2].temperature", "sensor", "The readings step by 2 K.", "was it moved?", True, 0.0, 9.0, 50.0
 )
 FAULT = replace(
-    LAG, effect="sensor_offset_in_interval", place="coil[1,2].temperature (monday)", recording="monday",
+    LAG,
+    effect="sensor_offset_in_interval",
+    place="coil[1,2].temperature (monday)",
+    recording="monday",
     channels=("coil[1,2].temperature (monday)",),
-)  # fmt: skip
+)
 
 
 def test_physics_is_suggested_alone_beside_a_fault_that_nothing_explains() -> None:

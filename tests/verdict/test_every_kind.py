@@ -24,13 +24,13 @@ from cosim.run import run
 from cosim.scenario import Scenario, load_scenario, parse_scenario
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.diagnose import Means, diagnose
-from diagnosis.hand_over import hand_over
 from diagnosis.judge.diagnosis import Diagnosis, Standing, Verdict
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.explanation import Settings
+from diagnosis.write_outputs import write_outputs
 from tests.fabric_diagnosis.fabrics import DRAPE, made
 
 pytestmark = pytest.mark.slow
@@ -142,13 +142,13 @@ def rig_case(
 
 @DRAWN
 @given(st.sampled_from((1.0, 1.05, 1.6)), st.sampled_from((0.0, 0.002)))
-def test_a_coil_bank(tmp_path_factory: pytest.TempPathFactory, cooling: float, alpha: float) -> None:
+def test_a_coil_network(tmp_path_factory: pytest.TempPathFactory, cooling: float, alpha: float) -> None:
     def other(data: dict[str, Any]) -> None:
         own = data["components"]["actuator"]["parameters"]
         own["heat_transfer_coefficient"] = f"{60.0 * cooling} W/(m^2*K)"
         own["resistance_temperature_coefficient"] = f"{alpha} 1/K"
 
-    folder = tmp_path_factory.mktemp("bank")
+    folder = tmp_path_factory.mktemp("network")
     scenario, training, judge = rig_case(folder, lambda data: None, other)
     brief, full = answers(scenario, training, judge)
     keeps_what_it_says(brief)
@@ -318,7 +318,7 @@ def test_the_amended_scenario_of_a_diagnosis(tmp_path: Path) -> None:
     """What was found once is not found again; where its units offer no place for a law, that is said."""
     days = [load_recording(RIG.parent / name) for name in ("monday", "tuesday")]
     first = diagnose(load_scenario(str(RIG)), days[:1], days[1:], Settings(nulls=1))
-    handed = hand_over(first, load_scenario(str(RIG)), days[1:], tmp_path / "out")
+    handed = write_outputs(first, load_scenario(str(RIG)), days[1:], tmp_path / "out")
     assert handed.amended_model is not None
     told = diagnose(
         load_scenario(handed.amended_model), days[:1], days[1:], Settings(nulls=1), means=Means(is_brief=True)

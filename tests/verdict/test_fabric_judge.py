@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import yaml
 
-from cosim.errors import InputError
+from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
-from diagnosis.fabric.model import FabricModel
 from diagnosis.judge.of_a_day import is_shown_there_alone
+from diagnosis.models.build import models_of, timeline_of
+from diagnosis.models.fabric.model import FabricModel
 from diagnosis.recording.recording import Recording, load_recording
-from diagnosis.simulator.models import models_of, timeline_of
 from tests.fabric_diagnosis.fabrics import small
 
 
@@ -27,8 +27,13 @@ def recorded(folder: Path, **keys: object) -> Recording:
         "marker[5].z": {"column": "z", "unit": "m", "noise": "0.2 mm"},
         "supply.current": {"column": "i", "unit": "A", "noise": "3 mA"},
     }
-    given = {"title": folder.name, "table": "data.csv", "time": {"column": "time", "unit": "s", "zero": 0.0},
-             "channels": channels, **keys}  # fmt: skip
+    given = {
+        "title": folder.name,
+        "table": "data.csv",
+        "time": {"column": "time", "unit": "s", "zero": 0.0},
+        "channels": channels,
+        **keys,
+    }
     (folder / "recording.yaml").write_text(yaml.safe_dump(given), encoding="utf-8")
     return load_recording(folder)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.special import chdtr
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.agreement import LEVEL, agreement
 from diagnosis.judge.gain import ERRORS, LEAST, gain
 from diagnosis.judge.unfitted import Predicted, Readings, readings_of, wild_readings

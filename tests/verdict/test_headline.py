@@ -97,8 +97,9 @@ def test_what_the_error_of_fitted_parameters_explains_is_said_to_be_that() -> No
     assert how_right(within, True).endswith(f"what is left is not more than {error}.")
     assert f"within {error} once" in headline(Verdict.RECALIBRATED, [], within)
     worse = replace(within, explained=-0.5, chi_square={"before": 4.0, "recalibrated": 5.0, "after": 5.5})
-    assert how_right(worse, False).endswith(f"worse: chi-square per reading 4.00 -> 5.50; what is left is not more "
-                                            f"than {error}.")  # fmt: skip
+    assert how_right(worse, False).endswith(
+        f"worse: chi-square per reading 4.00 -> 5.50; what is left is not more than {error}."
+    )
 
 
 def test_of_a_model_as_it_is_no_number_was_fitted() -> None:

@@ -24,19 +24,29 @@ from diagnosis.judge.judge import (
     verdict,
     why_open,
 )
+from diagnosis.models.build import DiagnosisModel
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.shares import of_title
-from diagnosis.simulator.models import DiagnosisModel
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 from tests.search.line_model import BEND, TIME, WAVE
 from tests.verdict.lines import Lines
 from tests.verdict.test_gain_and_agreement import COUNT, readings
 from tests.verdict.test_parameter_error import fitted, held_out, judged
 
-START = Doubt("monday", "coil[1].temperature", "start", "begins at 35 degC, where 21 degC is simulated", "state it",
-              False, 0.0, 9.0, 90.0, is_far=True)  # fmt: skip
+START = Doubt(
+    "monday",
+    "coil[1].temperature",
+    "start",
+    "begins at 35 degC, where 21 degC is simulated",
+    "state it",
+    False,
+    0.0,
+    9.0,
+    90.0,
+    is_far=True,
+)
 #: A search in which nothing was moved far and no structure was seen, of a model that offers places for laws.
 QUIET: Any = SimpleNamespace(
     base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)),
@@ -156,15 +166,17 @@ def test_begin_and_end_of_a_sensor_fault_are_no_sharper_than_its_readings(spacin
     layout = SimpleNamespace(time=times, channel=np.zeros(len(times)))
     model: Any = SimpleNamespace(where=lambda t: (None, SimpleNamespace(channels=(0,))), layout=layout)
     edge = 50.0 - 0.5 * spacing  # where the box of the fit begins
-    size, begin = between_samples((Estimate("offset", "K", 2.0, 1.9, 2.1), Estimate("begin", "s", edge, edge, edge)),
-                                  term, model)  # fmt: skip
+    size, begin = between_samples(
+        (Estimate("offset", "K", 2.0, 1.9, 2.1), Estimate("begin", "s", edge, edge, edge)), term, model
+    )
     assert (size.lower, size.upper) == (1.9, 2.1)
     assert (begin.lower, begin.upper) == pytest.approx((50.0 - spacing, 50.0), abs=1e-9)
 
 
 def test_a_fault_of_one_recording_was_not_judged_by_others() -> None:
-    fault = replace(LAG, effect="sensor_offset_in_interval", judged_by="every other reading, left out of a fit",
-                    held_out_gain=50.0)  # fmt: skip
+    fault = replace(
+        LAG, effect="sensor_offset_in_interval", judged_by="every other reading, left out of a fit", held_out_gain=50.0
+    )
     told = sureness(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault, CONTACT)))
     assert "falls by 50.0 (every other reading, left out of a fit)" in told
     assert "where findings show most" not in improvement(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=(fault,)))
@@ -216,11 +228,12 @@ def test_a_class_of_a_sensor_and_of_the_rig_accuses_neither() -> None:
 )
 def test_whether_a_class_may_be_of_the_rig_and_of_a_sensor(
     effect: str, likely: tuple[str, ...], is_either: bool
-) -> None:  # fmt: skip
+) -> None:
     known = [
         Term(c.identifier, "all coils", c.unit, (), is_named=c.is_named)
-        for c in catalogue() if c.identifier in ("sensor_lag", "second_mass", "sheath", "sensor_bias")
-    ]  # fmt: skip
+        for c in catalogue()
+        if c.identifier in ("sensor_lag", "second_mass", "sheath", "sensor_bias")
+    ]
     model = SimpleNamespace(terms=lambda: known)
     term = next(t for t in known if t.identifier == effect)
     assert _is_of_either(cast(DiagnosisModel, model), term, likely) is is_either
@@ -229,7 +242,7 @@ def test_whether_a_class_may_be_of_the_rig_and_of_a_sensor(
 @pytest.mark.parametrize(("explained", "word"), [(0.69, Verdict.CANNOT_TELL), (0.8, Verdict.UNNAMED_PHYSICS)])
 def test_a_law_without_a_name_that_leaves_most_of_the_mismatch_says_nothing_of_the_rig(
     explained: float, word: Verdict
-) -> None:  # fmt: skip
+) -> None:
     """Recalibration explains 56 %: with 69 % more is left than was explained of the rest, with 80 % less."""
     outcome, searched = QUIET, SEARCHED
     unnamed = replace(CONTACT, standing=Standing.UNNAMED, is_named=False, statement="an effect without a name, coils")

@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.special import chdtri
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import Adequacy, Domain, Finding, Searched, Standing, Verdict

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.adequacy import met, moved_day
 from diagnosis.judge.unfitted import HeldOutReadings
 from diagnosis.recording.recording import Recording

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from cosim.unit import Array
+from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.of_a_day import STANDS_OUT, hidden_fault, is_shown_there_alone
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_readings, left_out_stretches
@@ -23,9 +23,13 @@ from tests.verdict.lines import NOISE, Law, Lines, Spot
 EDGES = tuple(TermParameter(n, "s", 0.0, 1.0, (), is_instant=True) for n in ("begin", "end"))
 #: A sensor that reads too much from 0.4 s to 0.5 s.
 FAULT = Term(
-    "sensor_offset_in_interval", "signal", "measurement",
-    (TermParameter("offset", "1", -10.0, 10.0, (0.1,)), *EDGES), recording=0, price=20.0,
-)  # fmt: skip
+    "sensor_offset_in_interval",
+    "signal",
+    "measurement",
+    (TermParameter("offset", "1", -10.0, 10.0, (0.1,)), *EDGES),
+    recording=0,
+    price=20.0,
+)
 LINE = 0.3 + 0.5 * TIME
 BOX = ((TIME >= 0.4) & (TIME <= 0.5)).astype(float)
 
@@ -72,10 +76,13 @@ def outcome_of(model: Faulty, *terms: tuple[Term, tuple[float, ...]]) -> Outcome
 def judged(model: Faulty, judge: Faulty, outcome: Outcome, path) -> Accepted:
     held_out = HeldOutReadings(judge, model, [Recording(path, "held out", {}, (), {}, 1.0, 0.0)])
     return accept(
-        model, outcome, held_out, left_out_stretches(model, ["training"]),
+        model,
+        outcome,
+        held_out,
+        left_out_stretches(model, ["training"]),
         lambda t: is_shown_there_alone(t, outcome.best.fit.point.terms[t], model, judge),
         lambda: left_out_readings(model, ["training"]),
-    )  # fmt: skip
+    )
 
 
 def test_a_fault_that_no_held_out_recording_shows_is_accepted_by_every_other_reading(tmp_path):

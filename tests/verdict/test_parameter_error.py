@@ -11,21 +11,21 @@ import numpy as np
 import pytest
 
 from cosim.scenario import load_scenario
-from cosim.unit import AnyArray, Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.agreement import agreement
 from diagnosis.judge.parameter_error import without_whitening, zeroed
 from diagnosis.judge.unfitted import HeldOutReadings, Unfitted, left_out_stretches, raw_residuals
+from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.runs import ZERO
+from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.wrappers.tempered import TemperedModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.structure import Structure, structure
-from diagnosis.simulator.bank_model import BankModel
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.models import DiagnosisModel
-from diagnosis.simulator.runs import ZERO
-from diagnosis.simulator.tempered import TemperedModel
 from tests.diagnosis.two_heaters import conditions, record, scenario
 from tests.search.line_model import BEND, TIME, WAVE
 from tests.verdict.lines import NOISE, Lines, Run, renamed
@@ -101,9 +101,13 @@ def test_a_right_model_is_rejected_by_noise_alone_and_not_within_the_error_of_a_
     plainly, within = 0, 0
     for seed in range(100):
         slope = 1.0 + np.random.default_rng([seed, 5]).standard_normal()
-        training, judge = (type_(0.3 + slope * TIME) for type_ in (
-            lambda truth, seed=seed: Seen(truth, 2 * seed, SHORT), lambda truth, seed=seed: Lines(truth, 2 * seed + 1),
-        ))  # fmt: skip
+        training, judge = (
+            type_(0.3 + slope * TIME)
+            for type_ in (
+                lambda truth, seed=seed: Seen(truth, 2 * seed, SHORT),
+                lambda truth, seed=seed: Lines(truth, 2 * seed + 1),
+            )
+        )
         found = judged(training, held_out(judge, training))
         plainly += agreement(found.after.residuals, held_out(judge, training).readings).is_rejected
         within += found.agreement.is_rejected
@@ -277,9 +281,9 @@ def powers(first: str, second: str) -> dict[str, Any]:
     return {"drive": {"outputs": courses}}
 
 
-@pytest.mark.parametrize("kind", [BankModel, ClosedLoopModel])
+@pytest.mark.parametrize("kind", [CoilNetworkModel, ClosedLoopModel])
 def test_heaters_that_were_hardly_warmed_in_the_training(kind: Callable[..., DiagnosisModel], tmp_path: Path) -> None:
-    """By the coil bank and by the co-simulation: a heat capacity known to a half, which 5 mW do not show.
+    """By the coil network and by the co-simulation: a heat capacity known to a half, which 5 mW do not show.
 
     A sensor that swings by four times its noise is rejected by the same readings.
     """
@@ -295,7 +299,7 @@ def test_heaters_that_were_hardly_warmed_in_the_training(kind: Callable[..., Dia
         return record(base, tmp_path / name, {"components": {**said["components"], **own}}, seed, said)
 
     low, high = recorded("low", "5 mW", "4 mW", 1), recorded("high", "0.3 W", "0.2 W", 2)
-    args = ((),) if kind is BankModel else ()
+    args = ((),) if kind is CoilNetworkModel else ()
     trained, judge = kind(base, [low], *args), kind(base, [high], *args)
     point = fit(trained, Point(np.zeros(len(trained.parameters)))).point
 
@@ -317,11 +321,11 @@ def test_heaters_that_were_hardly_warmed_in_the_training(kind: Callable[..., Dia
 
 
 def test_derivatives_of_readings_are_those_of_what_is_measured(tmp_path: Path) -> None:
-    """A coil bank takes a share of each channel's sum away; what judges is not whitened."""
+    """A coil network takes a share of each channel's sum away; what judges is not whitened."""
     base = scenario(tmp_path)
     said = {"components": powers("0.3 W", "0.2 W")}
     one = record(base, tmp_path / "one", said, 1, said)
-    model = BankModel(base, [one], ())
+    model = CoilNetworkModel(base, [one], ())
     middle, used = np.full(len(model.parameters), 0.1), np.concatenate([s.used for s in model.runs[0].series])
     columns = without_whitening(model, np.asarray(model.base_jacobian(Point(middle)), dtype=np.float64))
     for number in range(len(middle)):

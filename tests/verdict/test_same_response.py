@@ -10,10 +10,10 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.diagnosis import Standing
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of
+from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Point, strength_slopes
-from diagnosis.simulator.bank_model import BankModel
 from tests.events import rig
 
 LAWS = ("open_coil", "shorted_coil", "loose_contact", "unnamed_resistance_step", "contact_resistance")
@@ -21,7 +21,7 @@ BREAK = 12.0
 
 
 @functools.cache
-def model(*quantities: str) -> BankModel:
+def model(*quantities: str) -> CoilNetworkModel:
     """Two strings of two coils with channels of these quantities; currents of the strings always."""
     given = rig.recorded(0)
     channels = {n: c for n, c in given.channels.items() if c.target.quantity in ("current", *quantities)}
@@ -29,13 +29,20 @@ def model(*quantities: str) -> BankModel:
         times = channels["string[1].current"].times
         for coil in rig.COILS:
             name = f"coil[{coil}].voltage"
-            channels[name] = Channel(name, parse_quantity(name), times, np.zeros(len(times)), 1e-2, True,
-                                     is_clipped=np.zeros(len(times), dtype=bool))  # fmt: skip
+            channels[name] = Channel(
+                name,
+                parse_quantity(name),
+                times,
+                np.zeros(len(times)),
+                1e-2,
+                True,
+                is_clipped=np.zeros(len(times), dtype=bool),
+            )
     known = tuple(c for c in catalogue() if c.identifier in LAWS)
-    return BankModel(rig.scenario(), [replace(given, channels=channels)], known)
+    return CoilNetworkModel(rig.scenario(), [replace(given, channels=channels)], known)
 
 
-def members(made: BankModel, effect: str, place: str, *values: float) -> set[tuple[str, str]]:
+def members(made: CoilNetworkModel, effect: str, place: str, *values: float) -> set[tuple[str, str]]:
     term = next(t for t in made.terms() if (t.identifier, t.place) == (effect, place))
     point = Point(np.zeros(len(made.parameters))).plus(term, values)
     return {(m.effect, m.place) for m in same_response(made, point, term)}

@@ -20,6 +20,9 @@ from diagnosis.judge.headline import headline, how_right
 from diagnosis.judge.judge import why_open
 from diagnosis.judge.location import WHOLE, Location
 from diagnosis.judge.searched import searched
+from diagnosis.models.build import model_of
+from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.noise import is_unresolved
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.report.network import Network
@@ -29,9 +32,6 @@ from diagnosis.report.undecided import departing, model_note, what_decides
 from diagnosis.search.problem import Point
 from diagnosis.search.score import Scoring
 from diagnosis.search.structure import Structure
-from diagnosis.simulator.closed_loop import ClosedLoopModel
-from diagnosis.simulator.models import model_of
-from diagnosis.simulator.runs import deviation
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, LAG, diagnosis
 from tests.search.line_model import TIME
 from tests.verdict.lines import Lines
@@ -45,8 +45,12 @@ def recorded(folder: Path, columns: dict[str, np.ndarray], channels: dict[str, d
     folder.mkdir()
     table = np.column_stack(list(columns.values()))
     np.savetxt(folder / "data.csv", table, delimiter=",", header=",".join(columns), comments="", fmt="%.6f")
-    given = {"title": folder.name, "table": "data.csv", "time": {"column": "time", "unit": "s", "zero": 0.0},
-             "channels": channels}  # fmt: skip
+    given = {
+        "title": folder.name,
+        "table": "data.csv",
+        "time": {"column": "time", "unit": "s", "zero": 0.0},
+        "channels": channels,
+    }
     (folder / "recording.yaml").write_text(yaml.safe_dump(given, sort_keys=False), encoding="utf-8")
     return load_recording(folder)
 
@@ -93,8 +97,14 @@ def test_what_a_fault_explains_is_not_explained_by_recalibration() -> None:
 
 
 def test_of_readings_that_reject_nothing_no_share_is_explained() -> None:
-    chance = replace(ADEQUACY, is_rejected=False, is_nominal_rejected=False, explained=0.4, day=(),
-                     chi_square={"before": 1.02, "recalibrated": 1.01, "after": 1.01})  # fmt: skip
+    chance = replace(
+        ADEQUACY,
+        is_rejected=False,
+        is_nominal_rejected=False,
+        explained=0.4,
+        day=(),
+        chi_square={"before": 1.02, "recalibrated": 1.01, "after": 1.01},
+    )
     within = "The held-out recordings are met within the stated noise of the sensors"
     assert how_right(chance, False) == f"{within}, before and after."
     one = replace(chance, is_nominal_rejected=True, chi_square={"before": 0.99, "recalibrated": 0.9, "after": 0.9})
@@ -187,8 +197,13 @@ def test_a_report_without_held_out_recordings_says_what_judged() -> None:
     whole = diagnosis(Verdict.MEASUREMENT_FAULT)
     basis = "stretches of the training recordings, each left out of a fit"
     fault = replace(FAULT, judged_by="every other reading, left out of a fit", held_out_gain=-3.0)
-    told = replace(whole, findings=(fault,), adequacy=replace(ADEQUACY, basis=basis), held_out_by="",
-                   fit=tuple(f for f in whole.fit if not f.is_held_out))  # fmt: skip
+    told = replace(
+        whole,
+        findings=(fault,),
+        adequacy=replace(ADEQUACY, basis=basis),
+        held_out_by="",
+        fit=tuple(f for f in whole.fit if not f.is_held_out),
+    )
     text = page(told, [], Network(()))
     assert f"<dt>Judged by</dt><dd>{basis}</dd>" in text
     assert "readings that judge (every other reading, left out of a fit) rises by 3" in text

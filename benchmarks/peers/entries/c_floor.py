@@ -27,14 +27,17 @@ def run(job: Job) -> Answer:
         library = unzipped / "binaries" / fmpy.platform / f"{description.coSimulation.modelIdentifier}.so"
         lines.append(f"fmu {library} {description.guid}")
     lines += [f"start {number[n]} {references[n, v]} {value!r}" for (n, v), value in system.start.items()]
-    lines += [f"wire {number[c.source]} {references[c.source, c.output]} {number[c.target]} "
-              f"{references[c.target, c.input]}" for c in system.connections]  # fmt: skip
+    lines += [
+        f"wire {number[c.source]} {references[c.source, c.output]} {number[c.target]} {references[c.target, c.input]}"
+        for c in system.connections
+    ]
     lines += [f"out {number[n]} {references[n, v]}" for n, v in system.outputs]
     spec, program = folder / "spec", folder / "c_floor"
     spec.write_text("\n".join(lines) + "\n")
     headers = Path(fmpy.__file__).parent / "c-code"
-    run_process(["gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-isystem", headers, "-o", program, SOURCE, "-ldl"],
-                check=True)  # fmt: skip
+    run_process(
+        ["gcc", "-std=c99", "-O2", "-Wall", "-Wextra", "-isystem", headers, "-o", program, SOURCE, "-ldl"], check=True
+    )
     done = run_process([program, spec, str(job.steps), repr(job.step)], check=True, capture_output=True, text=True)
     seconds, *values = (float(text) for text in done.stdout.split())
     return Answer(seconds, job.steps * job.step, values)

@@ -17,12 +17,26 @@ def configuration(job: Job) -> dict[str, Any]:
     start: dict[str, dict[str, float]] = {name: {} for name in system.components}
     for (name, variable), value in system.start.items():
         start[name][variable] = value
-    fmus = [{"id": name, "name": name, "path": str(system.fmu(name, job.version)), "initialization": values}
-            for name, values in start.items()]  # fmt: skip
-    wires = [{"source": {"id": c.source, "variable": c.output, "unit": ""},
-              "target": {"id": c.target, "variable": c.input, "unit": ""}} for c in system.connections]  # fmt: skip
-    return {"root": "", "loop_solver": "jacobi", "cosim_method": "jacobi", "iterative": False, "edge_sep": " -> ",
-            "fmus": fmus, "connections": wires}  # fmt: skip
+    fmus = [
+        {"id": name, "name": name, "path": str(system.fmu(name, job.version)), "initialization": values}
+        for name, values in start.items()
+    ]
+    wires = [
+        {
+            "source": {"id": c.source, "variable": c.output, "unit": ""},
+            "target": {"id": c.target, "variable": c.input, "unit": ""},
+        }
+        for c in system.connections
+    ]
+    return {
+        "root": "",
+        "loop_solver": "jacobi",
+        "cosim_method": "jacobi",
+        "iterative": False,
+        "edge_sep": " -> ",
+        "fmus": fmus,
+        "connections": wires,
+    }
 
 
 def run(job: Job) -> Answer:

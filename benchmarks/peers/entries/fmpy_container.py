@@ -31,16 +31,21 @@ def build(job: Job) -> Path:
             variables[name, variable.name] = variable
     time = ModelVariable(type=kind, variability="continuous", causality="independent", name="time")
     mappings = {
-        ModelVariable(type=kind, initial="calculated", variability="continuous", causality="output", name=f"{n}_{v}"):
-        [(parts[n], variables[n, v])] for n, v in system.outputs
-    }  # fmt: skip
+        ModelVariable(type=kind, initial="calculated", variability="continuous", causality="output", name=f"{n}_{v}"): [
+            (parts[n], variables[n, v])
+        ]
+        for n, v in system.outputs
+    }
     for (n, v), value in system.start.items():
         outer = ModelVariable(type=kind, variability="continuous", causality="input", name=f"{n}_{v}", start=str(value))
         mappings[outer] = [(parts[n], variables[n, v])]
     description = ModelDescription(
-        fmiVersion="3.0", modelName="container", instantiationToken=TOKEN,
-        coSimulation=CoSimulation(fixedInternalStepSize=job.step), modelVariables=[time, *mappings],
-    )  # fmt: skip
+        fmiVersion="3.0",
+        modelName="container",
+        instantiationToken=TOKEN,
+        coSimulation=CoSimulation(fixedInternalStepSize=job.step),
+        modelVariables=[time, *mappings],
+    )
     wires = [
         Connection(parts[c.source], [variables[c.source, c.output]], parts[c.target], [variables[c.target, c.input]])
         for c in system.connections
@@ -58,9 +63,11 @@ def run(job: Job) -> Answer:
     description = read_model_description(path)
     references = {v.name: v.valueReference for v in description.modelVariables}
     fmu = FMU3Slave(
-        guid=TOKEN, unzipDirectory=extract(path, job.folder / "container"), instanceName="container",
+        guid=TOKEN,
+        unzipDirectory=extract(path, job.folder / "container"),
+        instanceName="container",
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     fmu.instantiate()
     fmu.enterInitializationMode()
     fmu.exitInitializationMode()

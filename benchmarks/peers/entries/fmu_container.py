@@ -22,16 +22,24 @@ def build(job: Job) -> Path:
     for name in system.components:
         shutil.copy(system.fmu(name, job.version), folder / f"{name}.fmu")
     description = {
-        "name": "container.fmu", "step_size": job.step, "auto_link": False, "auto_input": False, "auto_output": False,
+        "name": "container.fmu",
+        "step_size": job.step,
+        "auto_link": False,
+        "auto_input": False,
+        "auto_output": False,
         "fmu": [f"{name}.fmu" for name in system.components],
         "link": [[f"{c.source}.fmu", c.output, f"{c.target}.fmu", c.input] for c in system.connections],
         "output": [[f"{n}.fmu", v, f"{n}_{v}"] for n, v in system.outputs],
         "start": [[f"{n}.fmu", v, value] for (n, v), value in system.start.items()],
-    }  # fmt: skip
+    }
     (folder / "container.json").write_text(json.dumps(description))
     tool = Path(sys.executable).parent / "fmucontainer"
-    subprocess.run([tool, "-container", "container.json", "-fmu-directory", folder, "-fmi", str(job.version)],
-                   cwd=folder, check=True, stdout=sys.stderr)  # fmt: skip
+    subprocess.run(
+        [tool, "-container", "container.json", "-fmu-directory", folder, "-fmi", str(job.version)],
+        cwd=folder,
+        check=True,
+        stdout=sys.stderr,
+    )
     return folder / "container.fmu"
 
 
@@ -41,9 +49,11 @@ def run(job: Job) -> Answer:
     description = read_model_description(path)
     references = {v.name: v.valueReference for v in description.modelVariables}
     fmu = (FMU2Slave if job.version == 2 else FMU3Slave)(
-        guid=description.guid, unzipDirectory=extract(path, job.folder / "container"), instanceName="container",
+        guid=description.guid,
+        unzipDirectory=extract(path, job.folder / "container"),
+        instanceName="container",
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     fmu.instantiate()
     if job.version == 2:
         fmu.setupExperiment(startTime=0.0)

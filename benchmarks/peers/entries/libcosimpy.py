@@ -30,9 +30,11 @@ def run(job: Job) -> Answer:
         execution.real_initial_value(index[name], references[name, variable], value)
     for wire in system.connections:
         execution.connect_real_variables(
-            index[wire.source], references[wire.source, wire.output],
-            index[wire.target], references[wire.target, wire.input],
-        )  # fmt: skip
+            index[wire.source],
+            references[wire.source, wire.output],
+            index[wire.target],
+            references[wire.target, wire.input],
+        )
     keep: list[Any] = [CosimManipulator.create_override()]
     if job.csv:
         keep.append(CosimObserver.create_to_dir(str(job.folder)))

@@ -55,8 +55,9 @@ def run_with(job: Job, method: Method) -> Answer:
     settings = PROJECT.format(stop=job.stop, step=job.step, output=job.step if job.csv else job.stop, **asdict(method))
     (job.folder / "job.msim").write_text(settings + "\n".join(lines) + "\n")
     program = os.environ["MASTERSIM"]
-    subprocess.run([program, "--verbosity-level=0", "-x", job.folder / "job.msim"], check=True,
-                   stdout=subprocess.DEVNULL)  # fmt: skip
+    subprocess.run(
+        [program, "--verbosity-level=0", "-x", job.folder / "job.msim"], check=True, stdout=subprocess.DEVNULL
+    )
     summary = dict(line.split("=", 1) for line in (job.folder / "job/log/summary.txt").read_text().split())
     with (job.folder / "job/results/values.csv").open() as file:
         header, *rows = csv.reader(file, delimiter="\t")

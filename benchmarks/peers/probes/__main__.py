@@ -41,11 +41,16 @@ SCRIPTS = [
     ("isolation_ecospy", "ecospy", ("crasher_fmi2",)),
     *(
         ("model_exchange", tool, (name, version))
-        for name, tool in (("fmpy", "fmpy_loop"), ("ecospy", "ecospy"), ("libcosimpy", "libcosimpy"),
-                           ("mastersim", "mastersim"), ("cofmupy", "cofmupy"))
+        for name, tool in (
+            ("fmpy", "fmpy_loop"),
+            ("ecospy", "ecospy"),
+            ("libcosimpy", "libcosimpy"),
+            ("mastersim", "mastersim"),
+            ("cofmupy", "cofmupy"),
+        )
         for version in ("2", "3")
     ),
-]  # fmt: skip
+]
 
 
 def start(python: str, arguments: list[str]) -> subprocess.CompletedProcess[str]:
@@ -109,12 +114,17 @@ def main(names: list[str]) -> None:
             rows.append((name, installed[module].name, run_script(python, script, arguments)))
             print(*rows[-1], sep=" | ", flush=True)
     if not names:
-        lines = [heading("What each tool does when it is asked", "python -m benchmarks.peers.probes"),
-                 "Questions: `fmi3`, two FMI 3.0 FMUs, expected [3.0]; `loop`, an algebraic loop after one macro-step,",
-                 "solution [2.0, 2.0]; `units`, a force connected to a velocity, to be refused; `crash`, an FMU that",
-                 "aborts its process at 0.5 s, 1 ms steps, results recorded. Others: the script of that name.", "",
-                 "| probe | tool | found |", "|---|---|---|",
-                 *(f"| {a} | {b} | {c.replace('|', '/')} |" for a, b, c in rows), ""]  # fmt: skip
+        lines = [
+            heading("What each tool does when it is asked", "python -m benchmarks.peers.probes"),
+            "Questions: `fmi3`, two FMI 3.0 FMUs, expected [3.0]; `loop`, an algebraic loop after one macro-step,",
+            "solution [2.0, 2.0]; `units`, a force connected to a velocity, to be refused; `crash`, an FMU that",
+            "aborts its process at 0.5 s, 1 ms steps, results recorded. Others: the script of that name.",
+            "",
+            "| probe | tool | found |",
+            "|---|---|---|",
+            *(f"| {a} | {b} | {c.replace('|', '/')} |" for a, b, c in rows),
+            "",
+        ]
         (results_folder() / "peers_probes.md").write_text("\n".join(lines))
 
 

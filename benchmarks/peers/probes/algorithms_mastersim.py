@@ -15,9 +15,10 @@ METHODS = {
     "Jacobi": Method(),
     "Gauss-Seidel": Method(mode="GAUSS_SEIDEL"),
     "iterated Gauss-Seidel": Method(mode="GAUSS_SEIDEL", iterations=20),
-    "step doubling, 1e-5": Method(mode="GAUSS_SEIDEL", control="STEP_DOUBLING", iterations=20, adjust="yes",
-                                  tolerance=1e-5),
-}  # fmt: skip
+    "step doubling, 1e-5": Method(
+        mode="GAUSS_SEIDEL", control="STEP_DOUBLING", iterations=20, adjust="yes", tolerance=1e-5
+    ),
+}
 
 
 def probe(work: Path) -> str:

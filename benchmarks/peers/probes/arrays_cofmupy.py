@@ -13,12 +13,21 @@ from benchmarks.peers.probes.finding import fmu, report
 def probe(work: Path) -> str:
     """Expected: second.y = (2, 4) for offset 1 in both; n is left at its start value 2."""
     config = {
-        "root": "", "cosim_method": "jacobi", "iterative": False, "edge_sep": " -> ",
-        "fmus": [{"id": n, "name": n, "path": str(fmu("vector_gain_fmi3")), "initialization": {"offset": 1.0}}
-                 for n in ("first", "second")],
-        "connections": [{"source": {"id": "first", "variable": "y", "unit": ""},
-                         "target": {"id": "second", "variable": "u", "unit": ""}}],
-    }  # fmt: skip
+        "root": "",
+        "cosim_method": "jacobi",
+        "iterative": False,
+        "edge_sep": " -> ",
+        "fmus": [
+            {"id": n, "name": n, "path": str(fmu("vector_gain_fmi3")), "initialization": {"offset": 1.0}}
+            for n in ("first", "second")
+        ],
+        "connections": [
+            {
+                "source": {"id": "first", "variable": "y", "unit": ""},
+                "target": {"id": "second", "variable": "u", "unit": ""},
+            }
+        ],
+    }
     (work / "config.json").write_text(json.dumps(config))
     coordinator = Coordinator()
     coordinator.start(str(work / "config.json"))

@@ -19,23 +19,34 @@ def probe(work: Path) -> str:
     parts = [Component(name, fmu("vector_gain_fmi3"), description) for name in ("first", "second")]
     inner = {v.name: v for v in description.modelVariables}
     time = ModelVariable(type="Float64", variability="continuous", causality="independent", name="time")
-    y = ModelVariable(type="Float64", initial="calculated", variability="continuous", causality="output", name="y",
-                      shape=(2,))  # fmt: skip
-    offsets = [ModelVariable(type="Float64", variability="fixed", causality="parameter", name=f"offset{i}", start="1")
-               for i in range(2)]  # fmt: skip
+    y = ModelVariable(
+        type="Float64", initial="calculated", variability="continuous", causality="output", name="y", shape=(2,)
+    )
+    offsets = [
+        ModelVariable(type="Float64", variability="fixed", causality="parameter", name=f"offset{i}", start="1")
+        for i in range(2)
+    ]
     mappings = {y: [(parts[1], inner["y"])], **{offsets[i]: [(parts[i], inner["offset"])] for i in range(2)}}
     outer = ModelDescription(
-        fmiVersion="3.0", modelName="c", instantiationToken="",
-        coSimulation=CoSimulation(fixedInternalStepSize=0.1), modelVariables=[time, *mappings],
-    )  # fmt: skip
+        fmiVersion="3.0",
+        modelName="c",
+        instantiationToken="",
+        coSimulation=CoSimulation(fixedInternalStepSize=0.1),
+        modelVariables=[time, *mappings],
+    )
     (work / "unzipped").mkdir()
     create_container_fmu(
         Configuration(False, outer, parts, [Connection(parts[0], [inner["y"]], parts[1], [inner["u"]])], mappings),
-        work / "unzipped", work / "c.fmu",
-    )  # fmt: skip
+        work / "unzipped",
+        work / "c.fmu",
+    )
     outside = read_model_description(work / "c.fmu", validate=False)
-    container = FMU3Slave(guid="", unzipDirectory=extract(work / "c.fmu", work / "x"), instanceName="c",
-                          modelIdentifier=outside.coSimulation.modelIdentifier)  # fmt: skip
+    container = FMU3Slave(
+        guid="",
+        unzipDirectory=extract(work / "c.fmu", work / "x"),
+        instanceName="c",
+        modelIdentifier=outside.coSimulation.modelIdentifier,
+    )
     container.instantiate()
     container.enterInitializationMode()
     container.exitInitializationMode()

@@ -42,8 +42,14 @@ def cofmupy(path: Path, work: Path) -> str:
     """CoFmuPy."""
     from cofmupy import Coordinator
 
-    config = {"root": "", "cosim_method": "jacobi", "iterative": False, "edge_sep": " -> ", "connections": [],
-              "fmus": [{"id": "unit", "name": "unit", "path": str(path), "initialization": {}}]}  # fmt: skip
+    config = {
+        "root": "",
+        "cosim_method": "jacobi",
+        "iterative": False,
+        "edge_sep": " -> ",
+        "connections": [],
+        "fmus": [{"id": "unit", "name": "unit", "path": str(path), "initialization": {}}],
+    }
     (work / "config.json").write_text(json.dumps(config))
     coordinator = Coordinator()
     coordinator.start(str(work / "config.json"))
@@ -57,8 +63,12 @@ def mastersim(path: Path, work: Path) -> str:
         "tStart 0 s\ntEnd 0.1 s\nhMax 0.01 s\nhStart 0.01 s\nhOutputMin 0.01 s\nadjustStepSize no\n"
         f'MasterMode GAUSS_JACOBI\nErrorControlMode NONE\nmaxIterations 1\n\nsimulator 0 0 unit #000000 "{path}"\n'
     )
-    done = subprocess.run([os.environ["MASTERSIM"], "--verbosity-level=1", "-x", work / "job.msim"],
-                          capture_output=True, text=True, check=False)  # fmt: skip
+    done = subprocess.run(
+        [os.environ["MASTERSIM"], "--verbosity-level=1", "-x", work / "job.msim"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     text = re.sub(r"\x1b\[[0-9;]*m", "", done.stdout + done.stderr)
     reasons = [line.strip() for line in text.splitlines() if "xpected" in line]
     return f"exit code {done.returncode}; {reasons[-1] if reasons else 'no reason given'}"

@@ -19,8 +19,10 @@ def probe(work: Path) -> str:
             with EcosSimulation(ssp_path=str(write(work, version)[1]), step_size=1e-3) as simulation:
                 simulation.init(parameter_set="mass")
                 simulation.step(1500)
-                found.append(f"SSP {version}: z = {simulation.get_real('chassis::z'):.6f} m, "
-                             f"mass {simulation.get_real('chassis::mass'):g} kg")  # fmt: skip
+                found.append(
+                    f"SSP {version}: z = {simulation.get_real('chassis::z'):.6f} m, "
+                    f"mass {simulation.get_real('chassis::mass'):g} kg"
+                )
         except Exception as error:  # the finding is that it refuses
             found.append(f"SSP {version}: {str(error)[:120]}")
     return "; ".join(found)

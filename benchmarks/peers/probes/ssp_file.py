@@ -22,22 +22,29 @@ def structure(version: str) -> str:
         toml = tomllib.loads((Path(__file__).parents[2] / "models" / model / "model.toml").read_text())
         connectors = "".join(
             f'<ssd:Connector name="{v}" kind="{row["causality"]}"><ssc:{number}/></ssd:Connector>'
-            for v, row in toml["variables"].items() if row["causality"] in {"input", "output", "parameter"}
-        )  # fmt: skip
+            for v, row in toml["variables"].items()
+            if row["causality"] in {"input", "output", "parameter"}
+        )
         bindings = ""
         if name == "chassis":
-            values = (f'<ssv:ParameterSet version="{version}" name="mass"><ssv:Parameters><ssv:Parameter name="mass">'
-                      f'<ssv:{number} value="200"/></ssv:Parameter></ssv:Parameters></ssv:ParameterSet>')  # fmt: skip
-            bindings = ("<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>" + values +
-                        "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>")  # fmt: skip
+            values = (
+                f'<ssv:ParameterSet version="{version}" name="mass"><ssv:Parameters><ssv:Parameter name="mass">'
+                f'<ssv:{number} value="200"/></ssv:Parameter></ssv:Parameters></ssv:ParameterSet>'
+            )
+            bindings = (
+                "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+                + values
+                + "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"
+            )
         components.append(
             f'<ssd:Component name="{name}" source="resources/{name}.fmu"><ssd:Connectors>{connectors}</ssd:Connectors>'
             f"{bindings}</ssd:Component>"
         )
     wires = "".join(
         f'<ssd:Connection startElement="{c.source}" startConnector="{c.output}" endElement="{c.target}" '
-        f'endConnector="{c.input}"/>' for c in QUARTER_TRUCK.connections
-    )  # fmt: skip
+        f'endConnector="{c.input}"/>'
+        for c in QUARTER_TRUCK.connections
+    )
     return (
         f'<?xml version="1.0" encoding="UTF-8"?>\n<ssd:SystemStructureDescription {SPACES} name="QuarterTruck" '
         f'version="{version}"><ssd:System name="Root"><ssd:Elements>{"".join(components)}</ssd:Elements>'

@@ -1,0 +1,1 @@
+"""What fabrics of chainmail alone need: equations, figures, ensembles, designs, cameras, moving pictures."""

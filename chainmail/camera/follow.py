@@ -1,0 +1,149 @@
+"""From spots to tracks: every picture by itself, then those that are not resolved with their neighbours in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from chainmail.camera.identify import CLEAR, Chain, Expected, Weave, identify
+from chainmail.camera.spots import WHOLE, Places
+from chainmail.camera.tracks import GAP, PART, SEEN, Tracks
+from cosim.unit.protocol import AnyArray, Array
+
+#: Deviation of an expected place [m], at once and by what it may move in a second [m/s].
+_AT_ONCE, _PER_SECOND = 2e-3, 0.04
+#: No place is expected over a longer time [s].
+_LONGEST = 0.5
+#: A place that is off the course through its neighbours by so many deviations, and so much [m], is no marker.
+_OFF, _LEAST_OFF = 8.0, 4e-3
+#: Missing share of a marker that its own scatter does not explain: so many deviations, and at least so much.
+_MISSING, _LEAST_MISSING = 4.0, 0.012
+
+Assign = Callable[[Places, Expected | None], Chain | None]
+
+
+def fabric_assigner(weave: Weave) -> Assign:
+    """Assignment of spots by the chain of links of a fabric."""
+    return lambda spots, expected: identify(spots.places, weave, expected)
+
+
+def point_assigner(points: Array, reach: float) -> Assign:
+    """Assignment of spots to markers that stay near known places, all at once.
+
+    Args:
+        points: Their places, shape (markers, 2) [m].
+        reach: How far each may be from its place [m].
+    """
+
+    def assign(spots: Places, expected: Expected | None) -> Chain | None:
+        if not len(spots):
+            return None
+        far = np.linalg.norm(points[:, None] - spots.places[None], axis=2)
+        cost = np.where(far <= reach, far + reach * np.maximum(0.0, 1.0 - spots.share), 4.0 * reach)
+        rows, columns = linear_sum_assignment(cost)
+        chosen = np.full(len(points), -1)
+        fits = far[rows, columns] <= reach
+        chosen[rows[fits]] = columns[fits]
+        # Two markers that reach one spot, or two spots within one marker's reach, leave it open which is which.
+        several = np.sum((far <= reach) & (spots.share > 0.5), axis=1) > 1
+        chosen[several] = -1
+        return Chain(chosen, 2.0 * CLEAR if (chosen >= 0).any() else 0.0)
+
+    return assign
+
+
+def follow(times: Array, pictures: Sequence[Places], markers: int, assign: Assign) -> Tracks:
+    """Tracks of markers through all pictures.
+
+    Args:
+        times: Shape (frames,) [s].
+        pictures: Spots of each frame.
+        markers: Number of markers.
+        assign: Which spot is which marker.
+    """
+    chains = [assign(spots, None) for spots in pictures]
+    first = _tracks(times, pictures, chains, markers)
+    good = np.array([c is not None and c.is_resolved for c in chains])
+    for frame in np.flatnonzero(~good):
+        expected = _expected(first, good, int(frame))
+        chains[frame] = None if expected is None else assign(pictures[int(frame)], expected)
+    return _without_strays(_tracks(times, pictures, chains, markers))
+
+
+def _tracks(times: Array, pictures: Sequence[Places], chains: Sequence[Chain | None], markers: int) -> Tracks:
+    places = np.full((len(times), markers, 2), np.nan)
+    covariance = np.full((len(times), markers, 2, 2), np.nan)
+    share = np.zeros((len(times), markers))
+    state = np.full((len(times), markers), GAP)
+    margin = np.zeros(len(times))
+    for frame, (spots, chain) in enumerate(zip(pictures, chains)):
+        if chain is None or not chain.is_resolved:
+            continue
+        has = chain.spots >= 0
+        own = chain.spots[has]
+        places[frame, has], covariance[frame, has] = spots.places[own], spots.covariance[own]
+        share[frame, has] = spots.share[own]
+        state[frame, has] = np.where(spots.share[own] >= WHOLE, SEEN, PART)
+        margin[frame] = min(chain.margin, 99.0)
+    return Tracks(times, places, covariance, share, state, margin)
+
+
+def _expected(tracks: Tracks, good: AnyArray, frame: int) -> Expected | None:
+    """Where markers are expected: between the nearest readings before and after."""
+    places = np.full((tracks.markers, 2), np.nan)
+    deviation = np.full(tracks.markers, np.nan)
+    now = tracks.times[frame]
+    for marker in range(tracks.markers):
+        has = np.flatnonzero(good & (tracks.state[:, marker] == SEEN))
+        at = int(np.searchsorted(has, frame))
+        near = [i for i in (has[at - 1] if at else None, has[at] if at < len(has) else None) if i is not None]
+        near = [i for i in near if abs(tracks.times[i] - now) <= _LONGEST]
+        if not near:
+            continue
+        away = np.array([abs(tracks.times[i] - now) for i in near])
+        weight = (away[::-1] if len(near) == 2 else away) / away.sum()
+        places[marker] = weight @ tracks.places[near, marker]
+        deviation[marker] = _AT_ONCE + _PER_SECOND * away.min()
+    return None if np.isnan(deviation).all() else Expected(places, deviation)
+
+
+def _without_strays(tracks: Tracks) -> Tracks:
+    """Gaps where a place is far off the median of its neighbours in time, while those agree."""
+    is_off = np.zeros(tracks.state.shape, dtype=bool)
+    for marker in range(tracks.markers):
+        has = np.flatnonzero(tracks.state[:, marker] != GAP)
+        if len(has) < 7:
+            continue
+        own = tracks.places[has, marker]
+        around = np.lib.stride_tricks.sliding_window_view(own, 7, axis=0)
+        middle = np.median(around, axis=2)
+        spread = np.median(np.abs(around - middle[..., None]), axis=2)
+        off = np.abs(own[3:-3] - middle)
+        is_off[has[3:-3], marker] = np.any(off > np.maximum(_OFF * spread, _LEAST_OFF), axis=1)
+    return tracks.without(is_off)
+
+
+def doubt_parts(tracks: Tracks, radius: float) -> Tracks:
+    """Larger covariances where a marker lacks more of its area than its own scatter explains.
+
+    A strip that is hidden at the rim, with the share f of the area, moves the centroid by at most f radii.
+
+    Args:
+        tracks: As followed.
+        radius: Of a marker [m].
+    """
+    share = np.where(tracks.state == GAP, np.nan, tracks.share)
+    covariance, state = tracks.covariance.copy(), tracks.state.copy()
+    for marker in range(tracks.markers):
+        own = share[tracks.state[:, marker] == SEEN, marker]
+        if own.size < 5:
+            continue
+        whole = float(np.median(own))
+        scatter = float(np.median(np.abs(own - whole))) / 0.6745
+        missing = whole - share[:, marker]
+        is_less = (missing > max(_MISSING * scatter, _LEAST_MISSING)) & (tracks.state[:, marker] == SEEN)
+        covariance[is_less, marker] += (missing[is_less] * radius)[:, None, None] ** 2 * np.eye(2)
+        state[is_less, marker] = PART
+    return Tracks(tracks.times, tracks.places, covariance, tracks.share, state, tracks.margin)

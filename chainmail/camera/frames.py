@@ -1,0 +1,138 @@
+"""Frames of a video file or of a folder of pictures, and when each was taken."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd  # type: ignore[import-untyped]
+
+from chainmail.camera.lens import pictures_in
+from chainmail.camera.opencv import opencv
+from chainmail.camera.rig import ClockEntry
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.quantity import conversion
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One picture.
+
+    Args:
+        picture: Blue, green, red, shape (height, width, 3), bytes.
+        stamp: Time stamp that the video file gives [s]; not a number for pictures of a folder.
+    """
+
+    picture: AnyArray
+    stamp: float = math.nan
+
+
+class Frames:
+    """The frames of a video file or of a folder.
+
+    Args:
+        source: File or folder.
+
+    Raises:
+        InputError: It does not exist, or holds no video or picture that can be read.
+    """
+
+    def __init__(self, source: Path) -> None:
+        self.source = source
+        self.files = pictures_in(source, "") if source.is_dir() else []
+        #: Frames per second that the video file states; 0 for a folder.
+        self.rate = 0.0
+        first = next(iter(self), None)
+        if first is None:
+            raise InputError(source, "", "no frame of it can be read", "give a video that OpenCV decodes, or a folder")
+        self.shape = first.picture.shape
+
+    def __iter__(self) -> Iterator[Frame]:
+        yield from self._pictures() if self.files else self._video()
+
+    def _pictures(self) -> Iterator[Frame]:
+        cv2, shape = opencv(), None
+        for file in self.files:
+            picture = cv2.imread(str(file), cv2.IMREAD_COLOR)
+            if picture is None:
+                raise InputError(file, "", "this picture cannot be read", "save it anew, or remove it from the folder")
+            if shape not in (None, picture.shape):
+                raise InputError(
+                    file,
+                    "",
+                    f"it has {picture.shape[1]} x {picture.shape[0]} pixels, those before {shape[1]} x {shape[0]}",
+                    "give pictures of one size",
+                )
+            shape = picture.shape
+            yield Frame(picture)
+
+    def _video(self) -> Iterator[Frame]:
+        cv2 = opencv()
+        if not self.source.is_file():
+            raise InputError(self.source, "", "there is no such file or folder", "give a video or a folder of pictures")
+        video = cv2.VideoCapture(str(self.source))
+        try:
+            self.rate = float(video.get(cv2.CAP_PROP_FPS)) if video.isOpened() else 0.0
+            while video.isOpened():
+                is_read, picture = video.read()
+                if not is_read:
+                    return
+                yield Frame(picture, float(video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0)
+        finally:
+            video.release()
+
+
+def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video: Path) -> tuple[Array, str]:
+    """Middle of the exposure of every frame on the scenario's clock [s], and where the times are from.
+
+    Args:
+        clock: Of the rig.
+        stamps: Time stamps of the video file, shape (frames,) [s]; not numbers for a folder.
+        rate: Frames per second that the video file states.
+        rig: Rig file, for paths and errors.
+        video: For errors.
+
+    Raises:
+        InputError: There are no times, they do not rise, or are not as many as the frames.
+    """
+    count = len(stamps)
+    if clock.rate is not None:
+        times, said = np.arange(count) / clock.rate.to("Hz"), f"{clock.rate} of the rig file"
+    elif clock.stamps is not None:
+        times, said = _stamps(clock, rig, count), f"time stamps of {clock.stamps}"
+    elif count > 1 and np.all(np.diff(stamps) > 0.0):
+        times, said = stamps - stamps[0], f"time stamps of the video ({rate:.6g} frames per second)"
+    else:
+        raise InputError(rig, "clock", f"{video} says no times of its frames", "give `rate` or `stamps`")
+    if np.any(np.diff(times) <= 0.0):
+        late = int(np.argmax(np.diff(times) <= 0.0))
+        what = f"times do not rise: {times[late]:.6g} s, then {times[late + 1]:.6g} s"
+        raise InputError(rig, "clock.stamps", what, "correct the table of time stamps")
+    exposure = clock.exposure.to("s")
+    if count > 1 and exposure > 1.001 * float(np.min(np.diff(times))):
+        raise InputError(
+            rig,
+            "clock.exposure",
+            f"{clock.exposure} is longer than the shortest time between frames",
+            "correct it, or the times",
+        )
+    to_middle = {"begin": 0.5, "middle": 0.0, "end": -0.5}[clock.stamp] * exposure
+    return times + (to_middle + clock.offset.to("s")), said
+
+
+def _stamps(clock: ClockEntry, rig: Path, count: int) -> Array:
+    file = rig.parent / str(clock.stamps)
+    try:
+        column = pd.read_csv(file)[clock.column].to_numpy(dtype=np.float64)
+        factor = conversion(clock.unit, "s")[0]
+    except KeyError as error:
+        raise InputError(file, "", f"there is no column `{clock.column}`", "correct clock.column of the rig") from error
+    except (OSError, ValueError) as error:
+        raise InputError(file, "", f"it cannot be read as time stamps: {error}", "correct clock.stamps") from error
+    if len(column) != count or not np.isfinite(column).all():
+        raise InputError(file, "", f"it has {int(np.isfinite(column).sum())} times for {count} frames", "give one each")
+    return np.asarray(factor * column)

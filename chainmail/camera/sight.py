@@ -1,0 +1,150 @@
+"""A camera before a rig, ready to measure: lens, plane, and what was found out about both."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from chainmail.camera.detect import Detector
+from chainmail.camera.frames import Frame
+from chainmail.camera.lens import Lens, calibrate, pictures_in
+from chainmail.camera.plane import Plane, plane_of_points, plane_of_scale
+from chainmail.camera.rig import LensEntry, PlaneEntry, Rig
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+
+#: Pictures from which coloured fiducials are read, and how far from the stated pixel they may be, in diameters.
+_FIRST, _NEAR = 10, 1.5
+#: Fiducials farther from their places than this share of the largest distance between them are wrong.
+_WRONG = 0.01
+
+
+@dataclass(frozen=True)
+class Sight:
+    """How pixels become places.
+
+    Args:
+        lens: None where there is no distortion to undo.
+        plane: From undistorted pixels.
+        notes: What was found out, in sentences.
+    """
+
+    lens: Lens | None
+    plane: Plane
+    notes: tuple[str, ...] = ()
+
+    def places(self, pixels: Array) -> Array:
+        """(y, z) [m] of pixels in the picture, shape (points, 2)."""
+        if not len(pixels):
+            return np.zeros((0, 2))
+        return self.plane.places(pixels if self.lens is None else self.lens.undistort(pixels))
+
+    def pixels(self, places: Array) -> Array:
+        """Pixels in the picture of places (points, 2) [m]."""
+        ideal = self.plane.pixels(places)
+        return ideal if self.lens is None else self.lens.distort(ideal)
+
+    def pixel_length(self, pixels: Array) -> Array:
+        """Length [m] of a pixel at each pixel, shape (points,)."""
+        if not len(pixels):
+            return np.zeros(0)
+        half_u, half_v = np.array([0.5, 0.0]), np.array([0.0, 0.5])
+        right, down = self.places(pixels + half_u), self.places(pixels + half_v)
+        left, up = self.places(pixels - half_u), self.places(pixels - half_v)
+        a, b = right - left, down - up
+        return np.asarray(np.sqrt(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])))
+
+
+def sight_of(rig: Rig, file: Path, frames: Iterable[Frame]) -> Sight:
+    """The camera of a rig.
+
+    Args:
+        rig: As read.
+        file: Its file, beside which folders of pictures are.
+        frames: Of the video: coloured fiducials are refined in the first of them.
+
+    Raises:
+        InputError: The lens cannot be calibrated, a fiducial is not found, or they do not span a plane.
+    """
+    lens, notes = _lens(rig.lens, file)
+    plane, more = _plane(rig.plane, lens, file, frames)
+    return Sight(lens, plane, (*notes, *more))
+
+
+def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
+    """The camera of pixels that another tool found: no picture is at hand to refine anything.
+
+    Raises:
+        InputError: As for `sight_of`.
+    """
+    found, notes = _lens(lens, file)
+    own, more = _plane(plane, found, file, ())
+    return Sight(found, own, (*notes, *more))
+
+
+def _lens(entry: LensEntry | None, file: Path) -> tuple[Lens | None, tuple[str, ...]]:
+    if entry is None:
+        return None, ()
+    if entry.chessboard is not None:
+        board, key = entry.chessboard, "lens.chessboard"
+        found = calibrate(pictures_in(file.parent / board.folder, key, board.pattern), board.corners, key)
+        return found.lens, (f"lens: reprojection error {found.error:.3f} px in {found.used} of {found.given} pictures",)
+    focal, centre = entry.focal, entry.centre
+    if focal is None or centre is None:  # refused when the file was read
+        raise InputError(file, "lens", "focal and centre are missing", "give both")
+    k = [float(v) for v in entry.distortion] + [0.0] * (5 - len(entry.distortion))
+    return Lens((focal[0], focal[1]), (centre[0], centre[1]), (k[0], k[1], k[2], k[3], k[4])), ()
+
+
+def _plane(entry: PlaneEntry, lens: Lens | None, file: Path, frames: Iterable[Frame]) -> tuple[Plane, tuple[str, ...]]:
+    if entry.scale is not None and entry.origin is not None:
+        origin = np.array([entry.origin], dtype=np.float64)
+        ((u, v),) = origin if lens is None else lens.undistort(origin)
+        return plane_of_scale(entry.scale.to("m"), (float(u), float(v)), entry.y, entry.z), ()
+    points = entry.fiducials or []
+    pixels = np.array([p.pixel for p in points], dtype=np.float64)
+    places = np.array([[c.to("m") for c in p.at] for p in points])
+    if entry.colour is not None and entry.diameter is not None:
+        pixels = _refined(entry.colour, entry.diameter.to("m"), pixels, places, file, frames)
+    try:
+        found = plane_of_points(pixels if lens is None else lens.undistort(pixels), places)
+    except (ValueError, np.linalg.LinAlgError) as error:
+        raise InputError(file, "plane.fiducials", str(error), "give points that span the plane") from error
+    size = float(np.max(np.linalg.norm(places[:, None] - places[None], axis=2)))
+    if found.error > _WRONG * size:
+        raise InputError(
+            file,
+            "plane.fiducials",
+            f"they are off by {1e3 * found.error:.3g} mm from one plane",
+            "correct `at` or `pixel` of the one that is wrong",
+        )
+    if len(points) == 4:
+        return found, ("plane: four fiducials fix it and leave no error to be seen",)
+    return found, (f"plane: {len(points)} fiducials, off by {1e3 * found.error:.3g} mm",)
+
+
+def _refined(colour: str, diameter: float, pixels: Array, places: Array, file: Path, frames: Iterable[Frame]) -> Array:
+    """Mean centres of coloured fiducials in the first pictures."""
+    apart = np.linalg.norm(pixels[0] - pixels[1:], axis=1) / np.linalg.norm(places[0] - places[1:], axis=1)
+    wide = diameter * float(np.median(apart))
+    detector = Detector(colour, wide, len(pixels))
+    found: list[list[Array]] = [[] for _ in pixels]
+    for frame in islice(iter(frames), _FIRST):
+        spots = detector.spots(frame.picture).pixels
+        for number, pixel in enumerate(pixels):
+            away = np.linalg.norm(spots - pixel, axis=1)
+            if len(away) and away.min() < _NEAR * wide:
+                found[number].append(spots[int(np.argmin(away))])
+    for number, own in enumerate(found):
+        if not own:
+            raise InputError(
+                file,
+                f"plane.fiducials.{number}",
+                f"nothing {colour} is near its pixel",
+                "correct `pixel`, or `colour` and `diameter` of the fiducials",
+            )
+    return np.array([np.median(own, axis=0) for own in found])

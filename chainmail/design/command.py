@@ -1,0 +1,94 @@
+"""`cosim design`: read, search, write."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from chainmail.design.candidate import rig_of
+from chainmail.design.ledger import Ledger
+from chainmail.design.report import front, impossible, report, winning_scenario
+from chainmail.design.search import Impossible, Search
+from chainmail.design.task import load_task
+from cosim.alone import alone
+from cosim.compute.batch import Batches
+from cosim.compute.cache import Cache
+from cosim.compute.cluster import Place
+from cosim.compute.progress import Progress
+from cosim.run_folder import write_atomically, writing
+from cosim.unit.errors import InputError
+
+#: Exit code where no design was accepted.
+NOT_FOUND = 1
+
+
+def design(
+    path: Path, out: Path, place: Place, resume: bool, tell: Callable[[str], None], progress: Progress | None = None
+) -> int:
+    """Find a design and write its folder.
+
+    Args:
+        path: Task file.
+        out: Folder: `scenario.yaml`, `report.md`, `front.csv`, `ledger.csv`, and every run.
+        place: Where runs are made.
+        resume: Use the runs that an earlier search left in the folder.
+        tell: Told what is done.
+        progress: Told of every run.
+
+    Returns:
+        Exit code: 0 where a design was accepted, 1 where none was, or the request is impossible (report.md says which).
+
+    Raises:
+        InputError: Something in task, scenario or folder is wrong.
+        KeyboardInterrupt: The user stopped it; runs that were finished are kept.
+    """
+    task, scenario = load_task(path)
+    rig = rig_of(scenario, path)
+    _check_rows(task.vary.rows_heated, rig.free, path)
+    with alone(out, "design"):
+        is_begun = (out / "report.md").exists() or (out / "runs").exists()
+        if is_begun and not resume:
+            raise InputError(
+                out,
+                "",
+                "this folder already holds a design",
+                "go on from it with `--resume`, or give another folder with `--out`",
+            )
+        with Batches(place, Cache(out / "runs"), progress) as batches:
+            ledger = Ledger(task, rig, batches)
+            search = Search(ledger, tell)
+            try:
+                outcome = search.run()
+            except Impossible as why:
+                _write(
+                    out,
+                    {"report.md": impossible(ledger, why), "ledger.csv": ledger.table(), "front.csv": front(ledger)},
+                )
+                print(
+                    f"not possible: {why.limit}\n  nearest: {why.nearest}\nreport: {out / 'report.md'}", file=sys.stderr
+                )
+                return NOT_FOUND
+        files = {"report.md": report(search, outcome), "ledger.csv": ledger.table(), "front.csv": front(ledger)}
+        if outcome.winner is not None:
+            files["scenario.yaml"] = winning_scenario(outcome.winner, rig, task.title)
+        _write(out, files)
+    print((out / "report.md").read_text(encoding="utf-8"))
+    for name in files:
+        print(f"{name}: {out / name}")
+    return 0 if outcome.winner is not None else NOT_FOUND
+
+
+def _check_rows(given: object, free: tuple[int, ...], path: Path) -> None:
+    if not isinstance(given, list):
+        return
+    wrong = sorted({r for pattern in given for r in pattern} - set(free))
+    if wrong or not given:
+        problem = f"row {wrong[0]} is no free row of the fabric" if wrong else "there is no pattern"
+        raise InputError(path, "vary.rows_heated", problem, f"free rows are {free[0]} to {free[-1]}")
+
+
+def _write(out: Path, files: dict[str, str]) -> None:
+    with writing(out):
+        for name, text in files.items():
+            write_atomically(out / name, text.encode())

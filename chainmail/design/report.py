@@ -1,0 +1,197 @@
+"""What a design is worth: report, front and scenario."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from chainmail.design.candidate import Candidate, Rig, scenario_for
+from chainmail.design.ledger import Entry, Ledger
+from chainmail.design.search import APART, ERROR, Impossible, Outcome, Search
+from chainmail.design.sequential import Verdict, share_interval
+
+#: A limit is active where the design comes this near to it.
+NEAR = 0.02
+
+
+def front(ledger: Ledger) -> str:
+    """Designs that no other beats in both energy and the worst distance to a bound, as CSV.
+
+    Both are medians over the runs of a design, those of the highest fidelity that it has.
+    """
+    rows = []
+    for candidate, entries in _by_candidate(ledger.entries).items():
+        distances = [min(_scaled(e, ledger)) for e in entries]
+        rows.append((float(np.median([e.energy for e in entries])), float(np.median(distances)), candidate, entries))
+    rows.sort(key=lambda r: (r[0], -r[1]))
+    best = -math.inf
+    buffer = io.StringIO()
+    writer = csv.writer(buffer)
+    names = [f"{w.quantity} [{u}]" for w, u in zip(ledger.task.wanted, ledger.units)]
+    writer.writerow(
+        [
+            "energy [J]",
+            *(f"median {n}" for n in names),
+            "distance to the nearest bound, of it",
+            "fidelity",
+            "runs",
+            "design",
+        ]
+    )
+    for energy, distance, candidate, entries in rows:
+        if distance <= best:
+            continue
+        best = distance
+        medians = np.median([e.values for e in entries], axis=0)
+        writer.writerow(
+            [
+                f"{energy:.6g}",
+                *(f"{v:.6g}" for v in medians),
+                f"{distance:.4g}",
+                entries[0].fidelity,
+                len(entries),
+                candidate.text(),
+            ]
+        )
+    return buffer.getvalue()
+
+
+def _by_candidate(entries: Sequence[Entry]) -> dict[Candidate, list[Entry]]:
+    """Complete runs of every design, those of its highest fidelity alone."""
+    found: dict[Candidate, list[Entry]] = {}
+    for fidelity in ("full", "fine", "coarse"):
+        for entry in entries:
+            own = found.get(entry.candidate)
+            if entry.fidelity == fidelity and not entry.failure and (own is None or own[0].fidelity == fidelity):
+                found.setdefault(entry.candidate, []).append(entry)
+    return found
+
+
+def _scaled(entry: Entry, ledger: Ledger) -> list[float]:
+    """Distances to the bounds as shares of them."""
+    found = []
+    for wanted, distance, unit in zip(ledger.task.wanted, entry.distances, ledger.units):
+        bound = wanted.below or wanted.above
+        assert bound is not None
+        found.append(distance / (abs(bound.to(unit)) or 1.0))
+    return found
+
+
+def report(search: Search, outcome: Outcome) -> str:
+    """The report as Markdown."""
+    ledger = search.ledger
+    rig = ledger.rig
+    lines = [f"# {ledger.task.title}", ""]
+    winner = outcome.winner
+    if winner is not None:
+        lines += [f"**{winner.text()}.**", "", "`scenario.yaml` carries it out.", ""]
+    else:
+        lines += [f"**No design was accepted.** The last check is {outcome.verdict.value}.", ""]
+    lines += [f"- {note}" for note in outcome.notes]
+    if outcome.checks:
+        lines += ["", f"## On {len(outcome.checks)} fresh starts", "", *_checks(ledger, outcome)]
+    if winner is not None:
+        lines += ["", "## Energy", "", *_energy(search, winner, outcome, rig)]
+        lines += ["", "## Limits", "", *_limits(search, winner)]
+    lines += ["", "## Effort", "", *_effort(ledger, outcome)]
+    return "\n".join(lines) + "\n"
+
+
+def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
+    complete = [e for e in outcome.checks if not e.failure]
+    lines = ["| wanted | median | 5 to 95 % | met | share, with its interval |", "|---|---|---|---|---|"]
+    count = len(outcome.checks)
+    for number, wanted in enumerate(ledger.task.wanted):
+        met = sum(not e.failure and e.distances[number] >= 0.0 for e in outcome.checks)
+        low, high = share_interval(met, count, wanted.confidence)
+        values = [e.values[number] for e in complete]
+        unit = ledger.units[number] if ledger.units else ""
+        told = [f"{v:.4g} {unit}" for v in np.percentile(values, [50, 5, 95])] if values else ["none"] * 3
+        lines.append(
+            f"| {wanted.text()} | {told[0]} | {told[1]} to {told[2]} | {met} of {count} | "
+            f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * wanted.confidence:.0f} %) |"
+        )
+    share = max(w.share for w in ledger.task.wanted)
+    meaning = {
+        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - APART:.2f} or less, it "
+        f"would happen in at most {100 * ERROR:.0f} % of checks",
+        Verdict.REJECTED: f"rejected: were the share {share:.2f} or more, this would happen in at most "
+        f"{100 * ERROR:.0f} % of checks",
+        Verdict.OPEN: "open: more fresh starts are needed (`runs.full`)",
+    }[outcome.verdict]
+    return [*lines, "", f"Sequential test of {share:.2f} against {share - APART:.2f}: {meaning}."]
+
+
+def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> list[str]:
+    lines = [f"- closed form: {winner.energy(rig):.1f} J"]
+    measured = [e.energy for e in outcome.checks if not e.failure]
+    if measured:
+        lines.append(f"- co-simulation: {np.median(measured):.1f} J")
+    reference = outcome.reference
+    if reference is not None and len(reference.rows) > len(winner.rows):
+        spent = reference.energy(rig)
+        lines.append(
+            f"- {len(reference.rows)} rows with a programme of the same kind: {spent:.1f} J; this is "
+            f"{100 * winner.energy(rig) / spent:.0f} % of it"
+        )
+    steady = sum(r.power(r.holding_voltage(winner.hot)) * winner.deadline for r in rig.rows)
+    share = 100 * winner.energy(rig) / steady
+    settled = f"{winner.hot - 273.15:.3g} degC"
+    lines.append(
+        f"- all {len(rig.rows)} rows from 0 s on, at the voltage that settles at {settled}: {steady:.1f} J; "
+        f"this is {share:.0f} % of it"
+    )
+    return lines
+
+
+def _limits(search: Search, winner: Candidate) -> list[str]:
+    """Which limits are active, and what a tenth more of each would save, by the closed form."""
+    rig = search.ledger.rig
+    if not winner.rows:
+        return ["none: nothing is heated"]
+    row = rig.rows[winner.rows[0] - 1]
+    lines = []
+    power = len(winner.rows) * row.power(winner.voltage)
+    spent = len(winner.rows) * row.heating_energy(winner.voltage, winner.hot)
+    limits = (("voltage", "V", winner.voltage, search.voltage, 1.0), ("power", "W", power, search.power, 0.5))
+    for name, unit, value, limit, exponent in limits:
+        if value > (1.0 - NEAR) * limit:
+            more = len(winner.rows) * row.heating_energy(winner.voltage * 1.1**exponent, winner.hot)
+            lines.append(
+                f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {spent - more:.2g} J "
+                f"of {spent:.3g} J of heating"
+            )
+    return lines or ["no limit of voltage or power is active"]
+
+
+def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:
+    lines = ["| fidelity | runs | wall time |", "|---|---|---|"]
+    for fidelity, what in (("coarse", "coarse"), ("fine", "coarse, made again with fine settings"), ("full", "full")):
+        own = [e for e in ledger.entries if e.fidelity == fidelity]
+        lines.append(f"| {what} | {len(own)} | {sum(e.seconds for e in own):.0f} s |")
+    if outcome.chain is not None:
+        chain = outcome.chain
+        lines += [
+            "",
+            f"Row model for screening: a joint turns by {math.degrees(chain.flexible):.1f} degrees, by "
+            f"{math.degrees(chain.stiff):.1f} degrees where it is jammed.",
+        ]
+    return lines
+
+
+def impossible(ledger: Ledger, why: Impossible) -> str:
+    """The report of a request that cannot be met."""
+    told = [f"- limit: {why.limit}", f"- nearest: {why.nearest}"]
+    lines = [f"# {ledger.task.title}", "", "**Not possible.**", "", *told, "", "## Effort", ""]
+    lines += _effort(ledger, Outcome())
+    return "\n".join(lines) + "\n"
+
+
+def winning_scenario(winner: Candidate, rig: Rig, title: str) -> str:
+    """The scenario of a design, as YAML."""
+    scenario = scenario_for(winner, rig)
+    return scenario.model_copy(update={"title": f"{title}: {winner.text()}"}).to_yaml()

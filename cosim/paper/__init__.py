@@ -1,1 +1,0 @@
-"""Equations and measures of the paper, as plain functions of arrays."""

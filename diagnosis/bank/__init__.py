@@ -1,1 +1,0 @@
-"""The coil bank: circuit, heat, stiffness and hanging load of n coils in one compiled function."""

@@ -1,0 +1,234 @@
+"""The model that the search varies, for any scenario: by the coil network where there is one, else by co-simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol, runtime_checkable
+
+from cosim.components import CircuitComponent
+from cosim.compute.batch import Batches
+from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
+from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.runs import check_rig
+from diagnosis.models.coil_network.translate import NoCoilNetwork
+from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.runs import fabric_of
+from diagnosis.models.timeline import Timeline
+from diagnosis.recording.fits import fitting
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.problem import Layout, Parameter, Point, Term
+
+
+class Effect(Protocol):
+    """What a law says about itself."""
+
+    @property
+    def name(self) -> str:
+        """In plain words."""
+        ...
+
+    @property
+    def law(self) -> str:
+        """Formula."""
+        ...
+
+    @property
+    def confused_with(self) -> Mapping[str, str]:
+        """Identifiers that data often cannot tell from it, with what decides."""
+        ...
+
+
+class Spot(Protocol):
+    """Where a law acts."""
+
+    @property
+    def label(self) -> str:
+        """For people."""
+        ...
+
+
+class Series(Protocol):
+    """One channel of one recording, as the model samples it."""
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
+        ...
+
+    @property
+    def samples(self) -> AnyArray:
+        """One number for each sample that is compared; they are the last ones of the channel."""
+        ...
+
+    @property
+    def used(self) -> AnyArray:
+        """Which of them count, shape (samples,)."""
+        ...
+
+
+class RecordedRun(Protocol):
+    """One recording."""
+
+    @property
+    def series(self) -> Sequence[Series]:
+        """Its channels."""
+        ...
+
+
+@runtime_checkable
+class DiagnosisModel(Protocol):
+    """What `diagnosis.search.problem.Model` has, and what judging and reporting need besides."""
+
+    parameters: Sequence[Parameter]
+    layout: Layout
+
+    @property
+    def runs(self) -> Sequence[RecordedRun]:
+        """One for each recording, in order."""
+        ...
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far."""
+        ...
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        ...
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        ...
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing, at every place."""
+        ...
+
+    def where(self, term: Term) -> tuple[Effect, Spot]:
+        """What a term says about itself, and where it acts."""
+        ...
+
+    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
+        """See `diagnosis.search.focus.Local`."""
+        ...
+
+    def unseen(self, term: Term) -> Sequence[float]:
+        """Relative deviations of its parameters that recordings cannot lower: what scales them leaves no trace."""
+        ...
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """Channels that are looked at together, by name."""
+        ...
+
+    def predict(self, point: Point, run: int) -> Sequence[Array]:
+        """Simulated values of every channel of a recording at its samples, SI; infinite where that is impossible."""
+        ...
+
+
+def model_of(
+    scenario: Scenario,
+    recordings: Sequence[Recording],
+    catalogue: Sequence[CandidateTerm],
+    threads: int = 2,
+    without: Sequence[str] = (),
+    batches: Batches | None = None,
+    timeline: Timeline | None = None,
+    like: DiagnosisModel | None = None,
+) -> DiagnosisModel:
+    """The fastest model that simulates a scenario.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        catalogue: Candidates of the coil network.
+        threads: Simulations at the same time.
+        without: Laws of units that the model must not know.
+        batches: Makes the runs of the co-simulation, where there are any.
+        timeline: Recordings that were fitted, where these are held out; see `timeline_of`.
+        like: Their model.
+
+    Raises:
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+    recordings = fitting(scenario, recordings)
+    if fabric_of(scenario) is not None:
+        return FabricModel(scenario, recordings, catalogue, batches, without, timeline)
+    try:
+        return CoilNetworkModel(scenario, recordings, catalogue, threads, timeline)
+    except NoCoilNetwork:  # also by what one of the recordings overrides
+        return ClosedLoopModel(scenario, recordings, without, batches, _closed_loop(like))
+
+
+def _closed_loop(model: DiagnosisModel | None) -> ClosedLoopModel | None:
+    return model if isinstance(model, ClosedLoopModel) else None
+
+
+def models_of(
+    scenario: Scenario,
+    training: Sequence[Recording],
+    held_out: Sequence[Recording],
+    catalogue: Sequence[CandidateTerm],
+    threads: int = 2,
+    without: Sequence[str] = (),
+    batches: Batches | None = None,
+) -> tuple[DiagnosisModel, DiagnosisModel | None]:
+    """Models of recordings that are fitted and of those that judge; both of the same kind.
+
+    Where one recording overrides what a coil network does not have, the co-simulation simulates all of them: parameters
+    of one kind of model say nothing to the other.
+
+    Args:
+        scenario: What the recordings are compared with.
+        training: Recordings that are fitted.
+        held_out: Recordings that judge; there may be none.
+        catalogue: See `model_of`.
+        threads: See `model_of`.
+        without: See `model_of`.
+        batches: See `model_of`.
+
+    Raises:
+        InputError: A scenario is wrong, a recording does not fit it or is of another rig than the others, or a held-out
+            one of a fabric has a `beginning`.
+    """
+    model = model_of(scenario, training, catalogue, threads, without, batches)
+    if not held_out:
+        return model, None
+    judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model), model)
+    if isinstance(judge, FabricModel):
+        _without_beginning(held_out)
+    if isinstance(model, CoilNetworkModel) and isinstance(judge, CoilNetworkModel):
+        check_rig(judge.coils, model.coils, held_out[0])
+    if type(judge) is type(model):
+        return model, judge
+    first = ClosedLoopModel(scenario, fitting(scenario, training), without, batches)
+    return first, ClosedLoopModel(scenario, fitting(scenario, held_out), without, batches, first)
+
+
+def _without_beginning(recordings: Sequence[Recording]) -> None:
+    """Refuse what only a model that can be fitted to held-out recordings gives."""
+    for recording in recordings:
+        if recording.beginning > 0.0:
+            raise InputError(
+                recording.path / "recording.yaml",
+                "beginning",
+                "of a fabric nothing is estimated from a first stretch: a simulation takes too long",
+                "leave it out, and give the start in `overrides`",
+            )
+
+
+def timeline_of(model: object) -> Timeline | None:
+    """The recordings of a model laid end to end; None where no law of it has an instant (`ClosedLoopModel`)."""
+    while hasattr(model, "inner"):
+        model = model.inner
+    found = getattr(model, "timeline", None)
+    return found if isinstance(found, Timeline) else None
+
+
+def strings_of(scenario: Scenario) -> tuple[int, ...]:
+    """Coils of every string of the scenario's circuit; empty where it has none."""
+    circuits = [c for c in scenario.components.values() if isinstance(c, CircuitComponent)]
+    return tuple(circuits[0].strings) if circuits else ()

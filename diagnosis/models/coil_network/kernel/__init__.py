@@ -1,0 +1,1 @@
+"""The coil network: circuit, heat, stiffness and hanging load of n coils in one compiled function."""

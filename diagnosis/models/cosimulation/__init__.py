@@ -1,0 +1,1 @@
+"""Any scenario, simulated by the closed co-simulation."""

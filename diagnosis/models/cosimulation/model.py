@@ -1,0 +1,197 @@
+"""Any scenario with its recordings, simulated by the closed co-simulation, with the laws that its units may lack."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cosim.compute.batch import Batches
+from cosim.scenario import Scenario
+from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.coil_network.kernel.compiler import CompilerError
+from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.cosimulation.unit_laws import laws_of
+from diagnosis.models.pendulum.model import TORQUE, PendulumModel, is_single_pendulum, without_scale
+from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.model import SystemLaws, SystemModel, laws_at
+from diagnosis.models.systems.places import Fit
+from diagnosis.models.systems.run import is_system
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Channel, Recording
+from diagnosis.search.cosim_model import ComponentTerm, CosimModel, free_parameters
+from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
+from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.search.unit_law import UnitLaw
+
+
+@dataclass(frozen=True)
+class Component:
+    """A place: a component of the scenario."""
+
+    label: str
+
+
+@dataclass(frozen=True)
+class ComparedSeries:
+    """See `diagnosis.models.build.Series`."""
+
+    channel: Channel
+    samples: AnyArray
+    used: AnyArray
+
+
+@dataclass(frozen=True)
+class ComparedRun:
+    """See `diagnosis.models.build.RecordedRun`."""
+
+    series: tuple[ComparedSeries, ...]
+
+
+class ClosedLoopModel:
+    """See `diagnosis.models.build.DiagnosisModel`.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        without: Laws that it must not know.
+        batches: Makes the runs; None: one after the other in this process.
+        like: Model of other recordings of the same scenario, whose laws and bounds it has too.
+
+    Raises:
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        recordings: Sequence[Recording],
+        without: Sequence[str] = (),
+        batches: Batches | None = None,
+        like: ClosedLoopModel | None = None,
+    ) -> None:
+        recordings = [_with_rounding(r) for r in recordings]
+        laws, kind = laws_of(scenario), CosimModel
+        #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
+        self.slow = ""
+        #: What may be missing in a system of FMUs.
+        self.system_laws: SystemLaws | None = None
+        if is_system(scenario) and self._take_system(scenario, recordings, without, batches, like):
+            return
+        if is_single_pendulum(scenario, recordings):
+            (component,) = scenario.components
+            channels = dict.fromkeys(name for r in recordings for name in r.channels)
+            laws = [*pendulum_laws(component, without, arm_of(scenario, component)), *sensor_laws(component, channels)]
+            kind = PendulumModel
+        self._laws = {law.place.term: law for law in laws if law.place.term.identifier not in without}
+        free, self._torque_scale = free_parameters(scenario, recordings), 0.0
+        if kind is PendulumModel:
+            free, self._torque_scale = without_scale(scenario_of(scenario, recordings[0]), free)
+        self._begin(kind(scenario, recordings, free, [law.place for law in self._laws.values()], batches), recordings)
+
+    def _take_system(
+        self,
+        scenario: Scenario,
+        recordings: Sequence[Recording],
+        without: Sequence[str],
+        batches: Batches | None,
+        like: ClosedLoopModel | None,
+    ) -> bool:
+        """Whether compiled code simulates the system of FMUs; if not, `slow` says why."""
+        try:
+            free = free_parameters(scenario, recordings)
+            known = None if like is None else like.system_laws
+            laws = known or laws_at(scenario, recordings, free, without)
+            model = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
+        except (NotFast, CompilerError) as reason:
+            self.slow = str(reason)
+            return False
+        self._torque_scale, self.system_laws = 0.0, laws
+        self._laws = {fit.term: _unit_law(fit) for fit in laws.found}
+        self._laws |= {law.place.term: law for law in laws.sensors}
+        self._begin(model, recordings)
+        return True
+
+    def _begin(self, model: CosimModel, recordings: Sequence[Recording]) -> None:
+        self.model = model
+        self.runs = [_compared(r) for r in recordings]
+        self.parameters: Sequence[Parameter] = self.model.parameters
+        self.layout: Layout = self.model.layout
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """Where no law can be tried, and why."""
+        if self.slow:
+            return (f"laws of FMUs need compiled code, which does not simulate this system: {self.slow}",)
+        return () if self.system_laws is None else self.system_laws.untried
+
+    @property
+    def has_valleys(self) -> bool:
+        """See `diagnosis.search.problem.has_valleys`."""
+        return isinstance(self.model, PendulumModel)
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far."""
+        return self.model.runs
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.model.residuals(points)
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        return self.model.base_jacobian(point)
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing."""
+        return list(self._laws)
+
+    def input_terms(self) -> list[Term]:
+        """Every output of a programme of every recording, as it may have been another within an interval."""
+        return list(self.model.inputs)
+
+    def where(self, term: Term) -> tuple[UnitLaw, Component]:
+        """Law and component of a term."""
+        law = self._laws[term]
+        return law, Component(law.place.component)
+
+    def shows_in(self, term: Term) -> None:
+        """A law of a unit is not local to a channel."""
+        return
+
+    def unseen(self, term: Term) -> tuple[float, ...]:
+        """See `diagnosis.models.build.DiagnosisModel`."""
+        return tuple(self._torque_scale if p.unit.startswith(TORQUE) else 0.0 for p in term.parameters)
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """No channels are looked at together."""
+        return {}
+
+    def predict(self, point: Point, run: int) -> list[Array]:
+        """Simulated values of every channel of a recording at its samples, SI."""
+        found = self.model.predict(point, run)
+        if found is None:
+            return [np.full(len(s.samples), np.inf) for s in self.runs[run].series]
+        return list(found)
+
+
+def _unit_law(fit: Fit) -> UnitLaw:
+    """What a law at a place says about itself."""
+    place = ComponentTerm(fit.term, fit.term.place, ())
+    return UnitLaw(place, fit.law.name, fit.law.source, fit.law.confused_with)
+
+
+def _compared(recording: Recording) -> ComparedRun:
+    channels = recording.channels.values()
+    return ComparedRun(tuple(ComparedSeries(c, np.arange(len(c.times)), ~c.is_clipped) for c in channels))
+
+
+def _with_rounding(recording: Recording) -> Recording:
+    """Rounding is noise too, where the noise that is given is that of the sensor alone; it is counted once."""
+    channels = {
+        name: replace(c, deviation=deviation(c), quantum=0.0) if c.is_deviation_given else c
+        for name, c in recording.channels.items()
+    }
+    return replace(recording, channels=channels)

@@ -1,0 +1,322 @@
+"""A scenario with a fabric and its recordings, as the model that the search varies: coil network and Bullet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.components import FabricComponent
+from cosim.compute.batch import Batches
+from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.quantity import PhysicalValue
+from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.coil_network.kernel.places import Place
+from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
+from diagnosis.models.cosimulation.model import ComparedRun, ComparedSeries, Component
+from diagnosis.models.fabric.bins import Binning
+from diagnosis.models.fabric.laws import fabric_laws
+from diagnosis.models.fabric.mechanical import MechanicalModel
+from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_of
+from diagnosis.models.timeline import Timeline
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Recording
+from diagnosis.search.cosim_model import Free, free_parameters
+from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.search.unit_law import UnitLaw
+
+#: Speed of random starts where the scenario gives none [m/s]: within milliseconds it moves links by micrometres.
+START_SPEED = 1e-3
+
+
+class FabricModel:
+    """See `diagnosis.models.build.DiagnosisModel`.
+
+    Currents, temperatures and stiffness come from the coil network, poses from Bullet. The search varies the mechanical
+    part through `prepared`, which `diagnosis.models.fabric.search` makes from few simulations;
+    `predict` always simulates.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        catalogue: Candidates of the coil network.
+        batches: Makes the simulations of the fabric.
+        without: Laws of the fabric that the model must not know.
+        timeline: Recordings that were fitted, where these are others.
+
+    Raises:
+        InputError: A scenario is wrong, a recording does not fit it, or it has no mechanical channel.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        recordings: Sequence[Recording],
+        catalogue: Sequence[CandidateTerm],
+        batches: Batches | None = None,
+        without: Sequence[str] = (),
+        timeline: Timeline | None = None,
+    ) -> None:
+        name = fabric_of(scenario)
+        assert name is not None, "the scenario has one fabric"
+        self.component, self.batches = name, batches or Batches()
+        parts = [divided(r, name) for r in recordings]
+        self.mechanical_recordings = [p[1] for p in parts]
+        for whole, (_, own) in zip(recordings, parts):
+            if not own.channels:
+                raise InputError(
+                    whole.path / "recording.yaml",
+                    "channels",
+                    "no channel measures the fabric",
+                    "diagnose circuit and coils with a scenario that has no fabric",
+                )
+        self.network = _network(scenario, [p[0] for p in parts], catalogue, timeline)
+        self.fabric_runs = self._simulations(scenario)
+        self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
+        self._laws = {u.place.term: u for u in fabric_laws(name) if u.place.term.identifier not in without}
+        own_parameters = [f.parameter for f in self.free]
+        self.parameters: Sequence[Parameter] = [*(self.network.parameters if self.network else ()), *own_parameters]
+        self.binning = Binning(self.mechanical_recordings)
+        self._mechanical: MechanicalModel | None = None
+        #: What each residual belongs to, those of the coil network first; known once it is prepared.
+        self.layout = Layout(np.zeros(0), np.zeros(0), (), ())
+        self._scatter: dict[str, float] = {}
+        given = scenario.components[name]
+        assert isinstance(given, FabricComponent)
+        self._has_speed = "start_speed" in given.parameters
+
+    def _simulations(self, scenario: Scenario) -> FabricRuns:
+        if self.network is None:
+            return ClosedRuns(scenario, self.component, self.mechanical_recordings, self.batches)
+        return BulletRuns(scenario, self.component, self.mechanical_recordings, self.network, self.batches)
+
+    @property
+    def timeline(self) -> Timeline | None:
+        """The recordings laid end to end; None where it has no coil network."""
+        return self.network.timeline if self.network else None
+
+    @property
+    def networked(self) -> int:
+        """Number of parameters that belong to the coil network; they come first."""
+        return len(self.network.parameters) if self.network else 0
+
+    @property
+    def simulations(self) -> int:
+        """How many were made so far, of the coil network and of Bullet."""
+        return self.batches.made + (self.network.simulations if self.network else 0)
+
+    def prepare(self, mechanical: MechanicalModel) -> None:
+        """Give it the mechanical part that the search varies."""
+        self._mechanical, own = mechanical, mechanical.layout
+        if self.network is None:
+            self.layout = own
+            return
+        first = self.network.layout
+        self.layout = Layout(
+            np.concatenate([first.channel, own.channel + len(first.names)]),
+            np.concatenate([first.time, own.time]),
+            (*first.names, *own.names),
+            (*first.units, *own.units),
+        )
+
+    @property
+    def can_be_fitted(self) -> bool:
+        """Whether the mechanical part is prepared; a model that only judges simulates each point by Bullet."""
+        return self._mechanical is not None
+
+    @property
+    def prepared(self) -> MechanicalModel:
+        """The mechanical part, once it was simulated."""
+        assert self._mechanical is not None, "search_fabric prepares it"
+        return self._mechanical
+
+    @property
+    def runs(self) -> Sequence[ComparedRun]:
+        """One for each recording, in order; scatter that is known counts as noise of its channel."""
+        found = []
+        for number, recording in enumerate(self.mechanical_recordings):
+            given = self.network.runs[number].series if self.network else ()
+            networked = tuple(ComparedSeries(s.channel, s.samples, s.used) for s in given)
+            own = []
+            for c in recording.channels.values():
+                both = replace(c, deviation=float(np.hypot(c.deviation, self._scatter.get(c.name, 0.0))))
+                own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
+            found.append(ComparedRun((*networked, *own)))
+        return found
+
+    @property
+    def residual_of_reading(self) -> AnyArray:
+        """Residual of the search that each reading is part of, run by run, channel by channel."""
+        found: list[AnyArray] = []
+        networked, channel = 0, 0
+        first = len(self.network.layout.time) if self.network else 0
+        for number, recording in enumerate(self.mechanical_recordings):
+            for series in self.network.runs[number].series if self.network else ():
+                found.append(networked + np.arange(len(series.samples)))
+                networked += len(series.samples)
+            for _ in recording.channels:
+                found.append(first + self.binning.bin_of(channel))
+                channel += 1
+        return np.concatenate(found)
+
+    @property
+    def effort(self) -> float:
+        """Of one simulation of every recording: links times micro-steps, and more for many iterations."""
+        return self.fabric_runs.effort
+
+    def network_point(self, point: Point) -> Point:
+        """What of a point belongs to the coil network."""
+        return Point(point.base[: self.networked], {t: v for t, v in point.terms.items() if t not in self._laws})
+
+    def own_point(self, point: Point) -> Point:
+        """What of a point belongs to the fabric."""
+        return Point(point.base[self.networked :], {t: v for t, v in point.terms.items() if t in self._laws})
+
+    def residuals(self, points: Sequence[Point]) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        own = self.prepared.residuals([self.own_point(p) for p in points])
+        if self.network is None:
+            return own
+        return np.hstack([self.network.residuals([self.network_point(p) for p in points]), own])
+
+    def base_jacobian(self, point: Point) -> Array:
+        """See `diagnosis.search.problem.Model`."""
+        own = self.prepared.base_jacobian(self.own_point(point))
+        if self.network is None:
+            return own
+        first = self.network.base_jacobian(self.network_point(point))
+        whole = np.zeros((len(first) + len(own), first.shape[1] + own.shape[1]), dtype=first.dtype)
+        whole[: len(first), : first.shape[1]] = first
+        whole[len(first) :, first.shape[1] :] = own
+        return whole
+
+    def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
+        """See `diagnosis.search.problem.strength_slopes`."""
+        own = [i for i, (term, _) in enumerate(tasks) if term in self._laws]
+        others = [i for i, (term, _) in enumerate(tasks) if term not in self._laws]
+        count = len(self.prepared.measured)
+        first = len(self.network.layout.time) if self.network else 0
+        found = np.zeros((len(tasks), first + count))
+        found[own, first:] = self.prepared.slopes(self.own_point(point), [tasks[i] for i in own])
+        if self.network is not None and others:
+            found[others, :first] = self.network.slopes(self.network_point(point), [tasks[i] for i in others])
+        return found
+
+    def laws(self) -> list[Term]:
+        """Effects of the fabric alone."""
+        return list(self._laws)
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing, at every place."""
+        return [*(self.network.terms() if self.network else ()), *self._laws]
+
+    def where(self, term: Term) -> tuple[UnitLaw | CandidateTerm, Component | Place]:
+        """Effect and place of a term."""
+        if term in self._laws:
+            return self._laws[term], Component(self.component)
+        assert self.network is not None
+        return self.network.where(term)
+
+    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
+        """See `diagnosis.search.focus.Local`."""
+        return None if term in self._laws or self.network is None else self.network.shows_in(term)
+
+    def unseen(self, term: Term) -> tuple[float, ...]:
+        """See `DiagnosisModel`: masses are taken as given."""
+        return (0.0,) * len(term.parameters)
+
+    def groups(self) -> Mapping[str, AnyArray]:
+        """Channels of the coil network that are looked at together."""
+        return self.network.groups() if self.network else {}
+
+    def fabric_parameters(self, point: Point, number: int, start: int = 0) -> dict[str, PhysicalValue]:
+        """Parameters of the fabric at a point, for one recording.
+
+        Args:
+            point: The point.
+            number: Of the recording.
+            start: Which random start; 0: that of the scenario.
+        """
+        own = self.own_point(point)
+        found = {}
+        for free, z in zip(self.free, own.base):
+            if free.belongs_to(number) and z:
+                found[free.name] = PhysicalValue(free.parameter.value(float(z)), free.parameter.unit)
+        for term, values in own.terms.items():
+            for name, parameter, value in zip(self._laws[term].place.names, term.parameters, values):
+                found[name] = PhysicalValue(value, parameter.unit)
+        if start:
+            found["start_number"] = PhysicalValue(float(start), "1")
+            if not self._has_speed:
+                found["start_speed"] = PhysicalValue(START_SPEED, "m/s")
+        return found
+
+    def simulated(self, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
+        """Bins of all recordings, for points and starts; None where a run stopped.
+
+        Args:
+            wanted: Point and number of its random start.
+        """
+        count = len(self.mechanical_recordings)
+        points: dict[int, Point] = {id(p): self.network_point(p) for p, _ in wanted}
+        tasks = [(n, self.fabric_parameters(p, n, s), points[id(p)]) for p, s in wanted for n in range(count)]
+        values = self.fabric_runs.make(tasks)
+        found: list[Array | None] = []
+        for first in range(0, len(values), count):
+            whole = [v for v in values[first : first + count] if v is not None]
+            found.append(self.binning.bins_of(whole) if len(whole) == count else None)
+        return found
+
+    def predict(self, point: Point, run: int) -> list[Array]:
+        """Simulated values of every channel of a recording at its samples, SI; by Bullet, never by the surface."""
+        own = self.network_point(point)
+        first = list(self.network.predict(own, run)) if self.network else []
+        found = self.fabric_runs.make([(run, self.fabric_parameters(point, run), own)])[0]
+        channels = self.mechanical_recordings[run].channels.values()
+        return [*first, *(found if found is not None else [np.full(len(c.times), np.inf) for c in channels])]
+
+    def take_scatter(self, other: FabricModel) -> None:
+        """Count the contact scatter that another model found as noise of the same channels."""
+        prepared = other.prepared
+        deviation = prepared.scatter_deviation()
+        found: dict[str, list[float]] = {}
+        for number, name in enumerate(other.binning.plain_names):
+            found.setdefault(name, []).extend((deviation[prepared.bins.channel == number] ** 2).tolist())
+        self._scatter = {name: float(np.sqrt(np.mean(squares))) for name, squares in found.items()}
+
+
+def _network(
+    scenario: Scenario, recordings: Sequence[Recording], catalogue: Sequence[CandidateTerm], timeline: Timeline | None
+) -> CoilNetworkModel | None:
+    """The coil network of the other channels; None where there are none, or where no network simulates them.
+
+    Raises:
+        InputError: Some recordings have such channels and some not, or nothing simulates them.
+    """
+    if not any(r.channels for r in recordings):
+        return None
+    for recording in recordings:
+        if not recording.channels:
+            raise InputError(
+                recording.path / "recording.yaml",
+                "channels",
+                "it measures the fabric alone, other recordings do not",
+                "measure the same kinds of channels in every recording",
+            )
+    try:
+        for recording in recordings:
+            translate(scenario_of(scenario, recording))
+    except NoCoilNetwork as reason:
+        channel = next(iter(recordings[0].channels))
+        raise InputError(
+            recordings[0].path / "recording.yaml",
+            f"channels.{channel}",
+            f"in a scenario with a fabric this channel needs the coil network, but {reason}",
+            "give channels of the fabric alone, or use thermal_stiffness as actuator",
+        ) from reason
+    # The network has no load here: what moves coils is the fabric's.
+    return CoilNetworkModel(scenario, recordings, [c for c in catalogue if c.unit != "mechanical"], timeline=timeline)

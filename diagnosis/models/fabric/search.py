@@ -1,0 +1,201 @@
+"""The search for what a fabric lacks, with few simulations of Bullet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from diagnosis.models.fabric.mechanical import MechanicalModel
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.scatter import FEWEST
+from diagnosis.models.fabric.surface import Surface
+from diagnosis.search.problem import Point, Term
+from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
+
+#: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth: random
+#: starts of the ensemble at the nominal point, from which scatter is known; starts of every effect; starts at the
+#: point found. An effort of 10,000 takes about a second of one core. It stands for the time, so that a result does
+#: not depend on the machine.
+EFFORTS = ((45e3, 8, 3, 6), (110e3, 6, 2, 5), (float("inf"), 6, 1, 4))
+#: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
+HOPEFUL, BEHIND = 4, 40.0
+#: A strength this close to one that was simulated needs no other simulation.
+NEAR = 0.15
+
+OnProgress = Callable[[str], None]
+
+
+def search_fabric(model: FabricModel, settings: Settings, on_progress: OnProgress = lambda text: None) -> Outcome:
+    """Find what a model of a fabric lacks.
+
+    1. Circuit and coils are recalibrated by the coil network. 2. Random starts tell the contacts' scatter.
+    3. Every mechanical parameter and effect is simulated once or twice. 4. The whole search runs on every member of
+    the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated;
+    hopeful effects are simulated where they were fitted, and the best explanation from several starts.
+
+    Args:
+        model: Model and training recordings; its mechanical part is made here.
+        settings: Of the search.
+        on_progress: Told what is being done.
+
+    Raises:
+        InputError: Bullet cannot simulate the scenario.
+    """
+    plan = _Plan(model, settings, on_progress)
+    plan.anchor()
+    plan.answers()
+    margin = plan.margin()
+    own = replace(settings, floor=max(settings.floor, margin))
+    outcome = plan.search(own)
+    if plan.sharpen(outcome):
+        outcome = plan.search(own)
+    plan.confirm(outcome)
+    outcome = plan.search(own)
+    model.take_scatter(model)
+    return outcome
+
+
+class _Plan:
+    """Steps of a search, in order."""
+
+    def __init__(self, model: FabricModel, settings: Settings, on_progress: OnProgress) -> None:
+        self.model, self.settings, self._tell = model, settings, on_progress
+        self._count = len(model.mechanical_recordings)
+        self._network_point = Point(np.zeros(model.networked))
+        _, self._size, self._repeats, self._confirmed = next(e for e in EFFORTS if model.effort <= e[0])
+        effects = len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
+        self._sharpened = self._confirmed if self._repeats > 1 else 1
+        once = self._size + self._repeats * effects + HOPEFUL * self._sharpened + self._confirmed
+        self._left = self._count * once
+
+    def _enter(self, stage: str, simulations: int) -> None:
+        """A stage that makes so many simulations for each recording."""
+        self._tell(stage)
+        self.model.batches.progress.enter(stage, self._left)
+        self._left -= self._count * simulations
+
+    def _point(self, z: Array, terms: dict[Term, tuple[float, ...]] | None = None) -> Point:
+        return Point(np.concatenate([self._network_point.base, z]), {**self._network_point.terms, **(terms or {})})
+
+    def anchor(self) -> None:
+        """Recalibrated coils, and an ensemble of random starts there."""
+        model = self.model
+        if model.network is not None:
+            self._tell("recalibrating circuit and coils")
+            self._network_point = recalibrate(model.network).point
+        self._enter("contact scatter", self._size)
+        here = self._point(np.zeros(len(model.free)))
+        members = [m for m in model.simulated([(here, s + 1) for s in range(self._size)]) if m is not None]
+        if len(members) < FEWEST:
+            reason = (model.fabric_runs.reasons or ["it stops"])[0]
+            raise InputError(
+                model.mechanical_recordings[0].path,
+                "",
+                f"Bullet cannot simulate this fabric: {reason}",
+                "run the scenario with `cosim run`; most often solver.micro_step is too long",
+            )
+        self._members = np.array(members)
+        self.surface = Surface(self._members.mean(axis=0), np.zeros(len(model.free)))
+
+    def answers(self) -> None:
+        """One simulation of every parameter and of every start value of every effect."""
+        model, count = self.model, len(self.model.free)
+        tasks = [(t, s) for t in model.laws() for s in t.parameters[0].starts]
+        self._enter("mechanical effects", self._repeats * (count + len(tasks)))
+        points = [self._point(np.eye(count)[i]) for i in range(count)]
+        points += [self._point(np.zeros(count), {t: (s,)}) for t, s in tasks]
+        found = self._means(points, self._repeats)
+        for i, bins in enumerate(found[:count]):
+            if bins is not None:
+                self.surface.slopes[i] = bins - self.surface.mean
+        for (term, strength), bins in zip(tasks, found[count:]):
+            if bins is not None:
+                self.surface.add(term, strength, bins, np.zeros(count))
+        self._prepare(self._members)
+
+    def _means(self, points: Sequence[Point], count: int) -> list[Array | None]:
+        """Means over several starts, each of its own for every point; None where every run stopped."""
+        found = self.model.simulated(
+            [(p, self._size + 1 + i * count + r) for i, p in enumerate(points) for r in range(count)]
+        )
+        means: list[Array | None] = []
+        for first in range(0, len(found), count):
+            rows = [r for r in found[first : first + count] if r is not None]
+            means.append(np.mean(rows, axis=0) if rows else None)
+        return means
+
+    def _prepare(self, members: Array) -> None:
+        model = self.model
+        binning, parameters = model.binning, [f.parameter for f in model.free]
+        model.prepare(
+            MechanicalModel(parameters, self.surface, binning.measured(), binning.bins, members, binning.names)
+        )
+
+    def margin(self) -> float:
+        """Largest gain that the search finds in any member of the ensemble, which lacks nothing."""
+        self._tell("the same search on nulls")
+        whole, gains = self.model.prepared, [0.0]
+        known = [t for t in self.model.laws() if self.surface.knows(t)]
+        once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
+        for number in range(len(self._members) if len(self._members) > FEWEST else 0):
+            null = whole.without_member(number, self.settings.seed)
+            outcome = search(null, known, once)
+            gains.append(outcome.base.cost - min([outcome.base.cost, *(e.fit.cost for e in outcome.rivals)]))
+        return max(gains)
+
+    def search(self, settings: Settings) -> Outcome:
+        """The search on what is known so far."""
+        model = self.model
+        unknown = {t for t in model.laws() if not self.surface.knows(t)}
+        terms = [t for t in model.terms() if t not in unknown]
+        return search(model, terms, settings, model.groups(), self._tell)
+
+    def sharpen(self, outcome: Outcome) -> bool:
+        """Simulate hopeful effects where they were fitted; whether any was."""
+        laws = set(self.model.laws())
+        near = [e for e in outcome.rivals if e.fit.cost < outcome.rivals[0].fit.cost + BEHIND and e.terms]
+        wanted: dict[Term, tuple[Point, float]] = {}
+        for explanation in [outcome.best, *near]:
+            for term in explanation.terms:
+                if term in laws and self._is_far(term, explanation) and len(wanted) < HOPEFUL:
+                    wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
+        self._enter("hopeful effects where they were fitted", HOPEFUL * self._sharpened)
+        points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
+        found = self._means(points, self._sharpened)
+        for bins, (term, (point, strength)) in zip(found, wanted.items()):
+            if bins is not None:
+                self.surface.add(term, strength, bins, self.model.own_point(point).base)
+        return bool(wanted)
+
+    def _is_far(self, term: Term, explanation: Explanation) -> bool:
+        strength = explanation.fit.point.terms[term][0]
+        size = max(abs(strength), 1e-12)
+        return abs(strength) > 1e-9 and all(abs(strength - k) > NEAR * size for k in self.surface.knots(term))
+
+    def confirm(self, outcome: Outcome) -> None:
+        """Several starts at the best explanation: what it really gives, and its scatter."""
+        model = self.model
+        point = model.own_point(outcome.best.fit.point)
+        self._network_point = model.network_point(outcome.best.fit.point)
+        self._enter("the explanation found, from several starts", self._confirmed)
+        whole = self._point(point.base, dict(point.terms))
+        starts = [(whole, self._size + 1 + s) for s in range(self._confirmed)]
+        found = [m for m in model.simulated(starts) if m is not None]
+        if not found:
+            return
+        members = np.array(found)
+        mean = members.mean(axis=0)
+        predicted = self.surface.bins([point], [point.base])[0]
+        about = np.concatenate([self._members - self._members.mean(axis=0), members - mean])
+        strongest = max(point.terms, key=lambda t: outcome.best.gains.get(t, 0.0), default=None)
+        if strongest is None:
+            self.surface = self.surface.with_mean(mean, point.base)
+        elif abs(point.terms[strongest][0]) > 0:
+            rest = predicted - self.surface.effect(strongest, point.terms[strongest][0])
+            corrected = self.surface.mean + (point.base - self.surface.anchor) @ self.surface.slopes + mean - rest
+            self.surface.add(strongest, point.terms[strongest][0], corrected, point.base)
+        self._prepare(self.surface.mean + about)

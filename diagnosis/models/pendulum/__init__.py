@@ -1,0 +1,1 @@
+"""A single pendulum with its recordings."""

@@ -1,0 +1,204 @@
+"""One FMU of an assembled system as the structure that compiled code steps."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from cosim.fmu.access import Access, address_of
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.fmu.model_exchange import ModelExchangeUnit
+from cosim.fmu.unit import FmuUnit
+from cosim.fmu.units import is_known
+from cosim.formula import to_base
+from cosim.unit.protocol import Array, Causality
+from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, UnitLayout
+
+#: States that the laws of one FMU may have together.
+MOST_ADDED = 64
+
+
+class NotFast(Exception):
+    """Compiled code cannot step this system; the text says why."""
+
+
+class FastFmu:
+    """Arrays and addresses of one FMU.
+
+    Args:
+        unit: The FMU, assembled.
+
+    Raises:
+        NotFast: It has something that only the co-simulation can do.
+    """
+
+    def __init__(self, unit: FmuUnit) -> None:
+        self.unit, self.name = unit, unit.name
+        self.is_model_exchange = isinstance(unit, ModelExchangeUnit)
+        if not self.is_model_exchange and not isinstance(unit, CoSimulationUnit):
+            raise NotFast(f"{unit.name} runs in a process of its own")
+        if not self.is_model_exchange and unit.binding.uses_event_mode:
+            raise NotFast(f"{unit.name} is a Co-Simulation FMU with events")
+        if isinstance(unit, CoSimulationUnit) and not unit.clocks.is_empty:
+            raise NotFast(f"{unit.name} has clocks")
+        binding, table = unit.binding, unit.table
+        #: Name of an input to the places of its elements among all inputs.
+        self.inputs: dict[str, slice] = {}
+        begin = 0
+        for name in unit.writers:
+            variable = table.exposed[name].variable
+            if variable.type.dtype != np.float64:
+                continue
+            self.inputs[name] = slice(begin, begin + variable.size)
+            begin += variable.size
+        self.outer, self.inner, self.held = (np.zeros(begin) for _ in range(3))
+        self.writers = [
+            binding.writer(table.exposed[n], self.inner[s].reshape(table.exposed[n].variable.shape))
+            for n, s in self.inputs.items()
+        ]
+        self.readers = [a for a in unit.buffers.group_readers if a.values.dtype == np.float64 and a.is_direct]
+        #: Name of an output to its array, which the FMU fills.
+        self.outputs = {
+            n: unit.buffers.values[n]
+            for n, v in unit.variables.items()
+            if v.causality in (Causality.OUTPUT, Causality.LOCAL) and v.type.dtype == np.float64
+        }
+        #: Name of a continuous state to its place, for scalars and elements of arrays.
+        self.states = _state_names(unit) if self.is_model_exchange else {}
+        self.state_count = len(self.states)
+        #: Parameters that the last simulation has moved.
+        self.moved: frozenset[str] = frozenset()
+        self._build()
+
+    def _build(self) -> None:
+        unit, binding, table = self.unit, self.unit.binding, self.unit.table
+        description = unit.archive.description
+        self.layout = UnitLayout(
+            component=binding.fmu.component,
+            is_fmi3=binding.prefix == "fmi3",
+            is_model_exchange=self.is_model_exchange,
+            substeps=1,
+            inputs=len(self.outer),
+        )
+        self.indicators = 0
+        if self.is_model_exchange:
+            self.state_count = int(description.numberOfContinuousStates or 0)
+            self.indicators = int(description.numberOfEventIndicators or 0)
+            if self.states and len(self.states) != self.state_count:
+                self.states = {}
+            self._take_functions()
+            self.layout.reports_steps = bool(binding.capabilities.needsCompletedIntegratorStep)
+        else:
+            self.layout.do_step = address_of(binding.step_function)
+        self.layout.states, self.layout.indicators = self.state_count, self.indicators
+        self._writer_array = (AccessLayout * max(len(self.writers), 1))(*map(_access, self.writers))
+        self._reader_array = (AccessLayout * max(len(self.readers), 1))(*map(_access, self.readers))
+        self.signs = np.zeros(2 * max(self.indicators, 1))
+        self.seen = np.zeros(max(self.state_count, 1))
+        names = {n: table.all[n].variable for n in (*self.states, *self.inputs, *self.outputs) if n in table.all}
+        known = {n: v for n, v in names.items() if is_known(v.unit)}
+        #: Name of what laws may use to its unit.
+        self.units = {n: v.unit for n, v in known.items()}
+        sources: dict[str, int] = {}
+        for name, variable in known.items():
+            if variable.shape:
+                continue
+            if name in self.states:
+                sources[name] = self.seen.ctypes.data + 8 * self.states[name]
+            elif name in self.inputs:
+                sources[name] = self.outer.ctypes.data + 8 * self.inputs[name].start
+            elif not self.is_model_exchange:
+                sources[name] = self.outputs[name].ctypes.data
+        self.environment = np.zeros(1 + len(sources))
+        #: Name of what laws may use to what stands for it in C.
+        self.symbols = {"time": "e[0]", **{n: f"e[{i + 1}]" for i, n in enumerate(sources)}}
+        copies = []
+        for i, (name, source) in enumerate(sources.items()):
+            factor, offset = to_base(self.units[name])
+            copies.append(CopyLayout(self.environment.ctypes.data + 8 * (i + 1), source, factor, offset))
+        self._known_array = (CopyLayout * max(len(copies), 1))(*copies)
+        layout = self.layout
+        layout.signs, layout.seen = self.signs.ctypes.data, self.seen.ctypes.data
+        layout.outer, layout.inner, layout.held = (a.ctypes.data for a in (self.outer, self.inner, self.held))
+        layout.writers, layout.writer_count = ctypes.addressof(self._writer_array), len(self.writers)
+        layout.readers, layout.reader_count = ctypes.addressof(self._reader_array), len(self.readers)
+        layout.environment = self.environment.ctypes.data
+        layout.known, layout.known_count = ctypes.addressof(self._known_array), len(copies)
+        #: States of the FMU, those of laws, and room for the integration; its address stays.
+        self.state = np.zeros(ROOM * (self.state_count + MOST_ADDED))
+        self.set_added([])
+
+    def _take_functions(self) -> None:
+        binding, layout = self.unit.binding, self.layout
+        is_fmi3 = binding.prefix == "fmi3"
+        names = {
+            "set_time": "SetTime",
+            "set_states": "SetContinuousStates",
+            "get_states": "GetContinuousStates",
+            "get_derivatives": "GetContinuousStateDerivatives" if is_fmi3 else "GetDerivatives",
+            "get_indicators": "GetEventIndicators",
+            "completed": "CompletedIntegratorStep",
+            "enter_event_mode": "EnterEventMode",
+            "update": "UpdateDiscreteStates" if is_fmi3 else "NewDiscreteStates",
+            "enter_continuous_mode": "EnterContinuousTimeMode",
+        }
+        for field, name in names.items():
+            setattr(layout, field, address_of(binding.function(name)))
+
+    def set_added(self, added: Sequence[AddedLayout]) -> None:
+        """Laws that act from now on; states of theirs come after those of the FMU."""
+        own = 0
+        for one in added:
+            one.first = own
+            own += one.own
+        if own > MOST_ADDED:
+            raise NotFast(f"laws of {self.name} have {own} states of their own")
+        layout = self.layout
+        layout.state, layout.own = self.state.ctypes.data, own
+        self._added_array = (AddedLayout * max(len(added), 1))(*added)
+        layout.added, layout.added_count = ctypes.addressof(self._added_array), len(added)
+        layout.has_inputs_added = any(a.kind == 1 for a in added)
+
+    def take_over(self) -> None:
+        """Inputs, states and the next event as the initialisation has left them."""
+        unit = self.unit
+        for name, own in self.inputs.items():
+            self.outer[own] = np.ravel(unit.buffers.values[name])
+        event = None
+        if isinstance(unit, ModelExchangeUnit):
+            event = unit.next_event
+            self.state[: self.state_count] = unit.continuous_states()
+        self.layout.next_event = math.inf if event is None else event
+
+
+def _state_names(unit: FmuUnit) -> dict[str, int]:
+    places: Mapping[str, Any] = unit.added.continuous_states()
+    found: dict[str, int] = {}
+    for name, place in places.items():
+        if np.ndim(place) == 0:
+            found[name] = int(place)
+        else:
+            for index, one in np.ndenumerate(place):
+                found[f"{name}[{','.join(str(i + 1) for i in index)}]"] = int(one)
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+def _access(access: Access) -> AccessLayout:
+    return AccessLayout(
+        address_of(access.call),
+        ctypes.addressof(access.references),
+        len(access.references),
+        access.buffer.ctypes.data,
+        access.buffer.size,
+    )
+
+
+def flat_address(array: Array, element: tuple[int, ...] | None) -> tuple[int, int]:
+    """Address of the first number and count of numbers of an array, or of one element of it."""
+    if element is None or not array.shape:
+        return array.ctypes.data, array.size
+    return array.ctypes.data + 8 * int(np.ravel_multi_index(element, array.shape)), 1

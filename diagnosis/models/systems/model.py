@@ -1,0 +1,289 @@
+"""A system of FMUs with its recordings: simulated in compiled code, with laws wherever their quantities fit."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from cosim.components import AddedTermEntry, nanoseconds
+from cosim.compute.batch import Batches
+from cosim.run import RunStopped, run
+from cosim.scenario import Scenario
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue, conversion
+from diagnosis.laws.library import library
+from diagnosis.models.sensor_chain import read
+from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.numbers import usual_numbers
+from diagnosis.models.systems.places import Fit, fits, places_of
+from diagnosis.models.systems.sensors import sensor_laws_of
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Recording
+from diagnosis.recording.series import Series, place_of
+from diagnosis.search.cosim_model import CosimModel, Free
+from diagnosis.search.cosim_run import Changes, predicted
+from diagnosis.search.problem import Point, Term
+from diagnosis.search.unit_law import UnitLaw
+
+#: Residuals that are kept: a fit asks again for those where it stands.
+KEPT = 64
+#: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
+EXACT, MOST_SUBSTEPS = 0.02, 64
+#: Steps of the integration in a macro-step, and largest difference from the co-simulation in the size of a quantity,
+#: where the first outputs are compared.
+CHECKED, AGREED = 8, 1e-3
+#: Macro-steps over which a run of the co-simulation is compared.
+COMPARED = 2000
+#: Macro-steps of the run that tells what the variables of the results are called.
+FIRST_STEPS = 3
+
+
+class SystemModel(CosimModel):
+    """See `CosimModel`; residuals and predictions come from `FastSystem`.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        free: Numbers that may be off.
+        found: Laws at their places.
+        batches: Makes runs of the co-simulation, where they are asked for.
+
+    Raises:
+        NotFast: Only the co-simulation can simulate it.
+        CompilerError: There is no C compiler.
+        InputError: A scenario is wrong, or a recording does not fit it.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        recordings: Sequence[Recording],
+        free: Sequence[Free],
+        found: Sequence[Fit],
+        batches: Batches | None = None,
+    ) -> None:
+        super().__init__(scenario, recordings, free, (), batches)
+        self._found = {fit.term: (number, fit) for number, fit in enumerate(found)}
+        placed = [fit.placed for fit in found]
+        self._fast = [FastSystem(s, placed) for s in self.scenarios]
+        self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
+        self._known: dict[tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int], Array] = {}
+        self._set_steps()
+
+    def terms(self) -> list[Term]:
+        """Every law that may be missing."""
+        return list(self._found)
+
+    def changes_at(self, point: Point, number: int | None) -> Changes:
+        """See `CosimModel`; laws are added to their FMUs."""
+        found = self._numbers_at(point, number)
+        added: dict[str, list[AddedTermEntry]] = {}
+        for term, values in point.terms.items():
+            if term in self._found:
+                placed = self._found[term][1].placed
+                added.setdefault(placed.component, []).append(placed.entry(values))
+        return replace(found, added={name: tuple(entries) for name, entries in added.items()})
+
+    def _numbers_at(self, point: Point, number: int | None) -> Changes:
+        """What a point changes beside laws."""
+        faults = {t: v for t, v in point.terms.items() if t.recording is not None}
+        return super().changes_at(Point(point.base, faults), number)
+
+    def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+        """Values of every channel at its samples, SI; None where the simulation stopped."""
+        self.runs += len(wanted)
+        return [self._prediction(point, number) for point, number in wanted]
+
+    def apart(self, point: Point, number: int, steps: int = COMPARED) -> tuple[float, float] | None:
+        """How far a run of the co-simulation is from what was simulated, over the first macro-steps of a recording.
+
+        Args:
+            point: Values, terms of sensors are left out.
+            number: Of the recording.
+            steps: Macro-steps at most.
+
+        Returns:
+            Largest difference in deviations of the noise, and the time until which both were compared [s]; None where
+            the co-simulation stops.
+        """
+        plain = Point(point.base, {t: v for t, v in point.terms.items() if t in self._found})
+        scenario, fast = self.scenario_at(plain, number), self._fast[number]
+        outputs = max(min(steps, fast.steps) // fast.per_output, 1)
+        end = (fast.start + outputs * fast.per_output * fast.size) / 1e9
+        stop = PhysicalValue(float(f"{end:.12g}"), "s")
+        try:
+            results = run(scenario.model_copy(update={"time": scenario.time.model_copy(update={"stop": stop})}))
+        except RunStopped:
+            return None
+        mine = self._prediction(plain, number)
+        source, worst = self.recordings[number].path / "recording.yaml", 0.0
+        for i, channel in enumerate(self.recordings[number].channels.values()):
+            # The last outputs of a shorter run are drawn with other neighbours.
+            inside = channel.times <= end - 3.0 * fast.per_output * fast.size / 1e9
+            if mine is None or not inside.any():
+                continue
+            there = predicted(results, channel.target, channel.times[inside], source)
+            worst = max(worst, float(np.max(np.abs(mine[i][inside] - there)) / channel.deviation))
+        return worst, end
+
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        known, found = self._known, []
+        for point, number in wanted:
+            key = point.base.tobytes(), tuple(point.terms.items()), number
+            if key not in known:
+                self.runs += 1
+                known[key] = self._residual(number, self._prediction(point, number))
+            found.append(known[key])
+        for key in list(known)[:-KEPT]:
+            del known[key]
+        return found
+
+    def _prediction(self, point: Point, number: int) -> list[Array] | None:
+        changes = self._numbers_at(point, number)
+        laws = {self._found[t][0]: v for t, v in point.terms.items() if t in self._found}
+        fast = self._fast[number]
+        rows = fast.simulate(changes, laws)
+        if rows is None:
+            return None
+        step = fast.per_output * fast.size / 1e9
+        found = []
+        for channel, (column, factor, offset, is_flow, unit) in zip(
+            self.recordings[number].channels.values(), self._places[number]
+        ):
+            values = factor * rows.values[:, column] + offset
+            found.append(read(channel, point.terms, Series(rows.times, values, is_flow, unit), step))
+        return found
+
+    def _set_steps(self) -> None:
+        """As few steps of the integration as the noise allows, for all recordings the same."""
+        zero = Point(np.zeros(len(self.free)))
+        numbers = range(len(self.recordings))
+        count = 1
+        before = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+        while count < MOST_SUBSTEPS:
+            for fast in self._fast:
+                fast.set_substeps(2 * count)
+            now = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+            with np.errstate(invalid="ignore"):
+                moved = [float(np.max(np.abs(a - b), initial=0.0)) for a, b in zip(before, now)]
+            count, before = 2 * count, now
+            if all(m < EXACT for m in moved):
+                break
+        self._known.clear()
+
+
+#: Column of the rows, factor and offset to SI, whether it is a flow, SI unit.
+_Place = tuple[int, float, float, bool, str]
+
+
+def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) -> list[_Place]:
+    """Where each channel's quantity stands in the rows of the fast simulation.
+
+    Raises:
+        InputError: The scenario has no such quantity.
+        NotFast: It is none that the fast simulation records.
+    """
+    time = scenario.time
+    steps = min(FIRST_STEPS * fast.per_output, fast.steps // fast.per_output * fast.per_output)
+    stop = (nanoseconds(time.start) + steps * fast.size) / 1e9
+    end = PhysicalValue(float(f"{stop:.12g}"), "s")
+    short = scenario.model_copy(update={"time": time.model_copy(update={"stop": end})})
+    try:
+        results = run(short)
+    except RunStopped as stopped:
+        raise NotFast(f"the co-simulation stops at its start: {stopped.reason}") from stopped
+    _check_agreement(results, fast)
+    found: list[_Place] = []
+    source = recording.path / "recording.yaml"
+    for channel in recording.channels.values():
+        variable, index = place_of(results, channel.target, source)
+        component, _, name = str(variable.name).partition(".")
+        key = component, name
+        if key not in fast.recorded:
+            raise NotFast(f"{component}.{name} is not recorded")
+        own = str(variable.attrs.get("units", "1"))
+        unit = own if channel.target.si_unit == "1" else channel.target.si_unit
+        factor, offset = conversion(own, unit)
+        is_flow = channel.target.quantity in ("current", "voltage", "power")
+        found.append((fast.recorded[key].start + index, factor, offset, is_flow, unit))
+    return found
+
+
+def _check_agreement(results: xr.Dataset, fast: FastSystem) -> None:
+    """Compare the first outputs of the co-simulation with those of compiled code.
+
+    Raises:
+        NotFast: They are not the same.
+    """
+    fast.set_substeps(CHECKED)
+    rows = fast.simulate()
+    fast.set_substeps(1)
+    if rows is None:
+        raise NotFast("a simulation stops; `cosim run` tells why")
+    count = len(results["time"])
+    for (component, name), columns in fast.recorded.items():
+        variable = f"{component}.{name}"
+        if variable in results and results[variable].dtype == np.float64:
+            there = results[variable].values.reshape(count, -1)
+            mine, size = rows.values[:, columns], float(np.std(rows.values[:, columns])) or 1.0
+            if np.max(np.abs(mine[:count] - there), initial=0.0) > AGREED * size:
+                raise NotFast(f"{variable} is not what `cosim run` gives")
+
+
+@dataclass(frozen=True)
+class SystemLaws:
+    """What may be missing or off in a system.
+
+    Args:
+        found: Laws at their places.
+        sensors: Laws of its sensors.
+        usual: Numbers that may be off though nobody says so.
+        untried: Where no law can be tried, and why.
+    """
+
+    found: tuple[Fit, ...]
+    sensors: tuple[UnitLaw, ...]
+    usual: tuple[Free, ...]
+    untried: tuple[str, ...]
+
+
+def laws_at(
+    scenario: Scenario, recordings: Sequence[Recording], free: Sequence[Free], without: Collection[str] = ()
+) -> SystemLaws:
+    """Laws of the library at every place of a system, those of its sensors, and numbers that may be off unstated.
+
+    Args:
+        scenario: What the recordings are compared with.
+        recordings: Recordings of it.
+        free: Numbers that are stated to be off.
+        without: Laws that are hidden.
+
+    Raises:
+        NotFast: Only the co-simulation can simulate it.
+        CompilerError: There is no C compiler.
+        InputError: A scenario is wrong.
+    """
+    systems = [FastSystem(scenario_of(scenario, r)) for r in recordings]
+    try:
+        places = places_of(systems)
+        usual = usual_numbers(systems[0], free)
+    finally:
+        for system in systems:
+            system.close()
+    laws = [law for law in library() if law.identifier not in without]
+    step, macro = sample_step(recordings), nanoseconds(scenario.time.macro_step) * 1e-9
+    channels = dict.fromkeys(name for r in recordings for name in r.channels)
+    sensors = [law for law in sensor_laws_of(channels, step, macro) if law.place.term.identifier not in without]
+    untried = tuple(text for own in places for text in own.untried)
+    return SystemLaws(tuple(fits(places, laws, step, macro)), tuple(sensors), tuple(usual), untried)
+
+
+def sample_step(recordings: Sequence[Recording]) -> float:
+    """Typical time between two readings [s]."""
+    steps = [np.median(np.diff(c.times)) for r in recordings for c in r.channels.values() if len(c.times) > 1]
+    return float(np.median(steps)) if steps else 1.0

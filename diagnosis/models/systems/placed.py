@@ -1,0 +1,61 @@
+"""A law at a place of one FMU, in the names of its variables: what a scenario says under `added_terms`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cosim.components import AddedStateEntry, AddedTermEntry
+from cosim.unit.quantity import PhysicalValue
+
+
+@dataclass(frozen=True)
+class PlacedState:
+    """A state of its own.
+
+    Args:
+        name: Symbol in the formulas.
+        rate: Formula of its derivative.
+        start: Formula of its value at the start.
+        unit: Its unit.
+    """
+
+    name: str
+    rate: str
+    start: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Placed:
+    """What is added to one derivative or input.
+
+    Args:
+        component: Name of the FMU in the scenario.
+        to: `der(state)`, or an input.
+        formula: In the FMU's variables, `time`, numbers, constants and own states.
+        numbers: Names of the free numbers with their units.
+        constants: Names to values with units of what is not fitted.
+        states: Its own states.
+    """
+
+    component: str
+    to: str
+    formula: str
+    numbers: tuple[tuple[str, str], ...]
+    constants: Mapping[str, PhysicalValue] = field(default_factory=dict)
+    states: tuple[PlacedState, ...] = ()
+
+    def entry(self, values: tuple[float, ...]) -> AddedTermEntry:
+        """The same in a scenario, with values of its numbers."""
+        numbers = {name: PhysicalValue(v, unit) for (name, unit), v in zip(self.numbers, values)}
+        states = {s.name: AddedStateEntry(rate=s.rate, start=s.start, unit=s.unit) for s in self.states}
+        return AddedTermEntry(to=self.to, formula=self.formula, parameters={**numbers, **self.constants}, states=states)
+
+
+def placed_of(component: str, entry: AddedTermEntry) -> tuple[Placed, tuple[float, ...]]:
+    """What a scenario adds already, with its values."""
+    numbers = {name: PhysicalValue.parse(v) for name, v in entry.parameters.items()}
+    states = tuple(PlacedState(name, s.rate, s.start, s.unit) for name, s in entry.states.items())
+    placed = Placed(component, entry.to, entry.formula, tuple((n, v.unit) for n, v in numbers.items()), {}, states)
+    return placed, tuple(v.number for v in numbers.values())

@@ -1,0 +1,398 @@
+"""Where laws of the library fit in a system of FMUs: by the units of its quantities and by its equations."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from cosim.formula import Formula, FormulaError
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from diagnosis.laws.law import Law, Number, Role
+from diagnosis.models.systems.expression import names_in, renamed
+from diagnosis.models.systems.fast import FastSystem, Rows
+from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
+from diagnosis.models.systems.placed import Placed, PlacedState
+from diagnosis.search.problem import Term, TermParameter
+
+#: Points at which the equations are asked whether a state is the derivative of another.
+PROBES = 5
+#: Seed of these points.
+SEED = 20
+_LENGTHS = ("m", "rad", "m^3", "Pa")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A variable of an FMU that laws may use.
+
+    Args:
+        name: Its name.
+        unit: Its unit; of a temperature K.
+        size: How far it moves in the recordings as the model has them, in that unit.
+        middle: Value about which it moves.
+        rate: How fast it changes, per second.
+    """
+
+    name: str
+    unit: str
+    size: float
+    middle: float
+    rate: float
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A law at a place.
+
+    Args:
+        law: The law.
+        placed: In the names of the FMU.
+        term: For the search.
+    """
+
+    law: Law
+    placed: Placed
+    term: Term
+
+
+@dataclass
+class Places:
+    """Quantities of the FMUs of a system.
+
+    Args:
+        component: Name of the FMU.
+        states: Continuous states by name, in order.
+        inputs: Inputs that are connected.
+        outputs: Outputs of a Co-Simulation FMU.
+        velocity_of: Position to its velocity.
+        untried: Where no law can be tried, and why.
+    """
+
+    component: str
+    states: dict[str, Quantity] = field(default_factory=dict)
+    inputs: dict[str, Quantity] = field(default_factory=dict)
+    outputs: dict[str, Quantity] = field(default_factory=dict)
+    velocity_of: dict[str, str] = field(default_factory=dict)
+    untried: list[str] = field(default_factory=list)
+
+
+def places_of(systems: Sequence[FastSystem]) -> list[Places]:
+    """Quantities of every FMU, with the sizes that they have in simulations of all recordings.
+
+    Args:
+        systems: One for each recording, without laws.
+
+    Raises:
+        NotFast: A simulation stops, or gives something else the second time.
+    """
+    courses: list[dict[tuple[str, str], Array]] = []
+    for system in systems:
+        first = _copy(system.simulate())
+        again = _copy(system.simulate())
+        if first is None or again is None:
+            raise NotFast("a simulation stops, or an FMU cannot be reset; `cosim run` tells which")
+        if not np.allclose(first, again, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(first), initial=1.0))):
+            raise NotFast("an FMU that was reset is not as a new one")
+        courses.append({key: first[:, s] for key, s in system.recorded.items()})
+    step = systems[0].times[1] - systems[0].times[0] if len(systems[0].times) > 1 else 1.0
+    found = []
+    for name, fmu in systems[0].fmus.items():
+        own = Places(name)
+        connected = {t.variable.name for t in systems[0].assembly.system.transfers[name]}
+        own.states = _quantities(fmu, fmu.states, [(name, f"state {s}") for s in fmu.states], courses, step)
+        inputs = [n for n, s in fmu.inputs.items() if n in connected and s.stop - s.start == 1]
+        own.inputs = _quantities(fmu, inputs, [(name, f"input {n}") for n in inputs], courses, step)
+        if not fmu.is_model_exchange:
+            outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
+            own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
+        own.velocity_of = _velocities(systems[0], fmu, own)
+        own.untried = _untried(fmu, own)
+        found.append(own)
+    return found
+
+
+def _copy(rows: Rows | None) -> Array | None:
+    return None if rows is None else rows.values.copy()
+
+
+def _untried(fmu: FastFmu, own: Places) -> list[str]:
+    """What offers no place, in words."""
+    if not fmu.is_model_exchange:
+        what = "laws were tried at its inputs alone" if own.inputs else "it offers no place for a law"
+        return [f"`{own.component}` is used by Co-Simulation, which hides its states: {what}"]
+    if fmu.state_count and not fmu.states:
+        return [f"`{own.component}` does not say which variables its states are: no law was tried at their derivatives"]
+    lost = [n for n in fmu.states if n not in own.states]
+    return [f"`{own.component}.{n}` has a unit or a name that no formula can use: no law was tried there" for n in lost]
+
+
+def _quantities(
+    fmu: FastFmu,
+    names: Sequence[str] | Mapping[str, int],
+    keys: Sequence[tuple[str, str]],
+    courses: Sequence[Mapping[tuple[str, str], Array]],
+    step: float,
+) -> dict[str, Quantity]:
+    found = {}
+    for name, key in zip(names, keys):
+        if name not in fmu.units or not _is_nameable(name):
+            continue
+        values = [c[key].reshape(-1) for c in courses if key in c]
+        if not values:
+            continue
+        middle = float(np.median(np.concatenate([v[:1] for v in values])))
+        size = float(np.sqrt(np.mean([np.mean((v - middle) ** 2) for v in values])))
+        slopes = [np.gradient(v, step) for v in values if len(v) > 1]
+        rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
+        size = size or max(abs(middle), 1.0)
+        unit = fmu.units[name]
+        if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
+            unit, size = (
+                "K",
+                size
+                * float(
+                    registry().Quantity(1.0, parse_unit(unit)).to_base_units().magnitude
+                    - registry().Quantity(0.0, parse_unit(unit)).to_base_units().magnitude
+                ),
+            )
+        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9))
+    return found
+
+
+def _is_nameable(name: str) -> bool:
+    """Whether a formula can hold it."""
+    try:
+        return names_in(name) == {name}
+    except (SyntaxError, ValueError):
+        return False
+
+
+def _velocities(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, str]:
+    """Positions with the states that are their derivatives, asked of the equations at random points."""
+    if len(fmu.states) < 2 or set(fmu.states) != set(own.states):
+        return {}
+    rng = np.random.default_rng(SEED)
+    names = list(fmu.states)
+    middle = np.array([own.states[n].middle for n in names])
+    size = np.array([own.states[n].size for n in names])
+    found: dict[str, str] = {}
+    points = middle + size * rng.standard_normal((PROBES, len(names)))
+    rates = np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+    for i, position in enumerate(names):
+        for j, velocity in enumerate(names):
+            scale = np.max(np.abs(points[:, j])) or 1.0
+            if i != j and np.allclose(rates[:, i], points[:, j], rtol=1e-9, atol=1e-12 * scale):
+                found[position] = velocity
+    return found
+
+
+# fitting laws
+
+
+def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macro_step: float = 0.0) -> Iterator[Fit]:
+    """Every law at every place where its quantities fit.
+
+    Args:
+        places: Of the system.
+        laws: The library.
+        sample_step: Typical time between readings [s].
+        macro_step: Of the co-simulation [s]: values that pass between FMUs are early or late by up to so much, and a
+            lag that is no longer is none of the rig.
+    """
+    steps = sample_step, macro_step
+    seen: set[tuple[str, str, str]] = set()
+    for own in places:
+        for law in laws:
+            for to, target, symbols in _targets(own, law.role):
+                fit = _fit(own, law, to, target, symbols, steps)
+                if fit is None:
+                    continue
+                signature = own.component, to, _form(fit.placed)
+                if signature not in seen:
+                    seen.add(signature)
+                    yield fit
+
+
+_Target = tuple[str, Quantity, dict[str, Quantity]]
+
+
+def _targets(own: Places, role: Role) -> Iterator[_Target]:
+    """What a law of a role can be added to: `added_terms` target, its quantity, and symbol to quantity."""
+    free = {n: q for n, q in own.states.items() if n not in own.velocity_of}
+    if role is Role.VELOCITY:
+        yield from _motions(own, free)
+    elif role is Role.INPUT:
+        yield from ((name, q, {"u": q}) for name, q in own.inputs.items())
+    elif role is Role.PORT:
+        for name, q in own.inputs.items():
+            yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
+    elif role is Role.PAIR:
+        for name, q in free.items():
+            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
+            yield from ((f"der({name})", q, {"s": q, "o": other}) for other in others)
+    else:
+        yield from _single(own, role, free)
+
+
+def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[_Target]:
+    """Velocities, with the position where there is one."""
+    for position, velocity in own.velocity_of.items():
+        yield f"der({velocity})", own.states[velocity], {"x": own.states[position], "v": own.states[velocity]}
+    for name, q in free.items():
+        if name not in own.velocity_of.values() and _is(q, "m/s", "rad/s"):
+            yield f"der({name})", q, {"v": q}
+
+
+def _single(
+    own: Places, role: Role, free: Mapping[str, Quantity]
+) -> Iterator[tuple[str, Quantity, dict[str, Quantity]]]:
+    alone = {n: q for n, q in free.items() if n not in own.velocity_of.values()}
+    if role is Role.STATE:
+        for name, q in free.items():
+            yield f"der({name})", q, {"s": q}
+    elif role is Role.TEMPERATURE:
+        rooms = [q for q in own.inputs.values() if _is(q, "K")]
+        for name, q in alone.items():
+            if _is(q, "K"):
+                for room in rooms[:1]:
+                    yield f"der({name})", q, {"T": q, "T_a": room}
+    else:
+        units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
+        symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
+        for name, q in alone.items():
+            if _is(q, *units):
+                yield f"der({name})", q, {symbol: q}
+
+
+def _is(quantity: Quantity, *units: str) -> bool:
+    return any(parse_unit(quantity.unit).dimensionality == parse_unit(u).dimensionality for u in units)
+
+
+def _fit(
+    own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: tuple[float, float]
+) -> Fit | None:
+    numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
+    needed = {n for f in (law.formula, *(s.rate for s in law.states)) for n in names_in(f)} - numbers
+    if not needed <= set(symbols):
+        return None
+    taken = {*own.states, *own.inputs, *own.outputs, "time"}
+    fresh = {n: n if n not in taken else f"{n}_law" for n in numbers}
+    if any(v in taken for v in fresh.values()):
+        return None
+    names = {**{s: q.name for s, q in symbols.items()}, **fresh}
+    scale = _Scale(symbols, target, to.startswith("der("), steps[0])
+    try:
+        constants = {
+            fresh[n]: PhysicalValue(float(f"{share * scale.size(of):.3g}"), scale.unit(of))
+            for n, (of, share) in law.constants.items()
+        }
+        placed = Placed(
+            own.component,
+            to,
+            renamed(law.formula, names),
+            tuple((fresh[n.name], scale.unit(n.of)) for n in law.numbers),
+            constants,
+            tuple(
+                PlacedState(fresh[s.name], renamed(s.rate, names), renamed(s.start, names), scale.unit(s.of))
+                for s in law.states
+            ),
+        )
+        _check(own, placed, to)
+    except (FormulaError, ValueError, ZeroDivisionError):
+        return None
+    domain = domain_of(target.unit)
+    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
+    label = f"{own.component}.{target.name}"
+    what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
+    others = [q.name for symbol, q in symbols.items() if symbol == "o"]
+    identifier = law.identifier + "".join(f"_of_{n}" for n in others)
+    return Fit(law, placed, Term(identifier, label, domain, parameters, law.is_named, what))
+
+
+class _Scale:
+    """Units and characteristic sizes of products of symbols."""
+
+    def __init__(self, symbols: Mapping[str, Quantity], target: Quantity, is_rate: bool, sample_step: float) -> None:
+        seconds = registry().Quantity(1.0, "s")
+        units = {s: registry().Quantity(1.0, parse_unit(q.unit)) for s, q in symbols.items()}
+        sizes = {s: q.size for s, q in symbols.items()}
+        units["rate"] = registry().Quantity(1.0, parse_unit(target.unit)) / seconds
+        sizes["rate"] = target.rate if is_rate else target.size / sample_step
+        if "T" in symbols:
+            units["T_abs"], sizes["T_abs"] = registry().Quantity(1.0, "K"), 300.0
+        self._units, self._sizes = units, sizes
+
+    def unit(self, of: str) -> str:
+        found = _evaluated(of, self._units)
+        unit = found.units if hasattr(found, "units") else registry().Unit("")
+        text = f"{unit:~C}".replace("**", "^")
+        return text or "1"
+
+    def size(self, of: str) -> float:
+        return float(_evaluated(of, self._sizes))
+
+
+def _evaluated(of: str, values: Mapping[str, object]) -> Any:
+    """A product of powers of symbols."""
+    tree = ast.parse(of, mode="eval")
+    return eval(compile(tree, "<law>", "eval"), {"__builtins__": {}}, dict(values))  # our own texts alone
+
+
+def _check(own: Places, placed: Placed, to: str) -> None:
+    """Whether the co-simulation will take the formula, units and all."""
+    units = {q.name: q.unit for q in (*own.states.values(), *own.inputs.values(), *own.outputs.values())}
+    units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}
+    units |= {s.name: s.unit for s in placed.states}
+    target = to[4:-1] if to.startswith("der(") else to
+    Formula(placed.formula, units, f"({units[target]})/s" if to.startswith("der(") else units[target])
+    for state in placed.states:
+        Formula(state.rate, units, f"({state.unit})/s")
+        Formula(state.start, units, state.unit)
+
+
+def _parameter(
+    number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float
+) -> TermParameter:
+    size = scale.size(number.of)
+    middle = symbols[number.origin].middle if number.origin else 0.0
+    lower = -number.most if number.least is None else number.least
+    starts = tuple(middle + size * s for s in number.starts)
+    return TermParameter(
+        name,
+        scale.unit(number.of),
+        middle + size * lower,
+        middle + size * number.most,
+        starts,
+        negligible=macro_step if scale.unit(number.of) == "s" else 0.0,
+        meaning=number.meaning,
+    )
+
+
+def _form(placed: Placed) -> str:
+    """The formula with its strength renamed and its sign dropped: laws of the same form are one."""
+    first = placed.numbers[0][0]
+    text = renamed(placed.formula, {first: "strength"})
+    text = text.removeprefix("-")
+    return text + "".join(f"; {s.rate}" for s in placed.states)
+
+
+def domain_of(unit: str) -> str:
+    """Part of physics that a unit belongs to."""
+    dimension = parse_unit(unit).dimensionality
+    for domain, units in _DOMAINS.items():
+        if any(dimension == parse_unit(u).dimensionality for u in units):
+            return domain
+    return "signal"
+
+
+_DOMAINS = {
+    "mechanical": ("m", "m/s", "rad/s", "N", "N*m", "m/s^2", "rad/s^2"),
+    "thermal": ("K", "J", "W"),
+    "electrical": ("A", "V", "C", "Wb"),
+    "hydraulic": ("m^3", "Pa", "m^3/s", "kg/s"),
+}

@@ -1,0 +1,534 @@
+/* Steps a system of FMUs over all its macro-steps, with laws that are added to derivatives and inputs.
+ *
+ * The order of what happens in a macro-step is that of the co-simulation (cosim/system.py, cosim/algorithms); a Model
+ * Exchange FMU is integrated by the classical Runge-Kutta method with a fixed number of steps in each macro-step
+ * (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, Springer 1993, section II.1). Inputs are held over a
+ * macro-step. diagnosis/models/systems/layout.py declares the same structures for ctypes.
+ */
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef double (*Law)(const double *e, const double *p, const double *z);
+typedef int (*AccessFmi2)(void *, const uint32_t *, size_t, void *);
+typedef int (*AccessFmi3)(void *, const uint32_t *, size_t, void *, size_t);
+typedef int (*Plain)(void *);
+typedef int (*SetTime)(void *, double);
+typedef int (*Vector)(void *, double *, size_t);
+typedef int (*CompletedFmi2)(void *, int, int *, int *);
+typedef int (*CompletedFmi3)(void *, bool, bool *, bool *);
+typedef int (*UpdateFmi2)(void *, void *);
+typedef int (*UpdateFmi3)(void *, bool *, bool *, bool *, bool *, bool *, double *);
+typedef int (*StepFmi2)(void *, double, double, int);
+typedef int (*StepFmi3)(void *, double, double, bool, bool *, bool *, bool *, double *);
+
+enum { WARNING = 1, MOST_SWEEPS = 100, MOST_EVENTS = 1000, MOST_OWN = 2, BISECTIONS = 50 };
+enum { COPY, PUT, GET, STEP };
+enum { RATE, INPUT };
+enum { DONE = 0, FAILED = 1 };
+
+typedef struct {
+    void *call;
+    const uint32_t *references;
+    size_t reference_count;
+    double *values;
+    size_t count;
+} Access;
+
+typedef struct {
+    double *to;
+    const double *from;
+    double factor, offset;
+} Copy;
+
+typedef struct {
+    int64_t kind;   /* RATE or INPUT */
+    int64_t target; /* number of the state or of the input */
+    double scale;   /* from SI base units to those of the target */
+    Law amount;
+    const double *values; /* its parameters, SI base units */
+    int64_t own;          /* states of its own */
+    int64_t first;        /* number of the first of them in the unit's vector */
+    Law rates[MOST_OWN], starts[MOST_OWN];
+} Added;
+
+typedef struct {
+    void *component;
+    int64_t is_fmi3, is_model_exchange, reports_steps, substeps;
+    int64_t states, indicators, inputs, own;
+    void *set_time, *set_states, *get_states, *get_derivatives, *get_indicators, *completed;
+    void *enter_event_mode, *update, *enter_continuous_mode, *do_step;
+    double *state; /* states of the FMU, then of the laws; and room for the same seven times over */
+    double *signs; /* indicators before and now */
+    double *outer, *inner, *held; /* inputs from outside, with what is added, as the FMU has them */
+    const Access *writers;
+    int64_t writer_count;
+    const Access *readers;
+    int64_t reader_count;
+    double *environment;
+    const Copy *known; /* what laws may use, to SI base units */
+    int64_t known_count;
+    double *seen; /* states at which the environment is evaluated */
+    const Added *added;
+    int64_t added_count;
+    double next_event;
+    int64_t has_inputs_added;
+} Unit;
+
+typedef struct {
+    int64_t code, first, last; /* COPY: copies [first, last); else the unit `first` */
+} Operation;
+
+typedef struct {
+    double *to;
+    const double *column; /* one value for every macro-step */
+} Sampled;
+
+typedef struct {
+    Unit *units;
+    int64_t unit_count;
+    const Copy *copies;
+    const Operation *settle;
+    int64_t settle_count;
+    const Operation *operations;
+    int64_t operation_count;
+    const Sampled *programmes;
+    int64_t programme_count;
+    const double *const *recorded;
+    int64_t recorded_count;
+    double *rows; /* (outputs + 1, recorded) */
+    int64_t steps, per_output, start, size; /* times in ns */
+} System;
+
+static int access(const Unit *u, const Access *a)
+{
+    return u->is_fmi3 ? ((AccessFmi3)a->call)(u->component, a->references, a->reference_count, a->values, a->count)
+                      : ((AccessFmi2)a->call)(u->component, a->references, a->reference_count, a->values);
+}
+
+static int read_outputs(const Unit *u)
+{
+    for (int64_t i = 0; i < u->reader_count; ++i) {
+        if (access(u, u->readers + i) > WARNING) {
+            return FAILED;
+        }
+    }
+    return DONE;
+}
+
+static void look_around(const Unit *u, double time)
+{
+    u->environment[0] = time;
+    for (int64_t i = 0; i < u->known_count; ++i) {
+        *u->known[i].to = u->known[i].factor * *u->known[i].from + u->known[i].offset;
+    }
+}
+
+/* Hand the inputs to the FMU, with what laws add to them; the environment is that of `time`. */
+static int write_inputs(const Unit *u, const double *own)
+{
+    memcpy(u->inner, u->outer, (size_t)u->inputs * sizeof(double));
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        if (a->kind == INPUT) {
+            u->inner[a->target] += a->scale * a->amount(u->environment, a->values, own + a->first);
+        }
+    }
+    if (!memcmp(u->inner, u->held, (size_t)u->inputs * sizeof(double))) {
+        return DONE;
+    }
+    for (int64_t i = 0; i < u->writer_count; ++i) {
+        if (access(u, u->writers + i) > WARNING) {
+            return FAILED;
+        }
+    }
+    memcpy(u->held, u->inner, (size_t)u->inputs * sizeof(double));
+    return DONE;
+}
+
+/* The FMU stands at a point of the integration. */
+static int move_to(Unit *u, double time, double *x)
+{
+    if (((SetTime)u->set_time)(u->component, time) > WARNING) {
+        return FAILED;
+    }
+    if (u->states && ((Vector)u->set_states)(u->component, x, (size_t)u->states) > WARNING) {
+        return FAILED;
+    }
+    if (u->added_count) {
+        memcpy(u->seen, x, (size_t)u->states * sizeof(double));
+        look_around(u, time);
+        if (u->has_inputs_added) {
+            return write_inputs(u, x + u->states);
+        }
+    }
+    return DONE;
+}
+
+/* Derivatives of the FMU's states and of those of laws. */
+static int derivatives(Unit *u, double time, double *x, double *rates)
+{
+    if (move_to(u, time, x) != DONE) {
+        return FAILED;
+    }
+    if (u->states && ((Vector)u->get_derivatives)(u->component, rates, (size_t)u->states) > WARNING) {
+        return FAILED;
+    }
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        const double *own = x + u->states + a->first;
+        if (a->kind == RATE) {
+            rates[a->target] += a->scale * a->amount(u->environment, a->values, own);
+        }
+        for (int64_t k = 0; k < a->own; ++k) {
+            rates[u->states + a->first + k] = a->rates[k](u->environment, a->values, own);
+        }
+    }
+    return DONE;
+}
+
+static int runge_kutta(Unit *u, double time, double step, double *x)
+{
+    const int64_t n = u->states + u->own;
+    double *const k1 = u->state + n, *const k2 = k1 + n, *const k3 = k2 + n, *const k4 = k3 + n, *const y = k4 + n;
+    if (derivatives(u, time, x, k1) != DONE) {
+        return FAILED;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        y[i] = x[i] + 0.5 * step * k1[i];
+    }
+    if (derivatives(u, time + 0.5 * step, y, k2) != DONE) {
+        return FAILED;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        y[i] = x[i] + 0.5 * step * k2[i];
+    }
+    if (derivatives(u, time + 0.5 * step, y, k3) != DONE) {
+        return FAILED;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        y[i] = x[i] + step * k3[i];
+    }
+    if (derivatives(u, time + step, y, k4) != DONE) {
+        return FAILED;
+    }
+    double sum = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        x[i] += step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+        sum += x[i];
+    }
+    return isfinite(sum) ? DONE : FAILED;
+}
+
+/* From Event Mode back to Continuous-Time Mode; the states may be new. */
+static int leave_event_mode(Unit *u)
+{
+    bool again = true;
+    for (int sweep = 0; again; ++sweep) {
+        bool ends;
+        if (sweep == MOST_SWEEPS) {
+            return FAILED;
+        }
+        if (u->is_fmi3) {
+            bool nominals, values, has_event;
+            double event = 0.0;
+            if (((UpdateFmi3)u->update)(u->component, &again, &ends, &nominals, &values, &has_event, &event) > WARNING) {
+                return FAILED;
+            }
+            u->next_event = has_event ? event : INFINITY;
+        } else {
+            struct {
+                int again, ends, nominals, values, has_event;
+                double event;
+            } info = {0};
+            if (((UpdateFmi2)u->update)(u->component, &info) > WARNING) {
+                return FAILED;
+            }
+            again = info.again, ends = info.ends;
+            u->next_event = info.has_event ? info.event : INFINITY;
+        }
+        if (ends) {
+            return FAILED;
+        }
+    }
+    if (((Plain)u->enter_continuous_mode)(u->component) > WARNING) {
+        return FAILED;
+    }
+    return u->states && ((Vector)u->get_states)(u->component, u->state, (size_t)u->states) > WARNING ? FAILED : DONE;
+}
+
+static int handle_event(Unit *u)
+{
+    return ((Plain)u->enter_event_mode)(u->component) > WARNING ? FAILED : leave_event_mode(u);
+}
+
+static int look_at_signs(Unit *u, double time, double *x, double *signs)
+{
+    if (move_to(u, time, x) != DONE) {
+        return FAILED;
+    }
+    return ((Vector)u->get_indicators)(u->component, signs, (size_t)u->indicators) > WARNING ? FAILED : DONE;
+}
+
+static bool has_crossed(const Unit *u, const double *before, const double *now)
+{
+    for (int64_t i = 0; i < u->indicators; ++i) {
+        if ((before[i] > 0.0) != (now[i] > 0.0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* One step of the integration, cut at the first event in it; the time reached, or NaN. */
+static double advance(Unit *u, double time, double end)
+{
+    const int64_t n = u->states + u->own;
+    double *const x = u->state, *const begin = x + 6 * n, *const before = u->signs, *const now = before + u->indicators;
+    if (!u->indicators) {
+        return runge_kutta(u, time, end - time, x) == DONE ? end : NAN;
+    }
+    memcpy(begin, x, (size_t)n * sizeof(double));
+    if (look_at_signs(u, time, x, before) != DONE || runge_kutta(u, time, end - time, x) != DONE ||
+        look_at_signs(u, end, x, now) != DONE) {
+        return NAN;
+    }
+    if (!has_crossed(u, before, now)) {
+        return end;
+    }
+    double low = time, high = end;
+    for (int i = 0; i < BISECTIONS && high - low > 1e-12 * fmax(1.0, fabs(end)); ++i) {
+        const double middle = 0.5 * (low + high);
+        memcpy(x, begin, (size_t)n * sizeof(double));
+        if (runge_kutta(u, time, middle - time, x) != DONE || look_at_signs(u, middle, x, now) != DONE) {
+            return NAN;
+        }
+        if (has_crossed(u, before, now)) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    memcpy(x, begin, (size_t)n * sizeof(double));
+    if (runge_kutta(u, time, high - time, x) != DONE || move_to(u, high, x) != DONE || handle_event(u) != DONE) {
+        return NAN;
+    }
+    return high;
+}
+
+static int report_step(Unit *u)
+{
+    bool wants_event, ends;
+    if (u->is_fmi3) {
+        if (((CompletedFmi3)u->completed)(u->component, true, &wants_event, &ends) > WARNING) {
+            return FAILED;
+        }
+    } else {
+        int event = 0, end = 0;
+        if (((CompletedFmi2)u->completed)(u->component, 1, &event, &end) > WARNING) {
+            return FAILED;
+        }
+        wants_event = event, ends = end;
+    }
+    return ends ? FAILED : wants_event ? handle_event(u) : DONE;
+}
+
+static int integrate(Unit *u, double begin, double end)
+{
+    const double step = (end - begin) / (double)u->substeps, instant = 1e-10;
+    double time = begin;
+    int events = 0;
+    for (int64_t i = 1; i <= u->substeps; ++i) {
+        const double stop = i == u->substeps ? end : begin + (double)i * step;
+        while (time < stop - instant) {
+            double aim = stop;
+            if (u->next_event <= time + instant) {
+                if (++events > MOST_EVENTS || move_to(u, time, u->state) != DONE || handle_event(u) != DONE) {
+                    return FAILED;
+                }
+                continue;
+            }
+            if (u->next_event < stop) {
+                aim = u->next_event;
+            }
+            const double reached = advance(u, time, aim);
+            if (!isfinite(reached) || (reached < aim && ++events > MOST_EVENTS)) {
+                return FAILED;
+            }
+            time = reached;
+            if (u->reports_steps && (move_to(u, time, u->state) != DONE || report_step(u) != DONE)) {
+                return FAILED;
+            }
+        }
+    }
+    return move_to(u, end, u->state);
+}
+
+/* States of laws beside a Co-Simulation FMU: its inputs and outputs are held. */
+static int step_beside(Unit *u, double begin, double end)
+{
+    const int64_t n = u->own;
+    double *const x = u->state, *const k = x + n, *const y = k + 4 * n;
+    const double step = end - begin, share[4] = {0.0, 0.5, 0.5, 1.0};
+    if (!n) {
+        return DONE;
+    }
+    for (int stage = 0; stage < 4; ++stage) {
+        for (int64_t i = 0; i < n; ++i) {
+            y[i] = x[i] + (stage ? share[stage] * step * k[(stage - 1) * n + i] : 0.0);
+        }
+        for (int64_t i = 0; i < u->added_count; ++i) {
+            const Added *a = u->added + i;
+            for (int64_t j = 0; j < a->own; ++j) {
+                k[stage * n + a->first + j] = a->rates[j](u->environment, a->values, y + a->first);
+            }
+        }
+    }
+    double sum = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        x[i] += step / 6.0 * (k[i] + 2.0 * (k[n + i] + k[2 * n + i]) + k[3 * n + i]);
+        sum += x[i];
+    }
+    return isfinite(sum) ? DONE : FAILED;
+}
+
+static int do_step(Unit *u, double begin, double end, double length)
+{
+    int status;
+    if (u->added_count) {
+        look_around(u, begin);
+    }
+    if (write_inputs(u, u->state) != DONE || step_beside(u, begin, end) != DONE) {
+        return FAILED;
+    }
+    if (u->is_fmi3) {
+        bool event = false, ends = false, early = false;
+        double reached = end;
+        status = ((StepFmi3)u->do_step)(u->component, begin, length, true, &event, &ends, &early, &reached);
+        if (event || ends || early) {
+            return FAILED;
+        }
+    } else {
+        status = ((StepFmi2)u->do_step)(u->component, begin, length, 1);
+    }
+    return status > WARNING ? FAILED : DONE;
+}
+
+/* Inputs at an instant; one that jumps is an event. */
+static int put(Unit *u, double time)
+{
+    if (!memcmp(u->outer, u->inner, (size_t)u->inputs * sizeof(double)) && !u->has_inputs_added) {
+        return DONE;
+    }
+    if (u->added_count) {
+        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
+        look_around(u, time);
+    }
+    const bool is_event = u->is_model_exchange && (u->indicators > 0 || isfinite(u->next_event));
+    if (is_event && ((Plain)u->enter_event_mode)(u->component) > WARNING) {
+        return FAILED;
+    }
+    if (write_inputs(u, u->state + u->states) != DONE) {
+        return FAILED;
+    }
+    return is_event ? leave_event_mode(u) : DONE;
+}
+
+static int carry_out(const System *s, const Operation *operations, int64_t count, double begin, double end, double length,
+                     double now)
+{
+    for (int64_t i = 0; i < count; ++i) {
+        const Operation *o = operations + i;
+        if (o->code == COPY) {
+            for (int64_t c = o->first; c < o->last; ++c) {
+                *s->copies[c].to = s->copies[c].factor * *s->copies[c].from + s->copies[c].offset;
+            }
+            continue;
+        }
+        Unit *u = s->units + o->first;
+        int status = DONE;
+        if (o->code == PUT) {
+            status = put(u, now);
+        } else if (o->code == GET) {
+            status = read_outputs(u);
+        } else {
+            status = u->is_model_exchange ? integrate(u, begin, end) : do_step(u, begin, end, length);
+            status = status == DONE ? read_outputs(u) : status;
+        }
+        if (status != DONE) {
+            return FAILED;
+        }
+    }
+    return DONE;
+}
+
+static void record(const System *s, int64_t row)
+{
+    double *const to = s->rows + row * s->recorded_count;
+    for (int64_t i = 0; i < s->recorded_count; ++i) {
+        to[i] = *s->recorded[i];
+    }
+}
+
+/* States of laws at the start. */
+static void begin_laws(Unit *u, double time)
+{
+    if (!u->added_count) {
+        return;
+    }
+    if (u->states) {
+        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
+    }
+    look_around(u, time);
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        double *own = u->state + u->states + a->first;
+        for (int64_t k = 0; k < a->own; ++k) {
+            own[k] = a->starts[k](u->environment, a->values, own);
+        }
+    }
+}
+
+/* All macro-steps; the number of those that were completed. */
+__attribute__((visibility("default"))) int64_t system_run(System *s)
+{
+    const double start = (double)s->start / 1e9, length = (double)s->size / 1e9;
+    for (int64_t i = 0; i < s->unit_count; ++i) {
+        Unit *u = s->units + i;
+        memcpy(u->inner, u->outer, (size_t)u->inputs * sizeof(double));
+        memcpy(u->held, u->outer, (size_t)u->inputs * sizeof(double));
+        begin_laws(u, start);
+    }
+    if (carry_out(s, s->settle, s->settle_count, start, start, length, start) != DONE) {
+        return 0;
+    }
+    record(s, 0);
+    for (int64_t step = 0; step < s->steps; ++step) {
+        const double begin = (double)(s->start + step * s->size) / 1e9, end = (double)(s->start + (step + 1) * s->size) / 1e9;
+        for (int64_t i = 0; i < s->programme_count; ++i) {
+            *s->programmes[i].to = s->programmes[i].column[step];
+        }
+        if (carry_out(s, s->operations, s->operation_count, begin, end, length, begin) != DONE) {
+            return step;
+        }
+        if ((step + 1) % s->per_output == 0) {
+            if (carry_out(s, s->settle, s->settle_count, end, end, length, end) != DONE) {
+                return step;
+            }
+            record(s, (step + 1) / s->per_output);
+        }
+    }
+    return s->steps;
+}
+
+/* Derivatives of one unit's states at any point, for questions about its equations. */
+__attribute__((visibility("default"))) int system_rates(Unit *u, double time, double *x, double *rates)
+{
+    const int64_t count = u->added_count;
+    u->added_count = 0;
+    const int status = derivatives(u, time, x, rates);
+    u->added_count = count;
+    return status;
+}

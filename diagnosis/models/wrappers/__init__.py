@@ -1,0 +1,1 @@
+"""Models of the search that change what another model says."""

@@ -1,1 +1,0 @@
-"""Public recordings of other laboratories, made into recording folders."""
