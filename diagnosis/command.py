@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from cosim.scenario import Scenario
-    from diagnosis.diagnose import Found
+    from diagnosis.diagnose import Result
     from diagnosis.judge.diagnosis import Diagnosis
     from diagnosis.recording.recording import Recording
 
@@ -72,7 +72,7 @@ def diagnose(
     from cosim.compute.cluster import choose_place
     from cosim.compute.display import Display
     from cosim.compute.steps import Steps, watched
-    from diagnosis.diagnose import Means
+    from diagnosis.diagnose import Options
     from diagnosis.diagnose import diagnose as find
     from diagnosis.experiment.limits import parse_limits
     from diagnosis.recording.recording import load_recording
@@ -98,7 +98,7 @@ def diagnose(
                     "go on from them with `--resume`, or give another folder with `--out`",
                 )
             base = load_scenario(scenario)
-            means = Means(
+            options = Options(
                 tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief, not despite_doubts
             )
             training, judges = prepared(
@@ -106,7 +106,7 @@ def diagnose(
             )
             gc.freeze()  # modules and recordings stay to the end: they need not be looked through again and again
             with watched(Steps(display.stage)) as steps:
-                found = find(base, training, judges, Settings(level=level, seed=seed), steps, means)
+                found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
                 steps("writing" if brief else "writing the amended model and the report")
                 try:
                     diagnosis = _brief(found, out) if brief else _whole(found, base, judges, out)
@@ -126,7 +126,7 @@ def diagnose(
         print(out / "report.html")
 
 
-def _brief(found: Found, out: Path) -> Diagnosis:
+def _brief(found: Result, out: Path) -> Diagnosis:
     """Write diagnosis.json alone."""
     from diagnosis.report.json_file import write_json
 
@@ -135,7 +135,7 @@ def _brief(found: Found, out: Path) -> Diagnosis:
     return found.diagnosis
 
 
-def _whole(found: Found, scenario: Scenario, judges: Sequence[Recording], out: Path) -> Diagnosis:
+def _whole(found: Result, scenario: Scenario, judges: Sequence[Recording], out: Path) -> Diagnosis:
     """Write everything; see `write_outputs`."""
     from diagnosis.write_outputs import write_outputs  # late: figures take a second to load
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from diagnosis.diagnose import Found
+from diagnosis.diagnose import Result
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.report.fits import is_channel, plain_channel
@@ -17,7 +17,7 @@ from diagnosis.search.problem import Point
 DRAWN = 3
 
 
-def curves(found: Found) -> list[Series]:
+def curves(found: Result) -> list[Series]:
     """Channels held out, then channels that were fitted."""
     names = _names(found.diagnosis)
     drawn = [] if found.judge is None else _part(found, found.judge, found.held_out_points, True, names)
@@ -44,7 +44,7 @@ def drawn_channels(diagnosis: Diagnosis, fits: Sequence[ChannelFit]) -> list[int
 
 
 def _part(
-    found: Found, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool, names: Sequence[str]
+    found: Result, model: DiagnosisModel, points: Mapping[str, Point], is_held_out: bool, names: Sequence[str]
 ) -> list[Series]:
     fits = [f for f in found.diagnosis.fit if f.is_held_out is is_held_out]
     place = [(run, number) for run in range(len(model.runs)) for number in range(len(model.runs[run].series))]

@@ -20,12 +20,12 @@ from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
-from diagnosis.judge.beginning import begun
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline
 from diagnosis.judge.held_out import carried_over, channel_fits
+from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, is_small, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
@@ -41,7 +41,7 @@ from diagnosis.models.cosimulation.unit_laws import identifiers
 from diagnosis.models.fabric.model import FabricModel
 from diagnosis.models.fabric.search import search_fabric
 from diagnosis.models.wrappers.biased import with_biases
-from diagnosis.models.wrappers.tempered import untempered
+from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
 from diagnosis.report.user_units import written_units
@@ -52,7 +52,7 @@ from diagnosis.ways import is_cheap, other_ways
 
 
 @dataclass(frozen=True)
-class Means:
+class Options:
     """What a diagnosis works with.
 
     Args:
@@ -89,7 +89,7 @@ class Means:
 
 
 @dataclass(frozen=True)
-class Found:
+class Result:
     """A diagnosis with what figures of it need.
 
     Args:
@@ -113,8 +113,8 @@ def diagnose(
     held_out: Sequence[Recording],
     settings: Settings,
     on_progress: Callable[[str], None] = lambda text: None,
-    means: Means = Means(),
-) -> Found:
+    options: Options = Options(),
+) -> Result:
     """Find out what a scenario leaves out.
 
     Args:
@@ -124,19 +124,19 @@ def diagnose(
             were left out of fits judge.
         settings: Of the search.
         on_progress: Told what is being done.
-        means: What it works with.
+        options: What it works with.
 
     Raises:
         InputError: A recording does not fit the scenario, or the scenario is none that can be diagnosed.
     """
     begin = clock.perf_counter()
-    known = means.catalogue()
+    known = options.catalogue()
     both = distinct([*training, *held_out])
     training, held_out = both[: len(training)], both[len(training) :]
-    model, judge = models_of(scenario, training, held_out, known, means.threads, means.without, means.batches)
+    model, judge = models_of(scenario, training, held_out, known, options.threads, options.without, options.batches)
     on_progress("checking that recordings and scenario are of the same experiment")
     doubts = check_recordings(scenario, both)
-    if means.is_checked and of_another_experiment(doubts):
+    if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
     given = model
@@ -166,19 +166,21 @@ def diagnose(
     units = written_units([r.units for r in both])
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
-    tried = searched(model, scenario, means.without, outcome.base.point)
+    tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
-    if not means.is_brief:
+    if not options.is_brief:
         on_progress("finding out what these channels can tell apart")
         told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])
         on_progress("driving each unit alone")
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")
-        experiment = next_experiment(scenario, model, training, outcome, accepted, means.limits)
-    first, left = (untempered(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
+        experiment = next_experiment(scenario, model, training, outcome, accepted, options.limits)
+    first, left = (
+        plain_likelihood(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point)
+    )
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, why_open(outcome, found, right, tried, doubts), doubts, units),
@@ -208,7 +210,7 @@ def diagnose(
         doubts=doubts,
         units=units.written,
     )
-    return Found(diagnosis, model, judge, points, carried)
+    return Result(diagnosis, model, judge, points, carried)
 
 
 def _unsearched(
@@ -218,7 +220,7 @@ def _unsearched(
     doubts: tuple[Doubt, ...],
     settings: Settings,
     seconds: float,
-) -> Found:
+) -> Result:
     """The answer where recordings and scenario are not of the same experiment: nothing is fitted."""
     (model, training), (judge, held_out) = fitted, judged
     points = dict.fromkeys(("before", "recalibrated", "after"), Point(np.zeros(len(model.parameters))))
@@ -249,7 +251,7 @@ def _unsearched(
         doubts=doubts,
         units=written_units([r.units for r in (*training, *held_out)]).written,
     )
-    return Found(diagnosis, model, judge, points, carried)
+    return Result(diagnosis, model, judge, points, carried)
 
 
 def _searched(

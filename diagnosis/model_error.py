@@ -14,7 +14,7 @@ from cosim.unit.protocol import Array
 from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
-from diagnosis.models.wrappers.tempered import BELIEVED, TemperedModel, inflation
+from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -57,14 +57,14 @@ def search_with_model_error(
     if factor.max() <= BELIEVED:
         return outcome, model
     on_progress("searching again: no model meets the readings within their noise")
-    faults = _earned_faults(TemperedModel(LawsOnly(model), factor), outcome)
+    faults = _earned_faults(QuasiLikelihoodModel(LawsOnly(model), factor), outcome)
     if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for
         outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
         factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     model = GivenFaults(model, faults)
     first = outcome
     outcome = _laws_alone(outcome)
-    found = TemperedModel(model, factor)
+    found = QuasiLikelihoodModel(model, factor)
     if len(model.layout.time) * len(model.parameters) < MANY:
         outcome = _validated(found, settings, on_progress)
     else:
@@ -72,14 +72,14 @@ def search_with_model_error(
     raw = bounded(model.residuals([outcome.best.fit.point])[0])
     larger = pooled(inflation(raw, model.layout), model.layout)
     if np.any(larger >= FAR * factor):
-        found = TemperedModel(model, np.maximum(factor, larger))
+        found = QuasiLikelihoodModel(model, np.maximum(factor, larger))
         outcome = refitted(found, outcome)
     if faults:
         outcome, found = _with_faults(found, outcome, faults)
     return replace(outcome, first=first), found
 
 
-def _earned_faults(model: TemperedModel, outcome: Outcome) -> dict[Term, tuple[float, ...]]:
+def _earned_faults(model: QuasiLikelihoodModel, outcome: Outcome) -> dict[Term, tuple[float, ...]]:
     """Faults of a first search that are worth their price even where the model errs as it does, with their values."""
     faults = faults_of(outcome.best.fit.point)
     if not faults:
@@ -98,12 +98,12 @@ def _laws_alone(outcome: Outcome) -> Outcome:
 
 
 def _with_faults(
-    model: TemperedModel, outcome: Outcome, faults: Mapping[Term, tuple[float, ...]]
-) -> tuple[Outcome, TemperedModel]:
+    model: QuasiLikelihoodModel, outcome: Outcome, faults: Mapping[Term, tuple[float, ...]]
+) -> tuple[Outcome, QuasiLikelihoodModel]:
     """Laws and faults fitted together, and the model that looks for neither."""
     inner = model.inner
     assert isinstance(inner, GivenFaults)
-    whole = TemperedModel(LawsOnly(inner.inner), model.inflation)
+    whole = QuasiLikelihoodModel(LawsOnly(inner.inner), model.inflation)
 
     def beside(one: Explanation) -> Explanation:
         point = one.fit.point
@@ -114,7 +114,7 @@ def _with_faults(
     return _settled(whole, outcome, recalibrate(whole), best, near), whole
 
 
-def refitted(model: TemperedModel, outcome: Outcome) -> Outcome:
+def refitted(model: QuasiLikelihoodModel, outcome: Outcome) -> Outcome:
     """What was found with larger errors: intervals grow, and terms that are not earned any more go.
 
     It is not searched again: which laws predict does not hang on the size of the errors, and with larger ones the
@@ -126,7 +126,7 @@ def refitted(model: TemperedModel, outcome: Outcome) -> Outcome:
     return _settled(model, outcome, base, best, [Explanation(fit(model, e.fit.point)) for e in near])
 
 
-def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
+def _validated(model: QuasiLikelihoodModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
     """Search plain laws, and all where none of them predicts better; take what predicts best."""
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
     known: list[Validated] = []
@@ -150,7 +150,7 @@ def _validated(model: TemperedModel, settings: Settings, on_progress: Callable[[
     return _settled(model, outcome, outcome.base, explanation, near)
 
 
-def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], None]) -> Outcome:
+def _weighed(model: QuasiLikelihoodModel, first: Outcome, on_progress: Callable[[str], None]) -> Outcome:
     """Of what the first search found, the part that predicts: its terms and every choice of them, and its rivals."""
     margin = first.margin
     terms = first.best.terms
@@ -174,7 +174,7 @@ def _weighed(model: TemperedModel, first: Outcome, on_progress: Callable[[str], 
 
 
 def _settled(
-    model: TemperedModel, outcome: Outcome, base: Fit, best: Explanation, near: Sequence[Explanation]
+    model: QuasiLikelihoodModel, outcome: Outcome, base: Fit, best: Explanation, near: Sequence[Explanation]
 ) -> Outcome:
     """The outcome with another base, another best explanation, and its rivals, each once and best first."""
     return replace(
@@ -188,7 +188,7 @@ def _settled(
 
 
 def _exchanged(
-    model: TemperedModel, found: Explanation, terms: Sequence[Term], settings: Settings, margin: float
+    model: QuasiLikelihoodModel, found: Explanation, terms: Sequence[Term], settings: Settings, margin: float
 ) -> list[Explanation]:
     """Explanations with another term in the place of one of several; the search did not meet them all on its way."""
     others: list[Explanation] = []

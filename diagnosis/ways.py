@@ -15,7 +15,7 @@ from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import pooled, refitted
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.tempered import BELIEVED, TemperedModel, inflation
+from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.complete import completed
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
@@ -76,5 +76,5 @@ def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, Diagnosis
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     if factor.max() <= BELIEVED:
         return outcome, model
-    found = TemperedModel(model, factor)
+    found = QuasiLikelihoodModel(model, factor)
     return refitted(found, outcome), found

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from cosim.run_folder import writing
 from cosim.scenario import Scenario
-from diagnosis.amend.judged import judged
+from diagnosis.amend.evaluate import evaluate_amended_model
 from diagnosis.curves import curves
-from diagnosis.diagnose import Found
+from diagnosis.diagnose import Result
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.models.build import strings_of
@@ -20,7 +20,7 @@ from diagnosis.report.network import Network
 from diagnosis.report.page import write_html
 
 
-def write_outputs(found: Found, scenario: Scenario, held_out: Sequence[Recording], out: Path) -> Diagnosis:
+def write_outputs(found: Result, scenario: Scenario, held_out: Sequence[Recording], out: Path) -> Diagnosis:
     """Write the amended model, next_experiment/scenario.yaml where one was designed, report.html and diagnosis.json.
 
     Args:
@@ -40,7 +40,9 @@ def write_outputs(found: Found, scenario: Scenario, held_out: Sequence[Recording
         out.mkdir(parents=True, exist_ok=True)
         points = found.points, found.held_out_points
         if diagnosis.verdict is not Verdict.RECORDING_FAULT:  # else there is nothing to amend
-            diagnosis = judged(diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended")
+            diagnosis = evaluate_amended_model(
+                diagnosis, scenario, (found.training, found.judge), points, held_out, out / "amended"
+            )
         if diagnosis.next_experiment is not None:
             written = write_experiment(scenario, diagnosis.next_experiment, out / "next_experiment")
             diagnosis = replace(diagnosis, next_experiment=written)

@@ -22,7 +22,7 @@ from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import GRAVITY
-from diagnosis.models.wrappers.tempered import TemperedModel
+from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -92,7 +92,7 @@ def open_explanations(outcome: Outcome) -> Open | None:
     return Open(found, probabilities([e.demerit for e in found])) if near else None
 
 
-def judged(outcome: Outcome, accepted: Accepted) -> Outcome:
+def _as_accepted(outcome: Outcome, accepted: Accepted) -> Outcome:
     """The outcome as it stands after readings have judged that it was not fitted to.
 
     Open are then those whose odds, of training and unfitted readings together, are not below 1 to 20; where nothing is
@@ -127,10 +127,10 @@ def next_experiment(
     limits: Mapping[str, float],
 ) -> NextExperiment | None:
     """What would decide about explanations that are left open, where the coil network can simulate it; see `design`."""
-    question = open_explanations(judged(outcome, accepted))
+    question = open_explanations(_as_accepted(outcome, accepted))
     inflation = None
     while isinstance(model, WrappedModel):
-        inflation = model.inflation if isinstance(model, TemperedModel) else inflation
+        inflation = model.inflation if isinstance(model, QuasiLikelihoodModel) else inflation
         model = model.inner
     if question is None or not isinstance(model, CoilNetworkModel):
         return None

@@ -142,9 +142,9 @@ class FaultyModel(WrappedModel):
         readings = self.sensor_terms.get(term)
         return None if readings is None else ((readings.number,), False)
 
-    def unseen(self, term: Term) -> Sequence[float]:
+    def scale_uncertainty(self, term: Term) -> Sequence[float]:
         """See `DiagnosisModel`."""
-        return super().unseen(term) if term.recording is None else (0.0,) * len(term.parameters)
+        return super().scale_uncertainty(term) if term.recording is None else (0.0,) * len(term.parameters)
 
     def predict(self, point: Point, run: int) -> Sequence[Array]:
         """Simulated values of every channel of a recording at its samples, SI, as its sensors read them."""

@@ -156,7 +156,7 @@ def accept(
         worst = min(failing, key=lambda t: judged[t][0].total)
         reasons[worst] = judged[worst][1]
         current = _without(model, outcome, current, worst)
-    if not current.terms:  # where the last terms went together, their fit may have ended in another valley
+    if not current.terms:  # where the last terms went together, their fit may have ended in another ridge
         current = Explanation(outcome.base)
     after = judge.predict(current.fit.point)
     readings = unfitted.readings

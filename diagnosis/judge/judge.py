@@ -34,7 +34,7 @@ from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import has_bins, raw_residuals
 from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.wrappers.tempered import untempered
+from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
 from diagnosis.report.display import words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
@@ -320,7 +320,7 @@ def _finding(
     effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     when = since(term, fit, model, doubt, units)
-    found = estimates(fit, term, doubt, model.unseen(term))
+    found = estimates(fit, term, doubt, model.scale_uncertainty(term))
     told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
     doubts = (*unidentified(term, fit, told, units), *implausible(term, fit.point.terms[term], units))
     if isinstance(candidate, CandidateTerm):
@@ -395,7 +395,7 @@ def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
     point = fit.point
     if has_bins(model):
         return np.asarray(model.residuals([point.without(term)])[0] - fit.residuals)  # bins of a fabric
-    inner = untempered(model)
+    inner = plain_likelihood(model)
     used = np.concatenate([s.used for run in model.runs for s in run.series])
     return np.where(used, raw_residuals(inner, point.without(term)) - raw_residuals(inner, point), 0.0)
 
@@ -483,14 +483,16 @@ def _doubt(outcome: Outcome) -> float:
     return max(1.0, float(spread), abs(outcome.left.z) / outcome.left.limit)
 
 
-def estimates(fit: Fit, term: Term, doubt: float = 1.0, unseen: Sequence[float] = ()) -> tuple[Estimate, ...]:
+def estimates(
+    fit: Fit, term: Term, doubt: float = 1.0, scale_uncertainty: Sequence[float] = ()
+) -> tuple[Estimate, ...]:
     """Parameters of a term with 95 % intervals, cut at their bounds.
 
     Args:
         fit: The fit; the curvature of its posterior gives the intervals.
         term: One of its terms.
         doubt: Factor on the intervals.
-        unseen: Relative deviation of each parameter that the recordings cannot show; empty: none.
+        scale_uncertainty: Relative deviation of each parameter that the recordings cannot show; empty: none.
     """
     covariance = fit.covariance
     begin = len(fit.point.base)
@@ -501,7 +503,7 @@ def estimates(fit: Fit, term: Term, doubt: float = 1.0, unseen: Sequence[float] 
     found = []
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
         seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
-        half = NORMAL_95 * float(np.hypot(seen, value * unseen[i] if unseen else 0.0))
+        half = NORMAL_95 * float(np.hypot(seen, value * scale_uncertainty[i] if scale_uncertainty else 0.0))
         lower, upper = max(value - half, p.lower), min(value + half, p.upper)
         physical = None
         if p.physical is not None:

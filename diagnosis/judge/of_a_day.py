@@ -13,7 +13,7 @@ import numpy as np
 from diagnosis.judge.unfitted import raw_residuals, readings_of
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.wrappers.tempered import untempered
+from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
 from diagnosis.search.problem import Point, Term
 
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
@@ -69,7 +69,7 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     if term.recording is None:
         return ""
     _, begin, end = point.terms[term]
-    inner = untempered(model)
+    inner = plain_likelihood(model)
     left = raw_residuals(inner, point)
     change = raw_residuals(inner, point.without(term)) - left
     readings = readings_of(model.runs, [""] * len(model.runs))

@@ -20,7 +20,7 @@ from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.unfitted import raw_residuals
 from diagnosis.models.build import DiagnosisModel, timeline_of
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.tempered import untempered
+from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
 from diagnosis.search.problem import Point, Term, strength_slopes
 
 #: Sum of squared differences, in deviations of the noise, that odds of 20 to 1 ask for: 2 ln 20.
@@ -110,7 +110,7 @@ def _likely(model: DiagnosisModel, point: Point, term: Term, others: Sequence[Te
             tasks.append((other, (other.parameters[0].starts[0], *rest)))
     if not tasks:
         return found
-    inner, without = untempered(model), point.without(term)
+    inner, without = plain_likelihood(model), point.without(term)
     here = np.asarray(inner.residuals([without])[0])
     response = np.asarray(inner.residuals([point])[0]) - here
     slopes = np.asarray(strength_slopes(inner, without, here, tasks), dtype=np.float64)
@@ -197,7 +197,7 @@ def _rows(model: DiagnosisModel, points: Sequence[Point], seen: Array) -> Array:
 
     Zeros of channels are not taken away: what differs at readings that do not count must not spread over the others.
     """
-    inner = untempered(model)
+    inner = plain_likelihood(model)
     return np.array([raw_residuals(inner, p) * seen for p in points])
 
 

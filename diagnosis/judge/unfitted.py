@@ -13,15 +13,15 @@ from typing import Protocol
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.judge.beginning import begun
 from diagnosis.judge.constancy import Constancy, columns_by_terms, constancy
 from diagnosis.judge.held_out import carried_over
-from diagnosis.judge.own_numbers import own_numbers
+from diagnosis.judge.initial_state import begun
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
+from diagnosis.judge.recording_parameters import recording_parameters
 from diagnosis.models.build import DiagnosisModel, RecordedRun
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.wrappers.masked import MaskedModel
-from diagnosis.models.wrappers.tempered import BELIEVED, inflation, untempered
+from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, inflation, plain_likelihood
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
@@ -250,7 +250,7 @@ class HeldOutReadings:
         nominal = {"nominal": Point(np.zeros(len(judge.parameters)))}
         shown = begun(judge, trained, nominal, recordings)[0] if self._has_beginning else judge
         self.readings = readings_of(shown.runs, [r.title for r in recordings])
-        self._own = own_numbers(judge, trained) if getattr(judge, "can_be_fitted", True) else []
+        self._own = recording_parameters(judge, trained) if getattr(judge, "can_be_fitted", True) else []
         self._columns: Array | None = None
 
     def predict(self, point: Point, is_fitted: bool = True) -> Predicted:
@@ -307,7 +307,7 @@ class HeldOutReadings:
         """
         if not _can_be_moved(self._judge) or not _can_be_moved(self._trained):
             return None
-        may = freedom(untempered(self._trained), point, self._judge, predicted.points[0])
+        may = freedom(plain_likelihood(self._trained), point, self._judge, predicted.points[0])
         if not may.directions.shape[1]:
             return None
         columns = may.columns()
@@ -369,7 +369,7 @@ class LeftOutReadings:
         on_progress: Callable[[str], None] = lambda text: None,
     ) -> None:
         self._model, self._parts, self.basis = model, parts, basis
-        self._inner = untempered(model)
+        self._inner = plain_likelihood(model)
         self._on_progress = on_progress
         self.readings = readings_of(model.runs, titles)
 

@@ -11,7 +11,7 @@ from cosim.unit.protocol import Array
 from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.tempered import TemperedModel
+from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Columns, Fit
 from diagnosis.search.problem import Model, Parameter, Point
@@ -74,7 +74,7 @@ def fitted(model: Model, fit: Fit) -> Fitted | None:
     inner: object = model
     inflation = np.ones(len(model.layout.names))
     while isinstance(inner, WrappedModel):
-        if isinstance(inner, TemperedModel):
+        if isinstance(inner, QuasiLikelihoodModel):
             inflation = inner.inflation
         inner = inner.inner
     return Fitted(model, inner, model.parameters, fit, inflation) if isinstance(inner, CoilNetworkModel) else None

@@ -116,7 +116,7 @@ class DiagnosisModel(Protocol):
         """See `diagnosis.search.focus.Local`."""
         ...
 
-    def unseen(self, term: Term) -> Sequence[float]:
+    def scale_uncertainty(self, term: Term) -> Sequence[float]:
         """Relative deviations of its parameters that recordings cannot lower: what scales them leaves no trace."""
         ...
 

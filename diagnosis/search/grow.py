@@ -13,11 +13,11 @@ from cosim.unit.protocol import Array
 from diagnosis.search.explanation import Explanation, Settings
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.focus import focus, unnamed_at
-from diagnosis.search.problem import Model, Point, Term, TermParameter, has_valleys, strength_slopes
+from diagnosis.search.problem import Model, Point, Term, TermParameter, has_ridges, strength_slopes
+from diagnosis.search.ridge import along_ridge
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
 from diagnosis.search.structure import structure
 from diagnosis.search.switches import costs_at, is_strained, nominal_of, switch_scores
-from diagnosis.search.valley import down_valley
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
@@ -140,8 +140,8 @@ def _continued(
 
 
 def _settled(model: Model, found: Fit) -> Fit:
-    """A fit that has gone down the valleys of its laws, where these have any, or tried instants near its own."""
-    return down_valley(model, found) if has_valleys(model) else _with_instants_set(model, found)
+    """A fit that has gone down the ridges of its laws, where these have any, or tried instants near its own."""
+    return along_ridge(model, found) if has_ridges(model) else _with_instants_set(model, found)
 
 
 def _with_intervals_set(model: Model, found: Fit) -> Fit:
@@ -237,7 +237,7 @@ def fitted_with(model: Model, before: Fit, candidate: Score) -> Fit:
         other = int(np.argmin(costs[1:]))
         if costs[1 + other] <= costs[0] or candidate.term.parameters[0].is_switch:
             starts.append(points[other])
-    if candidate.second is not None and has_valleys(model):
+    if candidate.second is not None and has_ridges(model):
         starts.append(before.point.plus(candidate.term, candidate.second))
     return fit_best(model, starts, TRIAL, before, refreshes=0)
 

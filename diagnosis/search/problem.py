@@ -175,12 +175,12 @@ class Model(Protocol):
         ...
 
 
-def has_valleys(model: Model) -> bool:
-    """Whether its laws leave valleys that bend, and it simulates fast enough to go down them.
+def has_ridges(model: Model) -> bool:
+    """Whether its laws leave ridges that bend, and it simulates fast enough to go down them.
 
     A single arm in Bullet says so of itself; fits of coil networks ended where they began, and took 2 s more.
     """
-    return bool(getattr(model, "has_valleys", False))
+    return bool(getattr(model, "has_ridges", False))
 
 
 def limits_of(model: Model, parameter: TermParameter) -> tuple[float, float]:

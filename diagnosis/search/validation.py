@@ -136,7 +136,7 @@ def chosen(found: Sequence[Validated], plain: Collection[Term], margin: float) -
     """Of those that predict as well as the best: the most probable of those with the fewest terms that are not plain.
 
     Few stretches tell little: one that asks for more than the others hold (two heaters on at once, which happens there
-    alone) outweighs the rest. They may refute an explanation; among those that they leave the readings decide, each
+    alone) outweighs the rest. They may reject an explanation; among those that they leave the readings decide, each
     term against the margin.
 
     Args:

@@ -9,8 +9,8 @@ import pytest
 import yaml
 
 from cosim.scenario import load_scenario
-from diagnosis.amend.judged import BY_FREE_RUNS, judged
-from diagnosis.diagnose import Found, Means, diagnose
+from diagnosis.amend.evaluate import BY_FREE_RUNS, evaluate_amended_model
+from diagnosis.diagnose import Options, Result, diagnose
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import TOLERANCE
 from diagnosis.models.coil_network.translate import translate
@@ -45,21 +45,23 @@ def recordings(folder: Path) -> tuple[Recording, Recording]:
 
 
 @pytest.fixture(scope="module")
-def brief(folder: Path, recordings: tuple[Recording, Recording]) -> Found:
+def brief(folder: Path, recordings: tuple[Recording, Recording]) -> Result:
     """Without a search for laws: the model is recalibrated."""
     base = load_scenario(folder / "scenario.yaml")
-    return diagnose(base, recordings[:1], recordings[1:], Settings(most_terms=0), means=Means(is_brief=True, threads=1))
+    return diagnose(
+        base, recordings[:1], recordings[1:], Settings(most_terms=0), options=Options(is_brief=True, threads=1)
+    )
 
 
 @pytest.fixture(scope="module")
-def full(folder: Path, recordings: tuple[Recording, Recording], brief: Found) -> Diagnosis:
+def full(folder: Path, recordings: tuple[Recording, Recording], brief: Result) -> Diagnosis:
     """What a full report adds: the amended model, and held-out fits from free runs of it."""
     base, points = load_scenario(folder / "scenario.yaml"), (brief.points, brief.held_out_points)
     models = brief.training, brief.judge
-    return judged(brief.diagnosis, base, models, points, recordings[1:], folder / "out" / "amended")
+    return evaluate_amended_model(brief.diagnosis, base, models, points, recordings[1:], folder / "out" / "amended")
 
 
-def test_a_full_report_judges_as_a_brief_one(brief: Found, full: Diagnosis) -> None:
+def test_a_full_report_judges_as_a_brief_one(brief: Result, full: Diagnosis) -> None:
     assert full.held_out_by == BY_FREE_RUNS
     assert full.differences == ()
     for short, long in zip(brief.diagnosis.fit, full.fit, strict=True):

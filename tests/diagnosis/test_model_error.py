@@ -10,7 +10,7 @@ import pytest
 
 from diagnosis import model_error
 from diagnosis.model_error import search_with_model_error
-from diagnosis.models.wrappers.tempered import TemperedModel, correlation_time, inflation
+from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel, correlation_time, inflation
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Settings, search
@@ -121,8 +121,8 @@ def test_among_those_that_predict_alike_the_readings_decide_and_each_term_pays_t
     plain = set(bend.terms)
     assert chosen(both, plain, 0.9 * gain).explanation is bend
     assert chosen(both, plain, 1.1 * gain).explanation is start
-    refuted = Validated(bend, readings, losses * 3.0)
-    assert chosen([both[0], refuted], plain, 20.0).explanation is start
+    rejected = Validated(bend, readings, losses * 3.0)
+    assert chosen([both[0], rejected], plain, 20.0).explanation is start
 
 
 class Rig(LineModel):
@@ -151,7 +151,7 @@ def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_agai
     monkeypatch.setattr(model_error, "MANY", 1)
     said: list[str] = []
     outcome, model = search_with_model_error(rig, Settings(), said.append)
-    assert isinstance(model, TemperedModel)
+    assert isinstance(model, QuasiLikelihoodModel)
     assert BEND in outcome.best.terms
     assert WAVE not in outcome.best.terms
     # The same term against errors as large as they are: worth a tenth of what noise alone would make of it.

@@ -225,10 +225,10 @@ def test_intervals_of_torques_hold_the_doubt_about_the_mass(longer):
     model = ClosedLoopModel(load_scenario("pendulum"), [longer])
     damping, tilt = (next(t for t in model.terms() if t.identifier == i) for i in ("viscous_damping", "tilt"))
     found = fit(model, Point(np.zeros(len(model.parameters)), {damping: (1e-4,), tilt: (0.01,)}))
-    (seen,), (whole,) = estimates(found, damping), estimates(found, damping, unseen=(0.015,))
+    (seen,), (whole,) = estimates(found, damping), estimates(found, damping, scale_uncertainty=(0.015,))
     half = np.hypot(seen.upper - seen.value, 1.96 * 0.015 * seen.value)
     assert whole.upper - whole.value == pytest.approx(half, rel=1e-3)
-    assert model.unseen(tilt) == (0.0,)
+    assert model.scale_uncertainty(tilt) == (0.0,)
 
 
 def test_stiction_is_simulated_in_the_steps_of_the_unit():

@@ -30,7 +30,7 @@ LEFT = Remainder("coil[2,5].temperature (steps)", 30.0, 42.0, -7.7, 4.9)
 WHY = "it predicts the readings that judge (held-out recordings) worse: -2 log likelihood rises by 300"
 
 
-def refuted() -> Diagnosis:
+def rejected() -> Diagnosis:
     """A lag that training shows, and that makes the channels held out worse."""
     lag = replace(LAG, is_accepted=False, doubts=(WHY,), held_out_gain=-300.0)
     told = diagnosis(Verdict.CANNOT_TELL)
@@ -83,7 +83,7 @@ def test_units_that_depart_in_nothing_when_driven_alone_are_told_so(tmp_path: Pa
 
 
 def test_what_is_not_accepted_is_told_as_a_suggestion_and_not_as_found(tmp_path: Path) -> None:
-    text = page_of(refuted(), [series()], tmp_path)
+    text = page_of(rejected(), [series()], tmp_path)
     top = text[: text.index("Where and when it would act")]
     for part in (
         "Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); seen 10.0 to 95.0 s",
@@ -102,7 +102,7 @@ def test_what_is_not_accepted_is_told_as_a_suggestion_and_not_as_found(tmp_path:
 
 
 @pytest.mark.parametrize("width", [60, 80, 140])
-@pytest.mark.parametrize("told", [unexplained(), refuted()], ids=["unexplained", "refuted"])
+@pytest.mark.parametrize("told", [unexplained(), rejected()], ids=["unexplained", "rejected"])
 def test_the_summary_says_why_and_what_would_decide(told: Diagnosis, width: int) -> None:
     lines = lines_of(told, width)
     assert len(lines) <= LINES
@@ -117,8 +117,8 @@ def test_an_experiment_that_was_designed_takes_the_place_of_a_repeat(tmp_path: P
     text = page_of(replace(unexplained(), next_experiment=EXPERIMENT), [], tmp_path)
     assert "Staircase for 60 s would decide." in text
     assert "Repeat that recording" not in text
-    # What the held-out recordings refute is not among the rivals of an experiment: both are told.
-    assert "Record a training programme" in page_of(replace(refuted(), next_experiment=EXPERIMENT), [], tmp_path)
+    # What the held-out recordings reject is not among the rivals of an experiment: both are told.
+    assert "Record a training programme" in page_of(replace(rejected(), next_experiment=EXPERIMENT), [], tmp_path)
 
 
 def test_what_an_effect_cannot_be_told_from_stands_at_the_top(tmp_path: Path) -> None:
@@ -148,7 +148,7 @@ def test_findings_are_shaded_in_training_alone() -> None:
 
 
 def test_channels_are_chosen_by_findings_then_by_what_is_left_then_by_the_worst_fit() -> None:
-    told = replace(refuted(), left=(replace(LEFT, channel="coil[4,4].temperature (steps)"),))
+    told = replace(rejected(), left=(replace(LEFT, channel="coil[4,4].temperature (steps)"),))
     fits = [f for f in told.fit if f.is_held_out is False]
     fits[7] = replace(fits[7], chi_square={**fits[7].chi_square, "recalibrated": 50.0})
     assert [fits[i].channel for i in drawn_channels(told, fits)] == [

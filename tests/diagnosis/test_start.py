@@ -9,9 +9,9 @@ from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
 from diagnosis.amend.closed_loop import amend_closed_loop
-from diagnosis.judge.beginning import begun
 from diagnosis.judge.held_out import carried_over, channel_fits
-from diagnosis.judge.own_numbers import own_numbers
+from diagnosis.judge.initial_state import begun
+from diagnosis.judge.recording_parameters import recording_parameters
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import translate
 from diagnosis.models.cosimulation.model import ClosedLoopModel
@@ -150,7 +150,7 @@ def rooms(tmp_path, *truth, said="21 degC", starts="21 degC", **keys):
 
 
 def test_a_thermometer_that_is_off_every_day_is_known_on_the_next(tmp_path):
-    """Room and start 0.4 K above what is read, three days: two are fitted, the third is foretold."""
+    """Room and start 0.4 K above what is read, three days: two are fitted, the third is predicted."""
     base, days = rooms(tmp_path, *["21.4 degC"] * 3, starts="21.4 degC")
     training, judge = network(base, *days[:2]), network(base, days[2])
     point = fitted(training)
@@ -160,7 +160,7 @@ def test_a_thermometer_that_is_off_every_day_is_known_on_the_next(tmp_path):
     assert before > 10.0
     # two days put 2/3 of what both have into what is shared: (1 - 2/3)^2 of the misfit stays
     assert after - 1.0 == pytest.approx((before - 1.0) / 9.0, rel=0.35)
-    assert [judge.parameters[i].name for i in own_numbers(judge, training)] == [
+    assert [judge.parameters[i].name for i in recording_parameters(judge, training)] == [
         "ambient_offset of recording 1",
         "initial_temperature of recording 1",
     ]
@@ -203,8 +203,10 @@ def test_the_room_of_a_day_that_was_fitted_is_known_of_its_other_half(tmp_path):
     whole, half = (float(total(m, carried_over(point, training, m), 0, "ambient_offset")[0]) for m in (judge, stranger))
     assert whole == pytest.approx(1.0, abs=0.1)
     assert half == pytest.approx(0.5, abs=0.1)  # of one day half is expected on another
-    assert [judge.parameters[i].name for i in own_numbers(judge, training)] == ["initial_temperature of recording 1"]
-    assert len(own_numbers(stranger, training)) == 2
+    assert [judge.parameters[i].name for i in recording_parameters(judge, training)] == [
+        "initial_temperature of recording 1"
+    ]
+    assert len(recording_parameters(stranger, training)) == 2
 
 
 def test_a_first_stretch_tells_the_start_of_each_coil(tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cosim.scenario import load_scenario
-from diagnosis.diagnose import Found, Means, diagnose
+from diagnosis.diagnose import Options, Result, diagnose
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.judge.events import event_of
 from diagnosis.search.search import Settings
@@ -20,14 +20,14 @@ pytestmark = pytest.mark.slow
 SETUP = "small"
 
 
-def diagnosed(folder: Path, effects: Sequence[Sequence[Effect]], seed: int = 5) -> Found:
+def diagnosed(folder: Path, effects: Sequence[Sequence[Effect]], seed: int = 5) -> Result:
     """Three recordings that are fitted and one held out."""
     recordings = network.recorded(folder, SETUP, effects, seed)
     scenario = load_scenario(network.SCENARIOS / f"{SETUP}.yaml")
-    return diagnose(scenario, recordings[:3], recordings[3:], Settings(), means=Means(is_brief=True))
+    return diagnose(scenario, recordings[:3], recordings[3:], Settings(), options=Options(is_brief=True))
 
 
-def held_out(found: Found) -> float:
+def held_out(found: Result) -> float:
     """Chi-square per held-out reading with what was found."""
     fits = [f for f in found.diagnosis.fit if f.is_held_out]
     return float(np.average([f.chi_square["after"] for f in fits], weights=[f.samples for f in fits]))

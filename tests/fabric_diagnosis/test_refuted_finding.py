@@ -1,4 +1,4 @@
-"""A finding of a fabric that other readings refute ends in an answer, also when it is resumed."""
+"""A finding of a fabric that other readings reject ends in an answer, also when it is resumed."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def answer(out: Path) -> dict:
     return json.loads((out / "diagnosis.json").read_text(encoding="utf-8"))
 
 
-def test_what_held_out_readings_refute_is_suggested_and_not_accepted_and_so_when_resumed(files, tmp_path):
+def test_what_held_out_readings_reject_is_suggested_and_not_accepted_and_so_when_resumed(files, tmp_path):
     scenario, monday, tuesday = files
     out = tmp_path / "answer"
     given = {

@@ -34,7 +34,7 @@ components:
 @pytest.fixture(scope="session")
 def fmu(tmp_path_factory):
     """`fmu(deed, place)` is the path of an FMU."""
-    return Builder(tmp_path_factory.mktemp("unruly"))
+    return Builder(tmp_path_factory.mktemp("faulty"))
 
 
 @pytest.fixture(autouse=True)
@@ -96,7 +96,7 @@ def isolate():
     """`isolate(path, step_limit=...)` is an isolated unit of an FMU; all are terminated after the test."""
     units = []
 
-    def make(path, name="unruly", settings=None, **limits):
+    def make(path, name="faulty", settings=None, **limits):
         archive = open_fmu(path)
         build = partial(CoSimulationUnit, name, archive, settings or FmuSettings())
         try:

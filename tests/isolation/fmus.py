@@ -11,8 +11,8 @@ import fmpy
 
 MODELS = Path(__file__).resolve().parent / "models"
 _DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="unruly" guid="unruly">
-  <CoSimulation modelIdentifier="unruly" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true"
+<fmiModelDescription fmiVersion="2.0" modelName="faulty" guid="faulty">
+  <CoSimulation modelIdentifier="faulty" canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true"
     canSerializeFMUstate="true" canBeInstantiatedOnlyOncePerProcess="{once}"/>
   <ModelVariables>
     <ScalarVariable name="u" valueReference="0" causality="input" variability="continuous"><Real start="1.0"/>
@@ -42,7 +42,7 @@ class Builder:
         self.build = cache(self._build)
 
     def __call__(self, deed: str = "nothing", place: str = "nowhere", gain: float | None = None, once: bool = False):
-        """FMU that does `deed` at `place` (see unruly.c)."""
+        """FMU that does `deed` at `place` (see faulty.c)."""
         return self.build(deed, place, gain, once)
 
     def _build(self, deed: str, place: str, gain: float | None, once: bool) -> Path:
@@ -69,7 +69,7 @@ class Builder:
             _run([*command, f"-DGAIN={gain}", "-Wl,-soname,libgain.so", "-o", library, MODELS / "gain.c"])
             options.append("-DWITH_GAIN")
             libraries = [f"-L{binaries}", "-lgain", "-Wl,-rpath,$ORIGIN"]
-        _run([*command, *options, "-o", binaries / "unruly.so", MODELS / "unruly.c", *libraries, "-lm"])
+        _run([*command, *options, "-o", binaries / "faulty.so", MODELS / "faulty.c", *libraries, "-lm"])
         (self.folder / name / "modelDescription.xml").write_text(_DESCRIPTION.format(once=str(once).lower()))
         path = self.folder / f"{name}.fmu"
         with zipfile.ZipFile(path, "w") as archive:

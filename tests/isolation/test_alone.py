@@ -16,7 +16,7 @@ from cosim.unit.errors import InputError
 
 
 def test_a_second_run_into_a_folder_is_refused_and_the_first_keeps_its_results(tmp_path, fmu, scenario, start):
-    loaded = scenario({"unruly": fmu("nap", "step")}, stop=20.0)
+    loaded = scenario({"faulty": fmu("nap", "step")}, stop=20.0)
     out = tmp_path / "run"
     first = start("run", loaded.path, "--out", out)
     while not (out / ".run-at-work").exists() and first.poll() is None:
@@ -33,7 +33,7 @@ def test_a_second_run_into_a_folder_is_refused_and_the_first_keeps_its_results(t
 
 
 def test_two_resumed_runs_do_not_meet(tmp_path, fmu, scenario):
-    loaded = scenario({"unruly": fmu()})
+    loaded = scenario({"faulty": fmu()})
     with alone(tmp_path / "run", "run"), pytest.raises(InputError, match="another run is at work"):
         run(loaded, tmp_path / "run", resume=True)
     assert not (tmp_path / "run").exists()  # nothing was written
@@ -41,13 +41,13 @@ def test_two_resumed_runs_do_not_meet(tmp_path, fmu, scenario):
 
 def test_a_run_that_cannot_begin_leaves_no_folder(tmp_path, fmu, scenario):
     with pytest.raises(InputError):
-        run(scenario({"unruly": fmu("give_up", "initialise")}), tmp_path / "run")
+        run(scenario({"faulty": fmu("give_up", "initialise")}), tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
 def test_an_fmu_that_changes_the_working_folder_takes_no_results_with_it(tmp_path, fmu, scenario, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    loaded = scenario({"unruly": fmu("wander", "step")}, isolation="none")
+    loaded = scenario({"faulty": fmu("wander", "step")}, isolation="none")
     run(loaded, Path("run"))
     assert Path(os.getcwd()) == tmp_path
     assert xr.load_dataset(tmp_path / "run" / "results.nc").sizes["time"] == 11

@@ -17,26 +17,26 @@ from .conftest import processes, remaining, rising
 STEP = 10_000_000
 
 IN_A_STEP = {
-    "segfault": r"unruly at t = 0.05 s: its process crashed with SIGSEGV \(segmentation fault\) in fmi2DoStep",
-    "give_up": r"unruly at t = 0.05 s: its process crashed with SIGABRT \(abort\) in fmi2DoStep.*"
+    "segfault": r"faulty at t = 0.05 s: its process crashed with SIGSEGV \(segmentation fault\) in fmi2DoStep",
+    "give_up": r"faulty at t = 0.05 s: its process crashed with SIGABRT \(abort\) in fmi2DoStep.*"
     r"; it printed last: state is inconsistent",
-    "divide": r"unruly at t = 0.05 s: its process crashed with SIGFPE \(arithmetic error\) in fmi2DoStep",
-    "leave": r"unruly at t = 0.05 s: its process ended by itself with exit code 0 in fmi2DoStep",
-    "leave_with_code": r"unruly at t = 0.05 s: its process ended by itself with exit code 7 in fmi2DoStep",
-    "be_killed": r"unruly at t = 0.05 s: its process was ended from outside with SIGKILL in fmi2DoStep",
-    "turn_to_nan": r"unruly at t = 0.0[56] s: output y.* is not (a )?finite",
+    "divide": r"faulty at t = 0.05 s: its process crashed with SIGFPE \(arithmetic error\) in fmi2DoStep",
+    "leave": r"faulty at t = 0.05 s: its process ended by itself with exit code 0 in fmi2DoStep",
+    "leave_with_code": r"faulty at t = 0.05 s: its process ended by itself with exit code 7 in fmi2DoStep",
+    "be_killed": r"faulty at t = 0.05 s: its process was ended from outside with SIGKILL in fmi2DoStep",
+    "turn_to_nan": r"faulty at t = 0.0[56] s: output y.* is not (a )?finite",
 }
 
 
 @pytest.mark.parametrize("deed", IN_A_STEP)
 def test_a_step_that_fails_is_named_and_the_values_before_it_are_kept(tmp_path, fmu, scenario, deed):
     with pytest.raises(RunStopped, match=IN_A_STEP[deed]) as stopped:
-        run(scenario({"unruly": fmu(deed, "step")}), tmp_path / "run")
+        run(scenario({"faulty": fmu(deed, "step")}), tmp_path / "run")
     assert not stopped.value.is_interrupt
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
     assert kept.attrs["status"] == stopped.value.reason
-    assert kept["unruly.y"].values.tolist() == rising(6)
-    assert kept["unruly.steps"].values.tolist() == [0, 1, 2, 3, 4, 5]
+    assert kept["faulty.y"].values.tolist() == rising(6)
+    assert kept["faulty.steps"].values.tolist() == [0, 1, 2, 3, 4, 5]
 
 
 @pytest.mark.parametrize(
@@ -51,30 +51,30 @@ def test_a_step_that_fails_is_named_and_the_values_before_it_are_kept(tmp_path, 
 )
 def test_a_crash_before_the_first_step_is_an_input_error_and_leaves_no_run(tmp_path, fmu, scenario, deed, place, what):
     with pytest.raises(InputError, match=what) as refused:
-        run(scenario({"unruly": fmu(deed, place)}), tmp_path / "run")
-    assert refused.value.key == "components.unruly"
+        run(scenario({"faulty": fmu(deed, place)}), tmp_path / "run")
+    assert refused.value.key == "components.faulty"
     assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize(("place", "function"), [("terminate", "fmi2Terminate"), ("free_instance", "fmi2FreeInstance")])
 def test_a_crash_at_the_end_is_a_warning_and_the_results_are_complete(tmp_path, fmu, scenario, caplog, place, function):
     with caplog.at_level(logging.WARNING):
-        run(scenario({"unruly": fmu("segfault", place)}), tmp_path / "run")
+        run(scenario({"faulty": fmu("segfault", place)}), tmp_path / "run")
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
     assert kept.attrs["status"] == "complete"
-    assert kept["unruly.y"].values.tolist() == rising(11)
+    assert kept["faulty.y"].values.tolist() == rising(11)
     (line,) = caplog.messages
-    assert f"unruly at t = 0.1 s: its process crashed with SIGSEGV (segmentation fault) in {function}" in line
+    assert f"faulty at t = 0.1 s: its process crashed with SIGSEGV (segmentation fault) in {function}" in line
 
 
 def test_a_crash_at_the_end_is_one_line_on_the_command_line(tmp_path, fmu, scenario, start):
-    scenario({"unruly": fmu("segfault", "free_instance")})
+    scenario({"faulty": fmu("segfault", "free_instance")})
     done = start("run", tmp_path / "scenario.yaml", "--out", tmp_path / "run", "--no-plots")
     _, said = done.communicate()
     assert done.returncode == 0
     lines = [line for line in said.splitlines() if "SIGSEGV" in line]
     assert len(lines) == 1
-    assert lines[0].startswith("warning: unruly at t = 0.1 s: its process crashed with SIGSEGV")
+    assert lines[0].startswith("warning: faulty at t = 0.1 s: its process crashed with SIGSEGV")
     assert "Traceback" not in said
 
 
@@ -86,7 +86,7 @@ def test_a_process_that_is_killed_between_two_steps_is_an_error_of_the_next(isol
     (process,) = processes(str(temporary))
     os.kill(process, signal.SIGKILL)
     with pytest.raises(
-        UnitError, match=r"^unruly at t = 0.01 s: its process was ended from outside with SIGKILL during its step"
+        UnitError, match=r"^faulty at t = 0.01 s: its process was ended from outside with SIGKILL during its step"
     ):
         unit.do_step(STEP, STEP)
     with pytest.raises(UnitError, match=r"its process has ended: its process was ended from outside"):
@@ -117,7 +117,7 @@ def test_processes_that_an_fmu_started_end_with_it(isolate, fmu, temporary):
 def test_an_error_of_the_fmu_leaves_its_process_alive(isolate, fmu):
     unit = isolate(fmu())
     unit.initialise(0)
-    with pytest.raises(UnitError, match=r"^unruly: input u.* is not a finite number"):
+    with pytest.raises(UnitError, match=r"^faulty: input u.* is not a finite number"):
         unit.set("u", np.array(np.nan))
     unit.set("u", np.array(2.0))
     unit.exit_initialisation()

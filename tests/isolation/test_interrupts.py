@@ -20,7 +20,7 @@ def wait_for(condition, process):
 
 
 def test_ctrl_c_reaches_the_simulation_alone_and_the_run_can_be_resumed(tmp_path, fmu, scenario, start):
-    scenario({"unruly": fmu("nap", "step")}, stop=30, checkpoint="1 s")
+    scenario({"faulty": fmu("nap", "step")}, stop=30, checkpoint="1 s")
     folder = tmp_path / "run"
     running = start("run", tmp_path / "scenario.yaml", "--out", folder, "--no-plots")
     wait_for(lambda: len(list(folder.glob("checkpoints/*"))) >= 2, running)
@@ -33,15 +33,15 @@ def test_ctrl_c_reaches_the_simulation_alone_and_the_run_can_be_resumed(tmp_path
     resumed = start("run", folder, "--resume", "--no-plots")
     _, said = resumed.communicate()
     assert resumed.returncode == 0, said
-    whole = run(scenario({"unruly": fmu()}, isolation="none", stop=30, checkpoint="1 s"))
+    whole = run(scenario({"faulty": fmu()}, isolation="none", stop=30, checkpoint="1 s"))
     ended = xr.load_dataset(folder / "results.nc")
-    for name in ("unruly.y", "unruly.steps"):
+    for name in ("faulty.y", "faulty.steps"):
         assert ended[name].values.tobytes() == whole[name].values.tobytes()
-    assert kept["unruly.y"].values.tobytes() == whole["unruly.y"].values[: kept.sizes["time"]].tobytes()
+    assert kept["faulty.y"].values.tobytes() == whole["faulty.y"].values[: kept.sizes["time"]].tobytes()
 
 
 def test_a_second_ctrl_c_ends_an_endless_step(tmp_path, fmu, scenario, start):
-    scenario({"unruly": fmu("never_return", "step")})
+    scenario({"faulty": fmu("never_return", "step")})
     folder = tmp_path / "run"
     running = start("run", tmp_path / "scenario.yaml", "--out", folder, "--no-plots")
     wait_for((folder / "scenario.yaml").is_file, running)
@@ -53,7 +53,7 @@ def test_a_second_ctrl_c_ends_an_endless_step(tmp_path, fmu, scenario, start):
     assert running.returncode == 130, said
     assert "interrupted at t = 0.05 s" in said
     assert "warning" not in said
-    assert xr.load_dataset(folder / "results.nc")["unruly.steps"].values.tolist() == [0, 1, 2, 3, 4, 5]
+    assert xr.load_dataset(folder / "results.nc")["faulty.steps"].values.tolist() == [0, 1, 2, 3, 4, 5]
 
 
 @pytest.mark.parametrize("deed", ["nap", "never_return"])

@@ -32,11 +32,11 @@ def with_limits(scenario, **limits):
 
 def test_an_endless_step_is_ended_and_the_values_before_it_are_kept(tmp_path, fmu, scenario):
     limited = with_limits(scenario, step_limit="1.5 s")
-    what = r"^unruly at t = 0.05 s: fmi2DoStep did not return within 1.5 s \(raise isolation.step_limit"
+    what = r"^faulty at t = 0.05 s: fmi2DoStep did not return within 1.5 s \(raise isolation.step_limit"
     with pytest.raises(RunStopped, match=what):
-        run(limited({"unruly": fmu("never_return", "step")}), tmp_path / "run")
+        run(limited({"faulty": fmu("never_return", "step")}), tmp_path / "run")
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
-    assert kept["unruly.y"].values.tolist() == rising(6)
+    assert kept["faulty.y"].values.tolist() == rising(6)
 
 
 @pytest.mark.parametrize(
@@ -50,15 +50,15 @@ def test_an_endless_step_is_ended_and_the_values_before_it_are_kept(tmp_path, fm
 def test_an_endless_beginning_is_an_input_error(tmp_path, fmu, scenario, place, what):
     limited = with_limits(scenario, step_limit="1.5 s")
     with pytest.raises(InputError, match=what) as refused:
-        run(limited({"unruly": fmu("never_return", place)}), tmp_path / "run")
-    assert refused.value.key == "components.unruly"
+        run(limited({"faulty": fmu("never_return", place)}), tmp_path / "run")
+    assert refused.value.key == "components.faulty"
 
 
 def test_an_endless_end_is_a_warning(tmp_path, fmu, scenario, caplog):
     limited = with_limits(scenario, step_limit="1.5 s")
-    run(limited({"unruly": fmu("never_return", "free_instance")}), tmp_path / "run")
+    run(limited({"faulty": fmu("never_return", "free_instance")}), tmp_path / "run")
     (line,) = caplog.messages
-    assert "unruly at t = 0.1 s: fmi2FreeInstance did not return within 1.5 s" in line
+    assert "faulty at t = 0.1 s: fmi2FreeInstance did not return within 1.5 s" in line
     assert xr.load_dataset(tmp_path / "run" / "results.nc").sizes["time"] == 11
 
 
@@ -73,21 +73,21 @@ def test_a_process_that_stands_still_is_ended_too(isolate, fmu, temporary):
 def test_a_leak_ends_at_the_memory_limit_which_is_named(tmp_path, fmu, scenario):
     limited = with_limits(scenario, memory_limit="600 MB")
     what = (
-        r"unruly at t = 0.05 s: its process crashed with SIGSEGV .* in fmi2DoStep; it had used (\d+) MB of the 600 MB"
+        r"faulty at t = 0.05 s: its process crashed with SIGSEGV .* in fmi2DoStep; it had used (\d+) MB of the 600 MB"
     )
     with pytest.raises(RunStopped, match=what) as stopped:
-        run(limited({"unruly": fmu("leak", "step")}), tmp_path / "run")
+        run(limited({"faulty": fmu("leak", "step")}), tmp_path / "run")
     used = float(re.search(what, stopped.value.reason)[1])
     # The last block of 4 MB did not fit. The resident set holds 40 MB of files beside what is limited, lacks what was
     # reserved and not touched, and Linux adds it up late on machines of many processors: 473 MB were seen.
     assert 360 <= used <= 700
     kept = xr.load_dataset(tmp_path / "run" / "results.nc")
-    assert kept["unruly.y"].values.tolist() == rising(6)
+    assert kept["faulty.y"].values.tolist() == rising(6)
 
 
 def test_memory_that_is_never_touched_counts_too_and_a_refusal_names_it(isolate, fmu):
     unit = begin(isolate(fmu("hoard", "step"), memory_limit=600 * MEGABYTE))
-    what = r"^unruly at t = [\d.]+ s: fmi2DoStep returned error: no more memory; it had used (\d+) MB of the 600 MB"
+    what = r"^faulty at t = [\d.]+ s: fmi2DoStep returned error: no more memory; it had used (\d+) MB of the 600 MB"
     with pytest.raises(UnitError, match=what) as refused:
         [unit.do_step(k * STEP, STEP) for k in range(100)]
     # A block of 21 MB did not fit any more.
@@ -97,12 +97,12 @@ def test_memory_that_is_never_touched_counts_too_and_a_refusal_names_it(isolate,
 def test_a_limit_below_what_the_interpreter_needs_is_refused(tmp_path, fmu, scenario):
     limited = with_limits(scenario, memory_limit="5 MB")
     with pytest.raises(InputError, match=r"uses \d+ MB before the FMU is loaded, more than its limit of 5 MB"):
-        run(limited({"unruly": fmu()}), tmp_path / "run")
+        run(limited({"faulty": fmu()}), tmp_path / "run")
 
 
 def test_a_flood_of_output_neither_blocks_nor_reaches_the_terminal(tmp_path, fmu, scenario, capfd):
-    dataset = run(scenario({"unruly": fmu("flood", "step")}))
-    assert dataset["unruly.y"].values.tolist() == rising(11)
+    dataset = run(scenario({"faulty": fmu("flood", "step")}))
+    assert dataset["faulty.y"].values.tolist() == rising(11)
     assert capfd.readouterr() == ("", "")
 
 

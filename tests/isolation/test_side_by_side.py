@@ -97,7 +97,7 @@ def test_an_fmu_that_may_exist_once_per_process_can_exist_twice(fmu, scenario, m
         assert dataset[f"{name}.y"].values.tolist() == rising(11)
         # Static variables of the library are not shared either.
         assert dataset[f"{name}.calls_in_process"].values.tolist() == list(range(11))
-    monkeypatch.setenv("UNRULY_IS_LOADED", "1")  # as the first leaves it; set here to be taken back after the test
+    monkeypatch.setenv("FAULTY_IS_LOADED", "1")  # as the first leaves it; set here to be taken back after the test
     with pytest.raises(InputError):
         run(scenario(both, isolation="none"))
 
@@ -105,7 +105,7 @@ def test_an_fmu_that_may_exist_once_per_process_can_exist_twice(fmu, scenario, m
 def test_units_step_at_the_same_time_between_begin_step_and_finish_step(fmu, isolate, tmp_path, monkeypatch):
     # Each step returns only once both have begun it.
     (tmp_path / "meeting").mkdir()
-    monkeypatch.setenv("UNRULY_FOLDER", str(tmp_path / "meeting"))
+    monkeypatch.setenv("FAULTY_FOLDER", str(tmp_path / "meeting"))
     units = [isolate(fmu("meet", "step"), name=name, step_limit=60.0) for name in ("first", "second")]
     for unit in units:
         unit.initialise(0)
@@ -120,7 +120,7 @@ def test_units_step_at_the_same_time_between_begin_step_and_finish_step(fmu, iso
 
 def test_a_step_that_waits_for_another_unit_is_never_finished_one_after_the_other(fmu, isolate, tmp_path, monkeypatch):
     (tmp_path / "meeting").mkdir()
-    monkeypatch.setenv("UNRULY_FOLDER", str(tmp_path / "meeting"))
+    monkeypatch.setenv("FAULTY_FOLDER", str(tmp_path / "meeting"))
     unit = isolate(fmu("meet", "step"), step_limit=1.5)
     unit.initialise(0)
     unit.exit_initialisation()
@@ -142,6 +142,6 @@ def test_a_crash_of_one_leaves_the_other_running(fmu, isolate):
 
 
 def test_the_record_of_a_run_names_the_file_of_an_isolated_fmu(fmu, scenario, tmp_path):
-    run(scenario({"unruly": fmu()}), tmp_path / "run")
+    run(scenario({"faulty": fmu()}), tmp_path / "run")
     written = "".join(p.read_text() for p in (tmp_path / "run").glob("*.json"))
     assert "nothing_nowhere.fmu, sha256" in written

@@ -172,7 +172,7 @@ def test_a_defect_of_the_unit_is_reported_with_the_end_of_its_traceback(echo):
     ("error", "kind", "what"),
     [
         ("input", InputError, r"^file.fmu: modelDescription.xml: it is damaged\n  remedy: export it again$"),
-        ("unit", UnitError, r"^unruly: there is no licence \(buy one\)$"),
+        ("unit", UnitError, r"^faulty: there is no licence \(buy one\)$"),
         ("other", UnitError, r"^unit: RuntimeError: a defect in the construction; it printed last: "),
     ],
 )

@@ -130,5 +130,5 @@ def refusing(error: str) -> Unit:
     if error == "input":
         raise InputError("file.fmu", "modelDescription.xml", "it is damaged", "export it again")
     if error == "unit":
-        raise UnitError("unruly", "there is no licence", remedy="buy one")
+        raise UnitError("faulty", "there is no licence", remedy="buy one")
     raise RuntimeError("a defect in the construction")

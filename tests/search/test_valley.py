@@ -1,11 +1,11 @@
-"""A law whose numbers show as a product of powers: a fit goes down its bent valley."""
+"""A law whose numbers show as a product of powers: a fit goes down its bent ridge."""
 
 import numpy as np
 import pytest
 
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.search.valley import FACTORS, along, down_valley
+from diagnosis.search.ridge import FACTORS, along, along_ridge
 
 STICTION = Term(
     "stiction",
@@ -38,13 +38,13 @@ class Loss:
 
 
 def stuck():
-    """A fit that stopped after few steps, far along the valley."""
+    """A fit that stopped after few steps, far along the ridge."""
     return fit(Loss(), Point(np.array([0.2]), {STICTION: (0.96, 1.0)}), iterations=1)
 
 
 def test_a_fit_that_stopped_half_way_is_led_to_the_bottom():
     before = stuck()
-    found = down_valley(Loss(), before)
+    found = along_ridge(Loss(), before)
     assert before.cost > 5.0
     assert found.point.terms[STICTION] == pytest.approx(TRUE, rel=1e-3)
 
@@ -62,4 +62,4 @@ def test_the_points_keep_the_product_that_the_data_show():
 def test_a_fit_at_the_bottom_stays_there():
     model = Loss()
     found = fit(model, Point(np.zeros(1), {STICTION: TRUE}))
-    assert down_valley(model, found).cost == pytest.approx(found.cost, abs=1e-9)
+    assert along_ridge(model, found).cost == pytest.approx(found.cost, abs=1e-9)

@@ -81,7 +81,7 @@ class Lines(LineModel):
     def shows_in(self, term: Term) -> None:
         return None
 
-    def unseen(self, term: Term) -> tuple[float, ...]:
+    def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         return (0.0,) * len(term.parameters)
 
     def groups(self) -> dict[str, AnyArray]:

@@ -23,7 +23,7 @@ from benchmarks.models.build import build_one
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario, parse_scenario
 from cosim.yaml_file import parse_yaml, read_text
-from diagnosis.diagnose import Means, diagnose
+from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Standing, Verdict
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
@@ -97,7 +97,7 @@ def keeps_what_it_says(told: Diagnosis) -> None:
 def answers(scenario: Path, training: Recording, judge: Recording) -> tuple[Diagnosis, Diagnosis]:
     """In brief and in full: the verdict is the same."""
     given_to = load_scenario(str(scenario)), [training], [judge], Settings(nulls=1)
-    return tuple(diagnose(*given_to, means=Means(is_brief=brief)).diagnosis for brief in (True, False))  # type: ignore[return-value]
+    return tuple(diagnose(*given_to, options=Options(is_brief=brief)).diagnosis for brief in (True, False))  # type: ignore[return-value]
 
 
 NOISE = {"coil[1,1].temperature": "0.25 K", "coil[2,1].temperature": "0.25 K", "supply.current": "2 mA"}
@@ -201,7 +201,7 @@ def stays_in_disguise(scenario: Path, training: Recording, judge: Recording, fol
     """Clocks in minutes and other columns change neither the verdict nor what was found."""
     others = [disguised(r, folder / f"{r.path.name}_disguised") for r in (training, judge)]
     again = diagnose(
-        load_scenario(str(scenario)), others[:1], others[1:], Settings(nulls=1), means=Means(is_brief=True)
+        load_scenario(str(scenario)), others[:1], others[1:], Settings(nulls=1), options=Options(is_brief=True)
     )
     assert again.diagnosis.verdict is told.verdict
     assert {(f.effect, f.place) for f in again.diagnosis.accepted} == {(f.effect, f.place) for f in told.accepted}
@@ -321,7 +321,7 @@ def test_the_amended_scenario_of_a_diagnosis(tmp_path: Path) -> None:
     handed = write_outputs(first, load_scenario(str(RIG)), days[1:], tmp_path / "out")
     assert handed.amended_model is not None
     told = diagnose(
-        load_scenario(handed.amended_model), days[:1], days[1:], Settings(nulls=1), means=Means(is_brief=True)
+        load_scenario(handed.amended_model), days[:1], days[1:], Settings(nulls=1), options=Options(is_brief=True)
     )
     keeps_what_it_says(told.diagnosis)
     assert not told.diagnosis.findings
@@ -329,13 +329,13 @@ def test_the_amended_scenario_of_a_diagnosis(tmp_path: Path) -> None:
     assert not told.diagnosis.adequacy.is_rejected
 
 
-def test_a_fabric_whose_finding_the_held_out_recording_refutes(tmp_path: Path) -> None:
+def test_a_fabric_whose_finding_the_held_out_recording_rejects(tmp_path: Path) -> None:
     """The links of the training have more play than those of the held-out recording, which the scenario describes."""
     scenario = load_scenario(str(DRAPE))
     channels = [f"marker[{i}].{axis}" for i in range(3, 7) for axis in "xz"]
     training = made(tmp_path / "monday", 3, channels, scenario, tolerance="1.4 mm")
     judge = made(tmp_path / "tuesday", 4, channels, scenario)
-    told = diagnose(scenario, [training], [judge], Settings(nulls=1), means=Means(is_brief=True)).diagnosis
+    told = diagnose(scenario, [training], [judge], Settings(nulls=1), options=Options(is_brief=True)).diagnosis
     keeps_what_it_says(told)
     assert not told.accepted
     assert "scatter of the contacts" in told.statement or "reject" in told.statement

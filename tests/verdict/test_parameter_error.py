@@ -20,7 +20,7 @@ from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.models.cosimulation.model import ClosedLoopModel
-from diagnosis.models.wrappers.tempered import TemperedModel
+from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point, Term
@@ -150,7 +150,7 @@ def test_large_errors_of_a_model_are_no_excuse_for_it():
     training, judge = Lines(truth, 1), Lines(truth + 0.2 * TIME, 2)
     point = fit(training, Point(np.zeros(2))).point
     plain = held_out(judge, training)
-    tempered = held_out(judge, TemperedModel(training, np.array([1e4])))  # type: ignore[arg-type]
+    tempered = held_out(judge, QuasiLikelihoodModel(training, np.array([1e4])))  # type: ignore[arg-type]
     first, second = (u.tested(point, u.predict(point)) for u in (plain, tempered))
     assert first is not None
     assert second is not None

@@ -177,7 +177,7 @@ class CoilNetworkModel:
             self._shown[term] = self._shows_in(*self._places[term])
         return self._shown[term]
 
-    def unseen(self, term: Term) -> tuple[float, ...]:
+    def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         """See `DiagnosisModel`: every scale of a network is a parameter that is fitted."""
         return (0.0,) * len(term.parameters)
 

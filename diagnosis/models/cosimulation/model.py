@@ -127,8 +127,8 @@ class ClosedLoopModel:
         return () if self.system_laws is None else self.system_laws.untried
 
     @property
-    def has_valleys(self) -> bool:
-        """See `diagnosis.search.problem.has_valleys`."""
+    def has_ridges(self) -> bool:
+        """See `diagnosis.search.problem.has_ridges`."""
         return isinstance(self.model, PendulumModel)
 
     @property
@@ -161,7 +161,7 @@ class ClosedLoopModel:
         """A law of a unit is not local to a channel."""
         return
 
-    def unseen(self, term: Term) -> tuple[float, ...]:
+    def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         """See `diagnosis.models.build.DiagnosisModel`."""
         return tuple(self._torque_scale if p.unit.startswith(TORQUE) else 0.0 for p in term.parameters)
 

@@ -225,7 +225,7 @@ class FabricModel:
         """See `diagnosis.search.focus.Local`."""
         return None if term in self._laws or self.network is None else self.network.shows_in(term)
 
-    def unseen(self, term: Term) -> tuple[float, ...]:
+    def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         """See `DiagnosisModel`: masses are taken as given."""
         return (0.0,) * len(term.parameters)
 

@@ -91,7 +91,7 @@ class PendulumModel(CosimModel):
         """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
 
         A free swing shows ratios to the inertia alone. So varied, the mass does nothing but scale torques; were it
-        varied by itself, it and the length would do the same, and a fit would crawl along the valley between them.
+        varied by itself, it and the length would do the same, and a fit would crawl along the ridge between them.
         """
         found = super().changes_at(point, number)
         parameters = {component: dict(own) for component, own in found.parameters.items()}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.models.build import DiagnosisModel, Effect, RecordedRun, Spot
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Layout, Parameter, Point, Term, has_valleys, strength_slopes
+from diagnosis.search.problem import Layout, Parameter, Point, Term, has_ridges, strength_slopes
 from diagnosis.search.score import Projection, Scoring
 
 #: What wrapping models make of changes of some residuals of the inner one: rows, shape (k, residuals), and which.
@@ -94,18 +94,18 @@ class WrappedModel:
         return self.inner.shows_in(term)
 
     @property
-    def has_valleys(self) -> bool:
-        """See `diagnosis.search.problem.has_valleys`."""
-        return has_valleys(self.inner)
+    def has_ridges(self) -> bool:
+        """See `diagnosis.search.problem.has_ridges`."""
+        return has_ridges(self.inner)
 
     @property
     def can_be_fitted(self) -> bool:
         """See `diagnosis.models.fabric.model.FabricModel`."""
         return bool(getattr(self.inner, "can_be_fitted", True))
 
-    def unseen(self, term: Term) -> Sequence[float]:
+    def scale_uncertainty(self, term: Term) -> Sequence[float]:
         """See `DiagnosisModel`."""
-        return self.inner.unseen(term)
+        return self.inner.scale_uncertainty(term)
 
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels that are looked at together, by name."""

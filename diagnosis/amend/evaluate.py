@@ -33,7 +33,7 @@ from diagnosis.search.problem import Point
 BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 
 
-def judged(
+def evaluate_amended_model(
     diagnosis: Diagnosis,
     scenario: Scenario,
     models: tuple[DiagnosisModel, DiagnosisModel | None],
@@ -60,11 +60,11 @@ def judged(
         KeyboardInterrupt: The user stopped it.
     """
     begin = clock.perf_counter()
-    found = _judged(diagnosis, scenario, models, points, held_out, folder)
+    found = _evaluate(diagnosis, scenario, models, points, held_out, folder)
     return replace(found, seconds=found.seconds + clock.perf_counter() - begin)
 
 
-def _judged(
+def _evaluate(
     diagnosis: Diagnosis,
     scenario: Scenario,
     models: tuple[DiagnosisModel, DiagnosisModel | None],

@@ -1,7 +1,7 @@
-"""Down a valley that bends: two numbers of a law of which the recordings show a product of powers.
+"""Down a ridge that bends: two numbers of a law of which the recordings show a product of powers.
 
 What stiction takes per swing is about its torque times the square of its speed. Steps along straight lines leave such
-a valley at once and end where they began; in logarithms it is straight.
+a ridge at once and end where they began; in logarithms it is straight.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Model, Point
 from diagnosis.search.switches import costs_at
 
-#: Factors on a number by which the valley is looked along.
+#: Factors on a number by which the ridge is looked along.
 FACTORS = (0.5, 0.7, 0.85, 1.2, 1.4, 2.0)
-#: Points within this of the fit [-2 log posterior] are worth another fit: beyond it the valley has walls.
+#: Points within this of the fit [-2 log posterior] are worth another fit: beyond it the ridge has walls.
 NEAR = 12.0
 #: What another fit must lower -2 log posterior by to be gone on from, and how often.
 WORTH, ROUNDS = 0.3, 3
 
 
-def down_valley(model: Model, found: Fit) -> Fit:
-    """The fit, or a better one that lies along the valleys of its terms.
+def along_ridge(model: Model, found: Fit) -> Fit:
+    """The fit, or a better one that lies along the ridges of its terms.
 
     Args:
         model: Model and training recordings.
@@ -43,7 +43,7 @@ def down_valley(model: Model, found: Fit) -> Fit:
 
 
 def along(found: Fit) -> list[Point]:
-    """Points along the valleys of a fit: one number of a term by a factor, all others as they go with it.
+    """Points along the ridges of a fit: one number of a term by a factor, all others as they go with it.
 
     Numbers of terms go in logarithms where they and their lower bounds are not negative, the model's own in a straight
     line. Instants and first numbers (strengths) are not led: others lead them.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.unit.protocol import AnyArray
-from diagnosis.judge.own_numbers import OwnNumbers, own_numbers
+from diagnosis.judge.recording_parameters import OwnNumbers, recording_parameters
 from diagnosis.models.build import DiagnosisModel, RecordedRun
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
@@ -37,7 +37,7 @@ class _Run:
     series: tuple[_Series, ...]
 
 
-class BegunModel(WrappedModel):
+class InitialStateModel(WrappedModel):
     """A model of held-out recordings whose first stretches do not judge.
 
     Args:
@@ -72,7 +72,7 @@ def begun(
     """
     if not any(r.beginning > 0 for r in recordings):
         return judge, dict(points)
-    own = own_numbers(judge, trained)
+    own = recording_parameters(judge, trained)
     first = np.concatenate(
         [
             s.channel.times[-len(s.samples) :] < s.channel.times[0] + r.beginning
@@ -87,7 +87,7 @@ def begun(
         base = point.base.copy()
         base[own] = values
         found[stage] = Point(base, point.terms)
-    return BegunModel(judge, recordings), found
+    return InitialStateModel(judge, recordings), found
 
 
 def _begun(run: RecordedRun, length: float) -> _Run:

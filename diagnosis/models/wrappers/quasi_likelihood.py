@@ -26,7 +26,7 @@ BELIEVED = 4.0
 WINDOW = 5.0
 
 
-class TemperedModel(WrappedModel):
+class QuasiLikelihoodModel(WrappedModel):
     """A model whose residuals count less.
 
     Args:
@@ -61,9 +61,9 @@ class TemperedModel(WrappedModel):
         return np.asarray(super().slopes(point, tasks) * self._factor)
 
 
-def untempered(model: DiagnosisModel) -> DiagnosisModel:
+def plain_likelihood(model: DiagnosisModel) -> DiagnosisModel:
     """The model with the noise of the sensors as it is: what is left is stated in that."""
-    return model.inner if isinstance(model, TemperedModel) else model
+    return model.inner if isinstance(model, QuasiLikelihoodModel) else model
 
 
 def inflation(residuals: Array, layout: Layout) -> Array:

@@ -13,7 +13,7 @@ from diagnosis.search.problem import Point, Term
 from diagnosis.search.shares import is_carried
 
 
-def own_numbers(judge: DiagnosisModel, trained: DiagnosisModel) -> list[int]:
+def recording_parameters(judge: DiagnosisModel, trained: DiagnosisModel) -> list[int]:
     """Numbers of the parameters of the judge that belong to its recordings alone, or to days that were not fitted."""
     known = {p.name for p in trained.parameters if is_carried(p.name)}
     return [i for i, p in enumerate(judge.parameters) if p.name not in known]

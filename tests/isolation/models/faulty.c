@@ -81,11 +81,11 @@ static int count_matches(const char *pattern)
     return count;
 }
 
-/* Return only when `other` FMUs are in the same function: UNRULY_FOLDER is where they meet. */
+/* Return only when `other` FMUs are in the same function: FAULTY_FOLDER is where they meet. */
 static void meet(Instance *i)
 {
     char path[4096];
-    const char *folder = getenv("UNRULY_FOLDER");
+    const char *folder = getenv("FAULTY_FOLDER");
     snprintf(path, sizeof path, "%s/%d_%d", folder, i->steps, (int)getpid());
     fclose(fopen(path, "w"));
     for (int there = 0; there < 2;) {
@@ -126,9 +126,9 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     i->u = 1.0;
     at(instantiate, i);
 #ifdef ONCE
-    if (getenv("UNRULY_IS_LOADED"))
+    if (getenv("FAULTY_IS_LOADED"))
         return free(i), NULL;
-    setenv("UNRULY_IS_LOADED", "1", 1);
+    setenv("FAULTY_IS_LOADED", "1", 1);
 #endif
     return i;
 }
@@ -148,7 +148,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean
     if (time + size > AT + 1e-9)
         at(step, i);
     if (is_out_of_memory)
-        return i->callbacks->logger(i->callbacks->componentEnvironment, "unruly", fmi2Error, "", "no more memory"),
+        return i->callbacks->logger(i->callbacks->componentEnvironment, "faulty", fmi2Error, "", "no more memory"),
                fmi2Error;
     return fmi2OK;
 }
