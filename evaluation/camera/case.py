@@ -63,16 +63,12 @@ class Truth:
         strength: Its number, in `unit`.
         unit: Of the strength.
         camera: What disturbs the pictures, besides `CAMERA`.
-        place_error: Root mean square error of the places that the video gives [mm].
-        gaps: Share of the readings that it does not give.
     """
 
     kind: str
     strength: float
     unit: str
     camera: dict[str, Any]
-    place_error: float
-    gaps: float
 
 
 def drawn_camera(rng: np.random.Generator) -> dict[str, Any]:
@@ -102,13 +98,14 @@ def with_parameters(scenario: Scenario, **numbers: PhysicalValue) -> Scenario:
     return scenario.model_copy(update={"components": {**scenario.components, "fabric": own}})
 
 
-def make(folder: Path, seed: int, number: int) -> Truth:
-    """Write the recordings `first` and `second` from `video` and from `markers`, and the answer into `truth.json`.
+def make(folder: Path, seed: int, number: int, recordings: Sequence[str]) -> Truth:
+    """Write recordings that are not there yet, from `video` and from `markers`, and the answer into `truth.json`.
 
     Args:
         folder: Of the case.
         seed: Of the whole draw.
         number: Of the case, from 0; its kind follows from it.
+        recordings: Which of `RECORDINGS`.
     """
     rng = np.random.default_rng([seed, number])
     kind, camera = KINDS[number % len(KINDS)], drawn_camera(rng)
@@ -117,32 +114,32 @@ def make(folder: Path, seed: int, number: int) -> Truth:
         name, unit, least, most, has_sign = EFFECTS[kind]
         strength = float(rng.uniform(least, most)) * (float(rng.choice([-1.0, 1.0])) if has_sign else 1.0)
         numbers[name] = PhysicalValue(strength, unit)
-    errors, gaps = [], []
-    for recording in RECORDINGS:
+    for index, recording in enumerate(RECORDINGS):
+        if recording not in recordings or (folder / "markers" / recording / "data.csv").is_file():
+            continue
+        own = np.random.default_rng([seed, number, 1 + index])
         start = {
             "start_speed": PhysicalValue(1.0, "mm/s"),
-            "start_number": PhysicalValue(float(rng.integers(1000, 10**6)), "1"),
+            "start_number": PhysicalValue(float(own.integers(1000, 10**6)), "1"),
         }
         results = run(with_parameters(load_scenario(SCENARIO), **start, **numbers))
-        film = folder / "film"
-        shutil.rmtree(film, ignore_errors=True)
+        film, tracked = folder / "film", folder / "video" / recording
+        for old in (film, tracked):
+            shutil.rmtree(old, ignore_errors=True)
         film.mkdir(parents=True)
         (film / "camera.yaml").write_text(yaml.safe_dump({**CAMERA, **camera}), encoding="utf-8")
         view = CameraFile.model_validate({**CAMERA, **camera})
-        write_video(film, view, film / "camera.yaml", motion_of_results(results, film), int(rng.integers(2**31)), kind)
+        write_video(film, view, film / "camera.yaml", motion_of_results(results, film), int(own.integers(2**31)), kind)
         rig = load_rig(film / "rig.yaml")
-        tracked = folder / "video" / recording
         write_tracks(tracked, measure(film / "frames", rig, film / "rig.yaml"), rig, "tracked")
-        off, missing = write_true(tracked, film / "truth.csv", folder / "markers" / recording)
-        errors.append(off)
-        gaps.append(missing)
+        write_true(tracked, film / "truth.csv", folder / "markers" / recording)
         shutil.rmtree(film)
-    truth = Truth(kind, strength, unit, camera, float(np.sqrt(np.mean(np.square(errors)))), float(np.mean(gaps)))
+    truth = Truth(kind, strength, unit, camera)
     (folder / "truth.json").write_text(json.dumps(asdict(truth), indent=1), encoding="utf-8")
     return truth
 
 
-def write_true(tracked: Path, true: Path, out: Path) -> tuple[float, float]:
+def write_true(tracked: Path, true: Path, out: Path) -> None:
     """The recording of a video once more, each reading the true one.
 
     Deviations and gaps stay those of the video, so that the two differ by the errors of the readings alone.
@@ -151,21 +148,22 @@ def write_true(tracked: Path, true: Path, out: Path) -> tuple[float, float]:
         tracked: Recording of a video.
         true: Its true places, truth.csv.
         out: Folder of the new recording.
-
-    Returns:
-        Root mean square error of the places of the video [mm], and the share of gaps among them.
     """
     out.mkdir(parents=True, exist_ok=True)
     table, places = pd.read_csv(tracked / "data.csv"), pd.read_csv(true)
-    columns = [c for c in places.columns if c.startswith("marker[")]
-    read = table[columns].to_numpy(dtype=np.float64)
-    off = read - places[columns].to_numpy(dtype=np.float64)
-    for column in (*columns, "fabric.max_curvature"):
+    for column in places.columns[1:]:
         table[column] = places[column].where(table[column].notna())
-    table.to_csv(out / "data.csv", index=False)
     text = (tracked / "recording.yaml").read_text(encoding="utf-8").replace("source: tracked", "source: true markers")
     (out / "recording.yaml").write_text(text, encoding="utf-8")
-    return float(np.sqrt(np.nanmean(off**2))), float(np.mean(np.isnan(read)))
+    table.to_csv(out / "data.csv", index=False)
+
+
+def errors(folder: Path, recording: str) -> tuple[float, float]:
+    """Root mean square error of the places that a video gives [mm], and the share of gaps."""
+    read, true = (pd.read_csv(folder / source / recording / "data.csv") for source in SOURCES)
+    columns = [c for c in true.columns if c.startswith("marker[") and c.endswith(("].y", "].z"))]
+    off = read[columns].to_numpy(dtype=np.float64) - true[columns].to_numpy(dtype=np.float64)
+    return float(np.sqrt(np.nanmean(off**2))), float(np.mean(np.isnan(off)))
 
 
 def kinds_of(count: int) -> Sequence[str]:

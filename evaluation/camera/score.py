@@ -1,4 +1,4 @@
-"""What the two diagnoses of each case have in common."""
+"""What the two answers of each case have in common."""
 
 from __future__ import annotations
 
@@ -10,36 +10,53 @@ from typing import Any
 
 import numpy as np
 
-from evaluation.camera.case import SOURCES
+from evaluation.camera.case import RECORDINGS, SOURCES, errors
+
+#: Files of an answer: of the search alone, and of a whole diagnosis.
+SEARCH, DIAGNOSIS = "search.json", "diagnosis.json"
 
 
 @dataclass(frozen=True)
 class Answer:
-    """A diagnosis, as far as it counts here.
+    """What was found, as far as it counts here.
 
     Args:
-        verdict: What it says of the model.
-        effects: Accepted effects, each with its class, the most probable first.
-        values: Their strengths with 95 % intervals.
+        verdict: What a diagnosis says of the model; of a search nothing.
+        effects: Effects that were found (of a diagnosis: accepted), each with its class, the most probable first.
+        values: Their strengths.
+        suggested: Effects that a diagnosis suggests and does not accept.
     """
 
     verdict: str
     effects: tuple[tuple[str, ...], ...]
-    values: tuple[tuple[float, float, float], ...]
+    values: tuple[float, ...]
+    suggested: tuple[str, ...] = ()
 
     def names(self, effect: str) -> bool:
         """Whether an effect is among its findings, or in the class of one."""
         return any(effect in members for members in self.effects)
 
+    def text(self) -> str:
+        """For a table."""
+        said = [
+            f"{members[0]} {value:.3g}" + (f" or {', '.join(members[1:])}" if members[1:] else "")
+            for members, value in zip(self.effects, self.values)
+        ]
+        maybe = [f"({', '.join(self.suggested)})"] if self.suggested else []
+        return "; ".join(([self.verdict] if self.verdict else []) + said + maybe) or "none"
+
 
 def answer_of(file: Path) -> Answer:
-    """Read a diagnosis.json."""
-    told: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    """Read an answer."""
+    told: Any = json.loads(file.read_text(encoding="utf-8"))
+    if isinstance(told, list):
+        return Answer("", tuple((f["effect"],) for f in told), tuple(f["value"] for f in told))
     accepted = [f for f in told["findings"] if f["is_accepted"]]
     return Answer(
         told["verdict"],
         tuple((f["effect"], *f["ambiguous_with"]) for f in accepted),
-        tuple((p["value"], p["lower"], p["upper"]) for f in accepted for p in f["parameters"][:1]),
+        tuple(f["parameters"][0]["value"] for f in accepted),
+        tuple(f["effect"] for f in told["findings"] if not f["is_accepted"]),
     )
 
 
@@ -52,6 +69,16 @@ def is_same(one: Answer, other: Answer) -> bool:
     return first == second or (all(map(other.names, first)) and all(map(one.names, second)))
 
 
+def is_right(answer: Answer, kind: str) -> bool:
+    """Whether an answer has the concealed effect, first or in the class; of nothing, no effect."""
+    return not answer.effects if kind == "nothing" else answer.names(kind)
+
+
+def is_first(answer: Answer, kind: str) -> bool:
+    """Whether the strongest effect is the concealed one; of nothing, none."""
+    return not answer.effects if kind == "nothing" else bool(answer.effects) and kind in answer.effects[0]
+
+
 @dataclass(frozen=True)
 class Line:
     """One case.
@@ -60,74 +87,58 @@ class Line:
         truth: See `evaluation.camera.case.Truth`.
         video: Answer from the video.
         markers: Answer from the true markers.
+        error: Root mean square error of the places of the video [mm].
+        gaps: Share of gaps in it.
     """
 
     truth: dict[str, Any]
     video: Answer
     markers: Answer
-
-    @property
-    def is_same(self) -> bool:
-        """See `is_same`."""
-        return is_same(self.video, self.markers)
-
-    def is_found(self, answer: Answer) -> bool:
-        """Whether an answer has the concealed effect, first or in the class; of nothing, no effect."""
-        kind = self.truth["kind"]
-        return not answer.effects if kind == "nothing" else answer.names(kind)
+    error: float
+    gaps: float
 
 
-def lines_of(folders: Sequence[Path]) -> list[Line]:
+def lines_of(folders: Sequence[Path], file: str) -> list[Line]:
     """Cases that are done."""
-    return [
-        Line(
-            json.loads((f / "truth.json").read_text(encoding="utf-8")),
-            *(answer_of(f / s / "diagnosis.json") for s in SOURCES),
-        )
-        for f in folders
-        if all((f / s / "diagnosis.json").is_file() for s in SOURCES)
-    ]
+    found = []
+    for folder in folders:
+        if all((folder / source / file).is_file() for source in SOURCES):
+            truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
+            video, markers = (answer_of(folder / source / file) for source in SOURCES)
+            found.append(Line(truth, video, markers, *errors(folder, RECORDINGS[0])))
+    return found
 
 
-def page(lines: Sequence[Line]) -> str:
+def page(folders: Sequence[Path], file: str) -> str:
     """A table of the cases, and what they have in common."""
-    count = len(lines)
-    same = sum(line.is_same for line in lines)
-    strict = sum(
-        _firsts(line.video) == _firsts(line.markers) and line.video.verdict == line.markers.verdict for line in lines
-    )
-    found = [sum(line.is_found(a) for line, a in ((n, getattr(n, s)) for n in lines)) for s in SOURCES]
-    text = [
-        f"{count} cases. Same verdict and findings from video as from true markers: {_share(same, count)} "
-        f"(the most probable effects equal: {_share(strict, count)}).",
-        f"The concealed effect, or none where there is none: {_share(found[0], count)} from video, "
-        f"{_share(found[1], count)} from true markers.",
-        f"Places of the video: {np.median([n.truth['place_error'] for n in lines]):.4f} mm rms in the median case, "
-        f"{max(n.truth['place_error'] for n in lines):.4f} mm in the worst; gaps: at most "
-        f"{100 * max(n.truth['gaps'] for n in lines):.1f} %.",
+    lines = lines_of(folders, file)
+    if not lines:
+        return f"{file}: no case\n"
+    both = [(line.video, line.markers, line.truth["kind"]) for line in lines]
+    rows = {
+        "the same from video as from true markers": [is_same(v, m) for v, m, _ in both],
+        "the same strongest effect, or none in both": [_first(v) == _first(m) for v, m, _ in both],
+        "the concealed effect among those found, from video": [is_right(v, k) for v, _, k in both],
+        "the same from true markers": [is_right(m, k) for _, m, k in both],
+        "the concealed effect first, from video": [is_first(v, k) for v, _, k in both],
+        "the same first, from true markers": [is_first(m, k) for _, m, k in both],
+    }
+    text = [f"{file}: {len(lines)} cases", "", "| | share |", "|---|---|"]
+    text += [f"| {name} | {sum(hits)} of {len(hits)} ({100 * np.mean(hits):.0f} %) |" for name, hits in rows.items()]
+    off, gaps = [line.error for line in lines], [line.gaps for line in lines]
+    text += [
+        f"| places of the video, rms | {np.median(off):.3f} mm (median), {max(off):.3f} mm (most) |",
+        f"| gaps | {100 * np.mean(gaps):.2f} % |",
         "",
         "| concealed | strength | from video | from true markers | same |",
         "|---|---|---|---|---|",
     ]
-    for n in lines:
-        size = f"{n.truth['strength']:.3g} {n.truth['unit']}" if n.truth["kind"] != "nothing" else "-"
-        text.append(
-            f"| {n.truth['kind']} | {size} | {_said(n.video)} | {_said(n.markers)} | {'yes' if n.is_same else 'no'} |"
-        )
+    for line in lines:
+        kind, same = line.truth["kind"], "yes" if is_same(line.video, line.markers) else "no"
+        size = "-" if kind == "nothing" else f"{line.truth['strength']:.3g} {line.truth['unit']}"
+        text.append(f"| {kind} | {size} | {line.video.text()} | {line.markers.text()} | {same} |")
     return "\n".join(text) + "\n"
 
 
-def _firsts(answer: Answer) -> list[str]:
-    return sorted(members[0] for members in answer.effects)
-
-
-def _said(answer: Answer) -> str:
-    said = [
-        f"{members[0]} {value:.3g} ({low:.3g} to {high:.3g})" + (f" or {', '.join(members[1:])}" if members[1:] else "")
-        for members, (value, low, high) in zip(answer.effects, answer.values)
-    ]
-    return f"{answer.verdict}: {'; '.join(said)}" if said else answer.verdict
-
-
-def _share(part: int, whole: int) -> str:
-    return f"{part} of {whole} ({100.0 * part / max(whole, 1):.0f} %)"
+def _first(answer: Answer) -> str:
+    return answer.effects[0][0] if answer.effects else ""
