@@ -118,8 +118,8 @@ def sma_limb_angle(raw: Path, out: Path) -> DataSet:
 def bending(table: pd.DataFrame) -> Array:
     """Angle of the line from the second tag to the last above that of the first two, shape (rows,) [rad].
 
-    Anticlockwise is positive. Scale and rotation of the camera leave no mark on it. The first two tags sit on the clamp: their direction is the
-    mean over the whole file. Not a number where a tag was not found.
+    Anticlockwise is positive. Scale and rotation of the camera leave no mark on it. The first two tags sit on the
+    clamp: their direction is the mean over the whole file. Not a number where a tag was not found.
     """
     tags = np.stack([table[[f"tagid_x_{k}", f"tagid_y_{k}"]].to_numpy(dtype=float) for k in _TAGS], axis=1)
     tags[(tags == 0.0).all(axis=2)] = np.nan
