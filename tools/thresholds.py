@@ -29,8 +29,8 @@ PACKAGES = (
 _CONSTANT = re.compile(r"_?[A-Z][A-Z0-9_]*$")
 _HEAD = """# Numbers by which the diagnosis decides
 
-Written by `python -m tools.thresholds`; a test compares this page with the code. Each number stands beside the code that
-uses it. Numbers of laws (bounds, sizes of real rigs) are in [candidates.md](candidates.md) and
+Written by `python -m tools.thresholds`; a test compares this page with the code. Each number stands beside the code
+that uses it. Numbers of laws (bounds, sizes of real rigs) are in [candidates.md](candidates.md) and
 [law-library.md](law-library.md), priors in [priors.md](priors.md).
 """
 
