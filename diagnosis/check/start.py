@@ -13,8 +13,11 @@ from diagnosis.check.quantiles import normal_beyond
 from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.report.display import instant
 from diagnosis.search.shares import RIG_START
 
+#: Share of what a channel has moved since the simulation began that a model's wrong numbers may have done.
+WRONG_NUMBERS = 0.5
 #: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
 STRAINED = 4.0
 
@@ -55,10 +58,16 @@ def _is_driven_before(beside: Beside) -> bool:
 
 
 def _off(beside: Beside) -> tuple[float, float]:
-    """First readings less the simulated ones, and the deviation of that [K]."""
+    """First readings less the simulated ones, and the deviation of that [K].
+
+    A rig that is driven from the begin moves before three readings are taken: by how much is a matter of its numbers.
+    """
     values, _ = first(beside)
     course = beside.at(beside.channel.times[: len(values)])
-    return float(np.mean(values - course)), max(beside.floor, measured_noise(beside)) / np.sqrt(len(values))
+    assert beside.simulated is not None
+    moved = WRONG_NUMBERS * abs(float(np.mean(course)) - float(beside.simulated.values[0]))
+    noise = max(beside.floor, measured_noise(beside)) / np.sqrt(len(values))
+    return float(np.mean(values - course)), float(np.hypot(noise, moved))
 
 
 def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
@@ -66,10 +75,14 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     measured = float(np.mean(values))
     simulated = measured - off
     end = float(beside.channel.times[len(values) - 1])
+    unit = "K" if "K" in compared.recording.units else "degC"
+    begin, mean, there = (
+        f"{conversion('K', unit)[0] * v + conversion('K', unit)[1]:.4g} {unit}"
+        for v in (float(np.mean(values[:3])), measured, simulated)
+    )
     text = (
-        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings "
-        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, "
-        f"where {simulated - 273.15:.4g} degC is simulated"
+        f"begins at {begin}; its first {len(values)} readings ({instant(time)} to {instant(end)} s) are "
+        f"{mean} on average, where {there} is simulated"
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "

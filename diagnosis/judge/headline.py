@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
@@ -13,6 +14,14 @@ from diagnosis.report.user_units import IN_SI, Units
 TOLD = 3
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
+#: What serious doubts say, as a rule.
+_OF_ANOTHER = "The recording and the scenario are not of the same experiment"
+#: Kinds of serious doubts that say less than that the experiment is another one, with what they say.
+_LESS = (
+    ({"swapped"}, "Channels are exchanged"),
+    ({"unit", "sign"}, "A column is not what its recording says"),
+    ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
+)
 #: Share below which what recalibration explains would read as 0 %.
 LEAST_SHARE = 0.005
 
@@ -44,6 +53,8 @@ def headline(
     measured = _listed([f for f in at_fault if accuses(f)])
     described = _listed([*([] if is_told else of_the_rig), *(f for f in at_fault if not accuses(f))])
     suggested = _listed([f for f in found if not f.is_accepted])
+    if any(f.statement in suggested for f in found if f.is_accepted):
+        suggested = f"one more law beside these: {suggested}"
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within "
@@ -78,10 +89,10 @@ def _open(adequacy: Adequacy) -> str:
 
 def _not_comparable(serious: Sequence[Doubt]) -> str:
     """Why nothing was fitted. Exchanged sensors are of the same experiment, and readings do not tell them apart."""
-    exchanged = all(d.kind == "swapped" for d in serious)
-    what = "Channels are exchanged" if exchanged else "The recording and the scenario are not of the same experiment"
-    kinds = list(dict.fromkeys(d.kind for d in serious))[: 1 if exchanged else 2]
-    return f"{what}: {'; '.join(_once([d for d in serious if d.kind == k]) for k in kinds)}."
+    kinds = {d.kind for d in serious}
+    what = next((text for own, text in _LESS if kinds <= own), _OF_ANOTHER)
+    told = list(dict.fromkeys(d.kind for d in serious))[: 1 if kinds == {"swapped"} else 2]
+    return f"{what}: {'; '.join(_once([d for d in serious if d.kind == k]) for k in told)}."
 
 
 def _once(alike: Sequence[Doubt]) -> str:
@@ -89,13 +100,16 @@ def _once(alike: Sequence[Doubt]) -> str:
     others = len({d.recording for d in alike} - {alike[0].recording})
     which = "1 more recording raises" if others == 1 else f"{others} more recordings raise"
     more = f" ({which} a doubt of this kind)" if others else ""
-    return alike[0].statement.rstrip(".") + more
+    channel = f"{alike[0].subject}: " if alike[0].kind in ("unit", "sign") else ""
+    return f"in {clean(alike[0].recording)}, {channel}{alike[0].statement.rstrip('.')}{more}"
 
 
 def _listed(found: Sequence[Finding]) -> str:
     """Statements of findings; of many the first ones."""
-    more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
-    return "; ".join(f.statement for f in found[:TOLD]) + more
+    counts = Counter(f.statement for f in found)
+    told = [s if n == 1 else f"{s} ({n} such laws)" for s, n in counts.items()]
+    more = f"; and {len(told) - TOLD} more" if len(told) > TOLD else ""
+    return "; ".join(told[:TOLD]) + more
 
 
 def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
@@ -138,7 +152,7 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
     name, noise = _model(adequacy, is_amended, has_fault), _noise(adequacy)
     has_more = is_amended or has_fault
     is_changed = has_more or adequacy.is_recalibrated
-    before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
+    before = adequacy.chi_square["before"]
     is_met = not adequacy.is_rejected
     if is_met and not (is_changed and adequacy.is_nominal_rejected):
         text = f"The {adequacy.basis} are met within {noise}" + (", before and after" if is_changed else "")
@@ -148,7 +162,6 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
         text = f"The model as it is misses the {adequacy.basis}"
     elif adequacy.explained < 0.0:
         text = f"{name} predicts the {_basis(adequacy)} worse"
-        text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
         text += f"; what is left is not more than {noise}" if is_met else ""
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
