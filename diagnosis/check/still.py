@@ -36,4 +36,4 @@ def _is_still(beside: Beside, tests: int) -> bool:
     if not noise > 0.0 or len(values) < 3:
         return False
     squares = float(np.sum((values - values.mean()) ** 2)) / noise**2
-    return squares < chi_square_beyond(LEVEL / tests, len(values) - 1)
+    return bool(squares < chi_square_beyond(LEVEL / tests, len(values) - 1))

@@ -146,7 +146,8 @@ def accept(
     others: dict[Term, Fit] = {}
     current = headline
     while current.terms:
-        on_progress(f"judging {len(current.terms)} effects on readings that they were not fitted to")
+        what = "one effect" if len(current.terms) == 1 else f"{len(current.terms)} effects"
+        on_progress(f"judging {what} by readings that were not fitted")
         others = {t: _others(judge.model, outcome, current, t) for t in current.terms}
         judged = {t: _judged(judge, current, t, others[t], is_local(t)) for t in current.terms}
         gains |= {t: found for t, (found, _) in judged.items()}

@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.judge.doubts import accuses, faults, is_physics, of_another_experiment
+from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
 from diagnosis.report.display import clean, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
 
+#: Faults seen by the check that are told in one sentence.
+SEEN = 2
 #: Findings that are named in one sentence.
 TOLD = 3
 #: Explained share from which a whole number of per cent would read as everything.
@@ -51,7 +53,10 @@ def headline(
     is_told = verdict in (Verdict.MISSING_PHYSICS, Verdict.UNNAMED_PHYSICS)
     physics = _listed(of_the_rig if is_told else [])
     measured = _listed([f for f in at_fault if accuses(f)])
-    described = _listed([*([] if is_told else of_the_rig), *(f for f in at_fault if not accuses(f))])
+    unsure = [f for f in at_fault if not accuses(f)]
+    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is told, and not as something else
+        unsure = [f for f in unsure if not any(is_explained(d, f) for d in faults(doubts)[:SEEN])]
+    described = _listed([*([] if is_told else of_the_rig), *unsure])
     suggested = _listed([f for f in found if not f.is_accepted])
     if any(f.statement in suggested for f in found if f.is_accepted):
         suggested = f"one more law beside these: {suggested}"
@@ -82,8 +87,11 @@ def headline(
 
 
 def _open(adequacy: Adequacy) -> str:
-    """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something."""
-    is_wrong = adequacy.is_rejected and not adequacy.is_irregular
+    """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something.
+
+    Noise that is not stated is that of neighbouring readings: a sensor that drifts to and fro has more.
+    """
+    is_wrong = adequacy.is_rejected and not adequacy.is_irregular and adequacy.is_noise_stated
     return "what is missing or wrong" if is_wrong else "whether something is missing"
 
 
@@ -114,7 +122,8 @@ def _listed(found: Sequence[Finding]) -> str:
 
 def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
     """What was fitted of the faults, or else what the check saw."""
-    return accepted or "; ".join(d.statement.rstrip(".") for d in faults(doubts)[:2])
+    seen = faults(doubts)[:SEEN]
+    return accepted or "; ".join(f"{d.subject} of {clean(d.recording)}: {d.statement.rstrip('.')}" for d in seen)
 
 
 def _basis(adequacy: Adequacy) -> str:
@@ -188,7 +197,8 @@ def _cause(adequacy: Adequacy, has_more: bool) -> str:
             "as much as it changes from one reading to the next: noise is larger than it is taken to be, or single "
             "readings are wild"
         )
-    return f"something {'else ' if has_more else ''}is missing or wrong"
+    slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
+    return f"something {'else ' if has_more else ''}is missing or wrong{slow}"
 
 
 def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:

@@ -314,7 +314,7 @@ def _widened(
         if is_physics(beside) or accuses(beside) or fitted is None or term not in fitted.point.terms:
             continue
         doubt = _doubt(outcome)
-        found = estimates(fitted, term, doubt, model.unseen(term))
+        found = estimates(fitted, term, doubt, model.scale_uncertainty(term))
         alone = between_samples(local_estimates(found, term, fitted, model, doubt), term, model)
         both = tuple(_over(a, b) for a, b in zip(finding.parameters, alone))
         if any(b.upper - b.lower > WIDER * (a.upper - a.lower) for a, b in zip(finding.parameters, both)):

@@ -52,13 +52,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return found
 
 
-def voltages(turned: float = 1.0, size: float = 1.0) -> np.ndarray:
+def voltages(turned: float = 1.0, start: float = 0.0) -> np.ndarray:
     """The closed form, with noise of 10 mV [mV]."""
-    value, found, u = 0.0, [], 0.0
+    value, found = start, []
     for t in TIMES:
         found.append(value)
         u = 1.0 if t < 20.0 else -1.0 if t < 40.0 else 2.0
-        value = u * size + (value - u * size) * np.exp(-0.5 / 2.0)
+        value = u + (value - u) * np.exp(-0.5 / 2.0)
     return turned * 1e3 * np.array(found) + 10.0 * np.random.default_rng(1).standard_normal(len(TIMES))
 
 
@@ -147,3 +147,12 @@ def test_new_knows_the_variables_and_inputs_of_a_foreign_fmu(folder: Path) -> No
     assert "2 channels proposed, 1 columns unclear" in told.output
     assert set(load_recording(out).channels) == {"rig.y", "rig.body"}
     assert "by its name it is the input source.u" in (out / "recording.yaml").read_text()
+
+
+def test_a_voltage_that_begins_elsewhere_and_is_met_later_has_another_start(folder: Path) -> None:
+    """An offset of the sensor stays: that is no start."""
+    (found,) = [d for d in doubts(folder, write(folder, "start", values=voltages(start=1.5))) if d.kind == "start"]
+    assert (found.subject, found.is_serious, found.is_far) == ("rig.y", False, False)
+    assert "mV on average, where " in found.statement
+    offset = write(folder, "offset", values=voltages() + 1500.0)
+    assert not [d for d in doubts(folder, offset) if d.kind == "start"]

@@ -66,8 +66,8 @@ def test_exchanged_channels_are_no_other_experiment() -> None:
     swapped = replace(DOUBT, kind="swapped", statement="`a` reads like `b`. Columns or sensors are exchanged")
     told = headline(Verdict.RECORDING_FAULT, [], None, doubts=[swapped, replace(swapped, recording="tuesday")])
     assert told == (
-        "Channels are exchanged: in steps, `a` reads like `b`. Columns or sensors are exchanged (1 more recording raises "
-        "a doubt of this kind)."
+        "Channels are exchanged: in steps, `a` reads like `b`. Columns or sensors are exchanged (1 more recording "
+        "raises a doubt of this kind)."
     )
     both = headline(Verdict.RECORDING_FAULT, [], None, doubts=[swapped, DOUBT])
     assert both.startswith(
@@ -105,3 +105,30 @@ def test_what_the_error_of_fitted_parameters_explains_is_said_to_be_that() -> No
 def test_of_a_model_as_it_is_no_number_was_fitted() -> None:
     told = headline(Verdict.CONSISTENT, [], replace(ADEQUACY, is_rejected=False, needs_parameter_error=True, day=()))
     assert "error of the fitted" not in told
+
+
+def test_noise_that_is_not_stated_may_last_longer_than_neighbours_show() -> None:
+    """A sensor that drifts to and fro has more noise than its neighbouring readings tell: nothing need be missing."""
+    unstated = replace(ADEQUACY, is_noise_stated=False)
+    told = headline(Verdict.CANNOT_TELL, [], unstated, ["the readings reject the model"])
+    assert told.startswith("It cannot be told whether something is missing")
+    assert "or noise lasts longer than neighbouring readings" in told
+    assert "lasts longer" not in headline(Verdict.CANNOT_TELL, [], ADEQUACY, ["the readings reject the model"])
+
+
+def test_a_fault_that_the_check_saw_is_told_once() -> None:
+    """A sensor that was seen to stand still is not called something else beside that."""
+    seen = replace(DOUBT, kind="sensor", subject="coil[1,2].temperature", statement="the sensor stood still", begin=3.0)
+    bent = replace(
+        LAG,
+        standing=Standing.UNNAMED,
+        is_named=False,
+        effect="sensor_stuck_in_interval",
+        channels=("coil[1,2].temperature",),
+        recording="steps",
+    )
+    told = headline(Verdict.MEASUREMENT_FAULT, [bent], ADEQUACY, doubts=[seen])
+    assert told.startswith("A sensor or an input is at fault: coil[1,2].temperature of steps: the sensor stood still.")
+    assert "What else improves" not in told
+    elsewhere = replace(bent, channels=("coil[1,1].temperature",))
+    assert "What else improves" in headline(Verdict.MEASUREMENT_FAULT, [elsewhere], ADEQUACY, doubts=[seen])
