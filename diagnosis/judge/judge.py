@@ -402,7 +402,7 @@ def _finding(
         confused_with=dict(candidate.confused_with),
         standing=standing,
         is_accepted=is_accepted,
-        doubts=(*accepted.reasons.get(term, ()), *doubts),
+        doubts=(*accepted.reasons.get(term, ()), *doubts, *(_beyond(accepted) if is_accepted else ())),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
@@ -458,6 +458,13 @@ def _elsewhere(accepted: Accepted) -> str:
     wherever that state comes again.
     """
     return f"the {accepted.basis} reject the model with it: a law that acts there may be what it stands for"
+
+
+def _beyond(accepted: Accepted) -> tuple[str, ...]:
+    """Why an interval may miss the true number: it is that of the fit, and takes the rest of the model for granted."""
+    if not accepted.agreement.is_rejected or accepted.agreement.is_irregular:
+        return ()
+    return (f"the {accepted.basis} reject the model with it, so what is still missing may shift its numbers",)
 
 
 def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) -> str:

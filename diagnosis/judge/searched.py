@@ -55,7 +55,10 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
     untried += _untried(model)
     if not any(not is_own(p.name) for p in model.parameters):
-        untried.append("no number of the scenario that may be off moves these readings, so none was recalibrated")
+        untried.append(
+            "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
+            "code) moves these readings"
+        )
     return Searched(domains, tuple(untried))
 
 
