@@ -97,8 +97,11 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     if not is_small and is_unresolved(channel.times, channel.values, channel.quantum):
         return []
     way = "less" if is_small else "more"
+    is_rounded = stated > 1.005 * channel.deviation
+    rounded = f" ({compared.units.text(stated, channel.unit)} with the rounding)" if is_rounded else ""
     text = (
-        f"stated is a noise of {compared.units.text(stated, channel.unit)}; neighbouring readings scatter by "
+        f"stated is a noise of {compared.units.text(channel.deviation, channel.unit)}{rounded}; "
+        "neighbouring readings scatter by "
         f"{compared.units.text(seen, channel.unit)}, {max(ratio, 1 / ratio):.3g} times {way}"
     )
     remedy = f"correct `channels.{channel.name}.noise`, or leave it out: then it is estimated"
