@@ -41,7 +41,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.search.shares import departures, of_title
+from diagnosis.search.shares import departures, titled
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -605,18 +605,16 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
 
 def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -> tuple[Moved, ...]:
     """Parameters that moved by more than `MOVED` prior deviations, the farthest first; recordings by their titles."""
-    names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
-    units = {p.name: p.unit for p in model.parameters}
-    relative = {p.name for p in model.parameters if p.is_relative}
+    known = {p.name: p for p in model.parameters}
     found = [
         Moved(
-            of_title(name, titles),
-            "1" if name in relative else units.get(name, ""),
-            float(np.exp(amount)) if name in relative else amount,
-            name in relative,
+            titled(known[name], titles),
+            "1" if known[name].is_relative else known[name].unit,
+            float(np.exp(amount)) if known[name].is_relative else amount,
+            known[name].is_relative,
             float(z),
         )
-        for name, (amount, z) in departures(names, deviations, fit.point.base).items()
+        for name, (amount, z) in departures(model.parameters, fit.point.base).items()
         if abs(z) > MOVED
     ]
     return tuple(sorted(found, key=lambda m: -abs(m.deviations)))
