@@ -53,16 +53,11 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
     untried += _untried(model)
-<<<<<<< HEAD
-    if not any(not is_own(p.name) for p in model.parameters):
+    if not any(p.own is None for p in model.parameters):
         untried.append(
             "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
             "code) moves these readings"
         )
-=======
-    if not any(p.own is None for p in model.parameters):
-        untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
->>>>>>> main
     return Searched(domains, tuple(untried))
 
 

@@ -23,12 +23,8 @@ from cosim.unit.protocol import Causality
 from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
-<<<<<<< HEAD
 from diagnosis.recording.units import si_unit
-from diagnosis.search.problem import Parameter
-=======
 from diagnosis.search.problem import Own, Parameter
->>>>>>> main
 from diagnosis.search.shares import RIG_START, own_deviation, own_label, shared_deviation
 
 #: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
