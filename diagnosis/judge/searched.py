@@ -54,7 +54,10 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
     untried += _untried(model)
     if not any(p.own is None for p in model.parameters):
-        untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
+        untried.append(
+            "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
+            "code) moves these readings"
+        )
     return Searched(domains, tuple(untried))
 
 

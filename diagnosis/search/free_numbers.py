@@ -23,35 +23,13 @@ from cosim.unit.protocol import Causality
 from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
+from diagnosis.recording.units import si_unit
 from diagnosis.search.problem import Own, Parameter
 from diagnosis.search.shares import RIG_START, own_deviation, own_label, shared_deviation
 
 #: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
 #: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
 USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
-#: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
-_SI = (
-    "rad",
-    "rad/s",
-    "K",
-    "m",
-    "kg",
-    "kg*m^2",
-    "m^2",
-    "m^3",
-    "W/(m^2*K)",
-    "J/(kg*K)",
-    "kg/m^3",
-    "1",
-    "ohm",
-    "V",
-    "W",
-    "N/m",
-    "N*m",
-    "N*m*s",
-    "1/K",
-    "m/s^2",
-)
 _ELEMENT = re.compile(r"^(?P<name>.*?)\[(?P<element>\d+)\]$")
 
 
@@ -333,16 +311,3 @@ def _of_fmu(given: FmuComponent, component: str, name: str, value: object, sourc
     # in FMI 3.0 one start value may stand for all elements
     values = factor * np.broadcast_to(np.asarray(array, dtype=np.float64), v.shape).reshape(-1) + offset
     return Number(tuple(values.tolist()), unit, bool(v.shape))
-
-
-def si_unit(unit: str) -> str:
-    """SI unit of the same dimension."""
-    base = PhysicalValue(1.0, unit)
-    for candidate in _SI:
-        try:
-            base.to(candidate)
-        except ValueError:
-            continue
-        # 1/s is no rad/s, though they are of one size
-        return unit if unit and conversion(unit, candidate) == (1.0, 0.0) else candidate
-    return unit
