@@ -36,7 +36,7 @@ def _per_second(fabric: FabricComponent) -> float:
     share = 1.0
     if fabric.engine == "bullet":
         share = 1.0 - _SOLVER + _SOLVER * fabric.solver.iterations / _ITERATIONS
-    each = PER_FREE_LINK[fabric.engine] * (free / _OF) ** GROWTH[fabric.engine]
+    each = PER_FREE_LINK[fabric.engine] * float((free / _OF) ** GROWTH[fabric.engine])
     return each * share * free / fabric.solver.micro_step.to("s")
 
 
