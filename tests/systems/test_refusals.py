@@ -145,7 +145,7 @@ def test_an_algorithm_that_repeats_steps_of_an_fmu_without_state_access(
     tmp_path: Path, monkeypatch: Patch, capsys: Captured
 ) -> None:
     scenario = _rig(tmp_path, ('canGetAndSetFMUstate="true" canSerializeFMUstate="true"', ""), integrator="internal")
-    _edited(scenario, ("components:", "algorithm: {kind: step_doubling, tolerance: 1e-4}\ncomponents:"))
+    _edited(scenario, ("components:", "algorithm: {kind: step_doubling}\ncomponents:"))
     said = _refusal(scenario, monkeypatch, capsys)
     assert "rig (CoSimulationUnit) cannot return to a saved state" in said
 
