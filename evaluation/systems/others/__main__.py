@@ -2,10 +2,11 @@
 
 Every method is given what `cosim diagnose` was given: the equations of the FMU (here as NumPy code, which agrees with
 the FMU to 1e-5), inputs and readings of the two recordings that are fitted. What they learn runs freely, with the
-equations, over the recording that was held out.
+equations, over the recording that was held out. Readings are smoothed by each of two kernels; the better is taken by
+the free run of the second recording.
 
 - `sparse`: sequentially thresholded least squares of pysindy over polynomials of degree 3, signs and signed squares of
-  states and inputs; its threshold is the one of five with the best free run of the second recording.
+  states and inputs; its threshold is the one with the best free run of the second recording.
 - `Gaussian process`: scikit-learn, squared exponential with a length for each variable, and white noise.
 - `network`: two layers of 16, tanh, fitted by L-BFGS to the derivatives (scikit-learn).
 - `network in the loop`: a layer of 16, tanh, fitted by Adam to the readings through the simulation (jax, where it is
@@ -27,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from evaluation.systems.case import RECORDINGS
-from evaluation.systems.others.data import Data, Learnt, free_run, read
+from evaluation.systems.others.data import WINDOWS, Data, Learnt, free_run, read
 from evaluation.systems.others.methods import gaussian_process, neural, sparse, symbolic
 from evaluation.systems.others.neural_ode import neural_ode
 from evaluation.systems.rigs import RIGS, Rig
@@ -50,7 +51,8 @@ def case(folder: Path) -> dict[str, Any] | None:
     rig = next(r for r in RIGS if r.name == answer["rig"])
     if rig.hidden:
         return None
-    *training, held_out = (read(rig, folder / "task" / name) for name in RECORDINGS)
+    read_by = [[read(rig, folder / "task" / name, window) for name in RECORDINGS] for window in WINDOWS]
+    held_out = read_by[0][-1]
     found: dict[str, Any] = {"case": folder.name, "kind": answer["kind"], "rig": rig.name}
     found["as it is"] = {"chi": free_run(rig, None, held_out), "terms": 0, "seconds": 0.0}
     ours = json.loads((folder / "diagnosis" / "diagnosis.json").read_text(encoding="utf-8"))
@@ -61,7 +63,9 @@ def case(folder: Path) -> dict[str, Any] | None:
         if importlib.util.find_spec(package) is None or (package == "jax" and rig.name in NO_TEXT):
             continue
         begin = clock.process_time()
-        learnt, terms = method(rig, training)
+        tried = [method(rig, one[:-1]) for one in (read_by[:1] if package == "jax" else read_by)]
+        errors = [free_run(rig, learnt, read_by[0][-2]) for learnt, _ in tried]
+        learnt, terms = tried[int(np.argmin(errors))]
         seconds = clock.process_time() - begin
         found[name] = {"chi": free_run(rig, learnt, held_out), "terms": terms, "seconds": seconds}
     return found

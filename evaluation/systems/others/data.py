@@ -1,6 +1,7 @@
 """Recordings as other methods need them: states, what the equations leave, and a free run with what was learnt.
 
-States that are not measured come from smoothed derivatives (Savitzky and Golay, Analytical Chemistry 36 (1964) 1627).
+States that are not measured come from readings that a Gaussian kernel K smooths: the derivative of K * x is K * x'. So
+K * x'' - K * f is what the equations f leave, smoothed, also where an input jumps.
 """
 
 from __future__ import annotations
@@ -17,8 +18,10 @@ from cosim.unit.quantity import PhysicalValue
 from evaluation.systems.case import start
 from evaluation.systems.rigs import Rig
 
-#: Samples and degree of the polynomial that smooths readings.
-WINDOW, DEGREE = 11, 3
+#: Deviations of the kernel that smooths readings, in samples; a method tries each.
+WINDOWS = (3.0, 8.0)
+#: Samples at both ends that are left out: there the kernel sees no readings.
+ENDS = 32
 #: Steps of the integration between two readings.
 INNER = 2
 #: Deviations of the noise beyond which a free run has run away.
@@ -37,6 +40,7 @@ class Data:
         readings: Shape (samples, channels).
         noise: Deviation of each channel, shape (channels,).
         states: Estimates, shape (samples, states).
+        smooth: The inputs as the kernel smooths them, shape (samples, inputs).
         residuals: Derivatives of the targets less those of the equations, shape (samples, targets).
     """
 
@@ -44,22 +48,23 @@ class Data:
     readings: Array
     noise: Array
     states: Array
+    smooth: Array
     residuals: Array
 
     @property
     def features(self) -> Array:
-        """States and inputs, shape (samples, states + inputs), without the ends, where derivatives are poor."""
-        return np.hstack([self.states, self.inputs])[WINDOW:-WINDOW]
+        """States and inputs, shape (samples, states + inputs), without the ends."""
+        return np.hstack([self.states, self.smooth])[ENDS:-ENDS]
 
     @property
     def learnt(self) -> Array:
         """Residuals of the same samples."""
-        return self.residuals[WINDOW:-WINDOW]
+        return self.residuals[ENDS:-ENDS]
 
 
-def read(rig: Rig, folder: Path) -> Data:
+def read(rig: Rig, folder: Path, window: float) -> Data:
     """A recording with estimates of states and of what the equations leave."""
-    from scipy.signal import savgol_filter
+    from scipy.ndimage import gaussian_filter1d
 
     data = yaml.safe_load((folder / "recording.yaml").read_text(encoding="utf-8"))
     table = np.loadtxt(folder / "data.csv", delimiter=",", skiprows=1)
@@ -69,13 +74,14 @@ def read(rig: Rig, folder: Path) -> Data:
     states = np.zeros((len(table), len(rig.states)))
     rates = np.zeros_like(states)
     for column, state in enumerate(rig.outputs.values()):
-        smooth = [savgol_filter(readings[:, column], WINDOW, DEGREE, deriv=d, delta=rig.step) for d in range(3)]
-        states[:, state], rates[:, state] = smooth[0], smooth[1]
+        course = [gaussian_filter1d(readings[:, column], window, order=d) / rig.step**d for d in range(3)]
+        states[:, state], rates[:, state] = course[0], course[1]
         if rig.targets.get(state + 1) == "velocity":
-            states[:, state + 1], rates[:, state + 1] = smooth[1], smooth[2]
+            states[:, state + 1], rates[:, state + 1] = course[1], course[2]
     model = np.array([rig.rates(rig.numbers, x, u) for x, u in zip(states, inputs)])
-    residuals = (rates - model)[:, list(rig.targets)]
-    return Data(inputs, readings, np.array([n.number for n in noise]), states, residuals)
+    residuals = (rates - gaussian_filter1d(model, window, axis=0))[:, list(rig.targets)]
+    driven = gaussian_filter1d(inputs, window, axis=0)
+    return Data(inputs, readings, np.array([n.number for n in noise]), states, driven, residuals)
 
 
 def free_run(rig: Rig, learnt: Learnt | None, data: Data) -> float:

@@ -15,7 +15,7 @@ from evaluation.systems.rigs import Rig
 #: Samples that a Gaussian process or a symbolic regression is given: both grow fast with their number.
 FEW = 300
 #: Thresholds of sparse regression, of variables of deviation 1.
-THRESHOLDS = (0.02, 0.05, 0.1, 0.2, 0.5)
+THRESHOLDS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from cosim.unit.protocol import Array
-from evaluation.systems.others.data import WINDOW, Data, Learnt
+from evaluation.systems.others.data import ENDS, Data, Learnt
 from evaluation.systems.others.methods import Scaled
 from evaluation.systems.rigs import Rig
 
@@ -75,7 +75,7 @@ def _windows(training: Sequence[Data]) -> tuple[Array, Array, Array]:
     """States at the begin, inputs and the readings that follow, of every window."""
     begins, inputs, readings = [], [], []
     for data in training:
-        for begin in range(WINDOW, len(data.states) - LENGTH - WINDOW, LENGTH):
+        for begin in range(ENDS, len(data.states) - LENGTH - ENDS, LENGTH):
             begins.append(data.states[begin])
             inputs.append(data.inputs[begin : begin + LENGTH])
             readings.append(data.readings[begin + 1 : begin + 1 + LENGTH])
