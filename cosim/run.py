@@ -369,7 +369,7 @@ def _step_to_end(
 
 
 def _can_checkpoint(state: _Clockwork, is_kept: bool) -> bool:
-    """Whether all units can write their state; where the run is kept that is said once, and it goes on without."""
+    """Whether all units can write their state; else a run that is kept says so once."""
     unable = [name for name, unit in state.assembly.system.units.items() if not unit.can_checkpoint]
     if unable and is_kept:
         _LOG.warning(
