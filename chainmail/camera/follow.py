@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -173,3 +174,23 @@ def doubt_parts(tracks: Tracks, radius: float) -> Tracks:
         covariance[is_less, marker] += (missing[is_less] * radius)[:, None, None] ** 2 * np.eye(2)
         state[is_less, marker] = PART
     return Tracks(tracks.times, tracks.places, covariance, tracks.share, state, tracks.margin)
+
+
+def doubt_motion(tracks: Tracks, exposure: float) -> Tracks:
+    """Larger covariances where a marker moves or turns off its course while a picture is exposed.
+
+    A course with the acceleration a has its mean over an exposure T off its middle by a T^2 / 24. The outline of a
+    marker that moves by b meanwhile is smeared by b; where part of it is hidden and the circle goes through what is
+    seen of the outline, that moves it by up to a quarter of b.
+
+    Args:
+        tracks: As followed.
+        exposure: Of a picture [s].
+    """
+    if exposure <= 0.0 or len(tracks.times) < 3:
+        return tracks
+    speed = np.gradient(tracks.places, tracks.times, axis=0)
+    bend = np.gradient(speed, tracks.times, axis=0) * exposure**2 / 24.0
+    smear = np.where((tracks.state == PART)[..., None], speed * exposure / 4.0, 0.0)
+    added = sum(np.nan_to_num(d)[..., :, None] * np.nan_to_num(d)[..., None, :] for d in (bend, smear))
+    return replace(tracks, covariance=tracks.covariance + added)
