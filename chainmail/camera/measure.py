@@ -109,7 +109,7 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     steady = _steady(pictures, sight, radius)
     tracks, factor = with_errors(followed, steady)
     moving = without_repeats(tracks, is_repeated)
-    tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"))
+    tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"), radius)
     notes = (
         *sight.notes,
         f"time: {said}",
