@@ -144,7 +144,7 @@ def _sidecar(cold: float, window: dict[str, str]) -> dict[str, Any]:
                 "limb": {"parameters": {"initial_temperature": f"{cold:.6g} degC"}},
             }
         },
-        "uncertain": {"room.temperature": "1 degC", "limb.rest_angle": "5 mrad"},
+        "uncertain": {"room.temperature": "1 degC", "limb.rest_angle": "0.05 rad"},
         # Supply voltage and current were not recorded: 10 W at full duty is a guess, absorbed by the heat capacity.
         "inputs": {"drive.power": {"column": "duty", "unit": "W", "factor": 10.0}},
         "channels": {
