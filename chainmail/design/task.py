@@ -38,6 +38,20 @@ class _Voltages(Strict):
         return self
 
 
+class _Temperatures(Strict):
+    low: Annotated[PhysicalValue, In("K", minimum=0.0, is_exclusive=True)]
+    high: Annotated[PhysicalValue, In("K", minimum=0.0, is_exclusive=True)]
+
+    @model_validator(mode="after")
+    def _check(self) -> _Temperatures:
+        if self.low.to("K") >= self.high.to("K"):
+            raise ValueError(f"the range from {self.low} to {self.high} is empty")
+        return self
+
+
+_TEMPERATURES = _Temperatures(low=PhysicalValue(62.0, "degC"), high=PhysicalValue(80.0, "degC"))
+
+
 class Vary(Strict):
     """What a design may choose."""
 
@@ -45,6 +59,9 @@ class Vary(Strict):
         default="any", description="Patterns of heated rows, counted from the tether; any: every pattern of free rows."
     )
     voltage: Annotated[_Voltages, BeforeValidator(_ends)] = Field(description="Of a string while it is heated.")
+    temperature: Annotated[_Temperatures, BeforeValidator(_ends)] = Field(
+        default=_TEMPERATURES, description="Of a row at the end of heating."
+    )
 
 
 class Wanted(Output):
