@@ -103,7 +103,7 @@ class Ledger:
         """Whether coarse runs may judge everything that is wanted, and are another thing than the scenario's own."""
         fabric = f"{self.rig.fabric}."
         asked = [w.quantity.removeprefix(fabric) for w in self.task.wanted if w.quantity.startswith(fabric)]
-        return not self._is_own and all(name in KEPT_COARSE for name in asked)
+        return self.task.runs.coarse > 0 and not self._is_own and all(name in KEPT_COARSE for name in asked)
 
     def count(self, fidelity: str) -> int:
         """Runs of a fidelity."""

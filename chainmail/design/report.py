@@ -10,8 +10,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from chainmail.design.candidate import Candidate, Rig, scenario_for
+from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import Entry, Ledger
-from chainmail.design.search import APART, ERROR, Impossible, Outcome, Search
+from chainmail.design.search import APART, ERROR, Outcome, Search
 from chainmail.design.sequential import Verdict, share_interval
 
 #: A limit is active where the design comes this near to it.
@@ -131,11 +132,12 @@ def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> li
     measured = [e.energy for e in outcome.checks if not e.failure]
     if measured:
         lines.append(f"- co-simulation: {np.median(measured):.1f} J")
-    reference = outcome.reference
-    if reference is not None and len(reference.rows) > len(winner.rows):
+    reference = search.candidate(rig.free)
+    if reference is not None and 0 < len(winner.rows) < len(rig.free):
         spent = reference.energy(rig)
         lines.append(
-            f"- {len(reference.rows)} rows with a programme of the same kind: {spent:.1f} J; this is "
+            f"- all {len(reference.rows)} free rows heated to {search.coolest - 273.15:.3g} degC instead: "
+            f"{spent:.1f} J; this is "
             f"{100 * winner.energy(rig) / spent:.0f} % of it"
         )
     if not winner.rows:
