@@ -16,6 +16,7 @@ from cosim.unit.quantity import conversion, parse_unit
 _DIFFERENCES = {"A": (1e3, "mA"), "V": (1e3, "mV"), "W": (1e3, "mW"), "m": (1e3, "mm")}
 #: SI unit to factor and unit for values below 1.
 _SMALL = {"A": (1e3, "mA"), "W": (1e3, "mW"), "m": (1e3, "mm")}
+#: 0 degC [K].
 _KELVIN = 273.15
 UNKNOWN = "\N{EN DASH}"
 
