@@ -16,6 +16,7 @@ from chainmail.design.ledger import BudgetSpent, Entry, Ledger
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
 from chainmail.design.shape import fewest_rows, scheduled
+from chainmail.design.task import Schedule, Shape
 from cosim.components import FabricComponent
 from cosim.mechanics_assembly import build_fabric
 from cosim.parameters import resolve
@@ -73,7 +74,7 @@ class Search:
         self.deadline = max(moments) if moments else self._rig.scenario.time.stop.to("s")
         limits = [w.below.to("W") for w in task.wanted if w.quantity == f"{self._rig.circuit}.supply_power" and w.below]
         self.power = min(limits, default=math.inf)
-        self.voltage = task.vary.voltage.high.to("V")
+        self.lowest, self.voltage = task.vary.voltage.low.to("V"), task.vary.voltage.high.to("V")
         low, high = task.vary.temperature.low.to("K"), task.vary.temperature.high.to("K")
         self.levels = tuple(float(t) for t in np.linspace(low, high, LEVELS))
 
@@ -111,6 +112,8 @@ class Search:
         if exact is None:
             return None
         volts = [math.floor(1e4 * v) / 1e4 for v in exact]
+        if min(volts) < self.lowest:
+            return None
         begin = on_grid(end - max(r.heating_time(v, t) for r, v, t in zip(own, volts, hots)), self._rig, up=False)
         if begin < 0.0:
             return None
@@ -127,8 +130,11 @@ class Search:
         outcome = Outcome()
         self._check_heat()
         try:
-            if self.ledger.task.schedule is not None or self.ledger.task.shape is not None:
-                self._about_rows(outcome)
+            task = self.ledger.task
+            if task.schedule is not None:
+                self._on_schedule(task.schedule)
+            elif task.shape is not None:
+                self._in_shape(task.shape, outcome)
             else:
                 self._feasible(outcome)
         except BudgetSpent as spent:
@@ -213,27 +219,31 @@ class Search:
         if best is not None:
             self._cooler_rows(best)
 
-    def _about_rows(self, outcome: Outcome) -> None:
-        """A schedule, or the patterns that have the shape by the row model, fewest rows first; hotter where unmet."""
-        task, rig = self.ledger.task, self._rig
-        if task.schedule is not None:
-            for hot in self.levels:
-                made = scheduled(task.schedule, rig, hot, HOLD, self.voltage, self.power)
-                self.tell(made.text())
-                if self.ledger.judged(made).is_met:
-                    return
-            return
-        assert task.shape is not None
-        patterns = fewest_rows(task.shape, rig)
-        all_patterns = 2 ** len(rig.free)
+    def _on_schedule(self, schedule: Schedule) -> None:
+        """Rows one after another, hotter where what is wanted is not met."""
+        for hot in self.levels:
+            try:
+                made = scheduled(schedule, self._rig, hot, HOLD, (self.lowest, self.voltage), self.power)
+            except Impossible:
+                if hot == self.coolest:
+                    raise
+                return  # hotter needs more
+            self.tell(made.text())
+            if self.ledger.judged(made).is_met:
+                return
+
+    def _in_shape(self, shape: Shape, outcome: Outcome) -> None:
+        """Patterns that have the shape by the row model, fewest rows first; hotter where what is wanted is not met."""
+        rig = self._rig
+        patterns, total = fewest_rows(shape, rig), 2 ** len(rig.free)
         if not patterns:
             raise Impossible(
-                f"the shape: by the row model none of {all_patterns} patterns of heated rows has it",
+                f"the shape: by the row model none of {total} patterns of heated rows has it",
                 "another bound of the bends: a cold row bends by about 12 degrees, a hot one by few",
             )
+        rows = ", ".join(map(str, patterns[0])) or "none"
         outcome.notes.append(
-            f"row model: {len(patterns)} of {all_patterns} patterns have the shape, the fewest rows are "
-            f"{', '.join(map(str, patterns[0])) or 'none'}"
+            f"row model: {len(patterns)} of {total} patterns have the shape, the fewest rows are {rows}"
         )
         for pattern in patterns:
             for hot in self.levels:

@@ -17,6 +17,9 @@ from cosim.unit.quantity import PhysicalValue
 #: Bend of a cold and of a hot row in the row model [rad]: between what was seen of both (docs/design.md).
 COLD_BEND, HOT_BEND = math.radians(12.5), math.radians(3.0)
 
+#: Free rows of which all patterns of heated ones are looked at.
+MOST_ROWS = 16
+
 
 def with_requirements(task: Task, rig: Rig) -> Task:
     """The task with what `shape` and `schedule` want written out as bends of rows.
@@ -29,6 +32,14 @@ def with_requirements(task: Task, rig: Rig) -> Task:
     if task.shape is not None:
         shape = task.shape
         _check_rows([*shape.rigid, *shape.flexible], rig, "shape", str(source))
+        last = max((w.at.to("s") for w in wanted if w.at is not None), default=0.0)
+        if last > shape.at.to("s"):
+            raise InputError(
+                source,
+                "shape.at",
+                f"rows are heated for the latest time, {last:g} s, and so are not yet hot at {shape.at}",
+                "give both the same time",
+            )
         wanted += [_bend(rig, r, shape, shape.at.to("s"), is_straight=True) for r in shape.rigid if r < len(rig.rows)]
         wanted += [
             _bend(rig, r, shape, shape.at.to("s"), is_straight=False) for r in shape.flexible if r < len(rig.rows)
@@ -79,13 +90,18 @@ def _bend(rig: Rig, row: int, given: Shape | Schedule, at: float, is_straight: b
 def fewest_rows(shape: Shape, rig: Rig) -> list[tuple[int, ...]]:
     """Patterns of heated rows that have the shape by the row model, out of all that there are; fewest rows first.
 
+    Of more than `MOST_ROWS` free rows only the pattern that heats the rigid ones is looked at.
+
     >>> from types import SimpleNamespace
     >>> rig = SimpleNamespace(free=(3, 4, 5, 6), rows=(0,) * 6, held=2)
     >>> shape = Shape(rigid=[3, 4, 6], flexible=[5], at="5 s")
     >>> fewest_rows(shape, rig)
     [(3, 4, 6)]
     """
-    every = [p for n in range(len(rig.free) + 1) for p in combinations(rig.free, n)]
+    if len(rig.free) > MOST_ROWS:
+        every = [tuple(sorted(shape.rigid))]
+    else:
+        every = [p for n in range(len(rig.free) + 1) for p in combinations(rig.free, n)]
     return [p for p in every if _has_shape(p, shape, rig)]
 
 
@@ -98,7 +114,9 @@ def _has_shape(hot: tuple[int, ...], shape: Shape, rig: Rig) -> bool:
     return all(bends[r] < straight for r in shape.rigid) and all(bends[r] > bent for r in shape.flexible)
 
 
-def scheduled(schedule: Schedule, rig: Rig, hot: float, hold: float, voltage: float, power: float) -> Candidate:
+def scheduled(
+    schedule: Schedule, rig: Rig, hot: float, hold: float, voltages: tuple[float, float], power: float
+) -> Candidate:
     """Rows that become hot one after another: each heated last, so that it is flexible as long as possible.
 
     Rows of one time are heated together; heating of one time begins after that of the time before has ended, and leaves
@@ -109,7 +127,7 @@ def scheduled(schedule: Schedule, rig: Rig, hot: float, hold: float, voltage: fl
         rig: Scenario of the task.
         hot: Temperature at the end of heating [K].
         hold: Temperature of the hold [K].
-        voltage: Greatest of a row [V].
+        voltages: Lowest and greatest of a row [V].
         power: Greatest of all [W].
 
     Raises:
@@ -124,12 +142,10 @@ def scheduled(schedule: Schedule, rig: Rig, hot: float, hold: float, voltage: fl
         own = [rig.rows[r - 1] for r in rows]
         spare = power - sum(holding_power(rig, p.row, hold) for p in pulses)
         end = on_grid(moment, rig, up=False)
-        exact = heated_together(own, [hot] * len(rows), voltage * (1 - 1e-9), spare * (1 - 1e-9), end - free_from)
-        if exact is None:
-            _refuse(
-                rows, moment, end - free_from, own[0].power(own[0].voltage_for(hot, max(end - free_from, 1e-3))), spare
-            )
-        assert exact is not None
+        exact = heated_together(own, [hot] * len(rows), voltages[1] * (1 - 1e-9), spare * (1 - 1e-9), end - free_from)
+        if exact is None or min(exact) < voltages[0]:
+            needed = own[0].power(own[0].voltage_for(hot, max(end - free_from, 1e-3)))
+            raise _refusal(rows, moment, end - free_from, needed, spare)
         volts = [math.floor(1e4 * v) / 1e4 for v in exact]
         begin = on_grid(end - max(r.heating_time(v, hot) for r, v in zip(own, volts)), rig, up=False)
         held = on_grid(end + own[0].coasting_time(hot, hold), rig, up=False)
@@ -139,9 +155,9 @@ def scheduled(schedule: Schedule, rig: Rig, hot: float, hold: float, voltage: fl
     return Candidate(ordered, hold, min(p.begin for p in pulses), deadline)
 
 
-def _refuse(rows: list[int], moment: float, time: float, needed: float, spare: float) -> None:
+def _refusal(rows: list[int], moment: float, time: float, needed: float, spare: float) -> Impossible:
     names = ", ".join(map(str, rows))
-    raise Impossible(
+    return Impossible(
         f"the schedule: row {names} cannot be rigid by {moment:g} s; it has {max(time, 0.0):.3g} s and "
         f"{max(spare, 0.0):.3g} W, and needs {needed:.3g} W per row",
         "more time between this row and the one before, more voltage or more power",

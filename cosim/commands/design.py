@@ -34,7 +34,8 @@ def design(
     display = Display(Console(stderr=True))
     try:
         with display.drawn():
-            code = find(task, out, choose_place(jobs, cluster, goes_on=True), resume, display.stage, display.progress, page)
+            place = choose_place(jobs, cluster, goes_on=True)
+            code = find(task, out, place, resume, display.stage, display.progress, page)
     except KeyboardInterrupt as error:
         print(
             f"interrupted; finished runs are kept, go on with: cosim design {task} --out {out} --resume",

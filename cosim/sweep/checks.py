@@ -15,8 +15,8 @@ from cosim.sweep.keys import parts_of
 from cosim.sweep.outputs import ENERGY, ROW_BEND, TIP_SAG
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Unit
-from cosim.unit.variable import Causality
 from cosim.unit.quantity import conversion
+from cosim.unit.variable import Causality
 
 
 def check_keys(keys: Sequence[str], scenario: Scenario, source: Path) -> None:
@@ -89,9 +89,7 @@ def _kind(quantity: str, units: Mapping[str, Unit]) -> tuple[str, int]:
     if quantity not in known:
         found = sorted(n for n, v in known.items() if v.causality is Causality.OUTPUT)
         hint = did_you_mean(quantity, known)
-        raise ValueError(
-            f"no run of this scenario has a quantity `{quantity}`{hint or '; there are'}{' There are' if hint else ''}: "
-            f"{', '.join(found)}, {ENERGY}"
-        )
+        there = f"{hint} There are" if hint else "; there are"
+        raise ValueError(f"no run of this scenario has a quantity `{quantity}`{there}: {', '.join([*found, ENERGY])}")
     variable = known[quantity]
     return variable.unit, int(np.prod(variable.shape, dtype=int))
