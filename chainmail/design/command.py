@@ -89,14 +89,14 @@ def design(
         if outcome.winner is not None and with_page:
             files["play.html"] = ""
             tell("the page that shows the design move")
-            _write_page(scenario_for(outcome.winner, rig), out)
+            write_page(scenario_for(outcome.winner, rig), out)
     print((out / "report.md").read_text(encoding="utf-8"))
     for name in files:
         print(f"{name}: {out / name}")
     return 0 if outcome.winner is not None else NOT_FOUND
 
 
-def _write_page(scenario: Scenario, out: Path) -> None:
+def write_page(scenario: Scenario, out: Path) -> None:
     """The design as `cosim play` shows it, from a run of its own in `winner/`."""
     try:
         run(scenario, out / "winner", overwrite=(out / "winner").exists())

@@ -49,10 +49,11 @@ def quantity(run: xr.Dataset, name: str) -> xr.DataArray:
         return sag.assign_attrs(units="m", long_name="sag of the tip below the tethered rows")
     if last == ROW_BEND and centre is not None:
         way = centre.diff("row", label="lower")
-        slope = np.arctan2(-way.isel(axis=2), way.isel(axis=1))
+        slope = xr.apply_ufunc(np.arctan2, -way.isel(axis=2), way.isel(axis=1))
         # A bend belongs to the row between two ways; the first and the last row have none.
-        bend = slope.diff("row", label="upper").reindex(row=centre["row"], fill_value=0.0)
-        return bend.transpose("time", "row").rename(name).assign_attrs(units="rad", long_name="bend at every row")
+        bend: xr.DataArray = slope.diff("row", label="upper").reindex(row=centre["row"], fill_value=0.0)
+        ordered: xr.DataArray = bend.transpose("time", "row").rename(name)
+        return ordered.assign_attrs(units="rad", long_name="bend at every row")
     there = ", ".join(sorted(str(n) for n in run.data_vars))
     raise ValueError(f"no run of this scenario has a quantity `{name}`; there are: {there}, energy")
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from chainmail.design.candidate import Candidate, Pulse, rig_of
+from chainmail.design.candidate import Candidate, Pulse, rig_of, scenario_for
+from chainmail.design.command import write_page
 from chainmail.design.ledger import BudgetSpent, Ledger
 from chainmail.design.task import load_task
 from cosim.compute.batch import Batches
@@ -46,3 +47,14 @@ def test_runs_are_on_the_record_and_a_first_design_is_run_coarse_and_fine(tmp_pa
     assert ledger.batches.made == 2
     with pytest.raises(BudgetSpent, match="1 full runs"):
         ledger.full_batch(SHORT, (1001,))
+
+
+@pytest.mark.slow
+def test_the_page_shows_the_design_move(tmp_path):
+    ledger = _ledger(tmp_path)
+    out = tmp_path / "out"
+    out.mkdir()
+    write_page(scenario_for(SHORT, ledger.rig), out)
+    text = (out / "play.html").read_text()
+    assert "20 g at the tip" in text or "2 x 8" in text  # the title of the run
+    assert (out / "winner" / "results.nc").is_file()
