@@ -39,13 +39,14 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
     named = label_of(runs[0]) if len(runs) == 1 else ""
     with figure(path, height=4.2, title=title, run=named) as (axes,):
-        for run, colour in zip(runs, _colours(runs), strict=False):
+        colours, shown_labels = _colours(runs), []
+        for run, colour in zip(runs, colours, strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
-            label = label_of(run).split(" (")[0]
+            label = _shortened(label_of(run).split(" (")[0], shown_labels)
             if "start" in shown.dims:
                 label += f": median and 5 to 95 % of {run.sizes['start']} starts"
-                draw_band(axes, shown, colour, label)
+                draw_band(axes, shown, colour, label, "--" if colours.count(colour) > 1 else "-")
             else:
                 draw_noisy(axes, shown["time"].values, shown.values, colour, label)
         mark_switches(axes, marks)
@@ -56,6 +57,15 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
             _mark_text(axes, runs[0], marks)
         axes.legend(frameon=False, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1)
     return path
+
+
+def _shortened(label: str, before: list[str]) -> str:
+    """`the same, ...` where a label goes on from one that was shown; that one is noted otherwise."""
+    for known in before:
+        if label.startswith(known) and label != known:
+            return "the same" + label.removeprefix(known)
+    before.append(label)
+    return label
 
 
 def _colours(runs: Sequence[xr.Dataset]) -> list[str]:

@@ -186,14 +186,13 @@ def _score(out: Path, bands: int, is_shown: bool = True) -> None:
     """Figures and scorecard of what is there."""
     runs = {name: open_run(out / name) for name in RUNS}
     rows = rows_over_starts(runs, scorecard_rows)
-    compared = [out / name for name in PROTOTYPES]
+    # Figure 3 compares the prototype with and without the heating model, each with its band.
+    compared = [folder_of(n, out, is_band) for n in PROTOTYPES for is_band in ((False, True) if bands else (False,))]
     if bands:
         ensembles = {name: open_run(folder_of(name, out, True)) for name in BANDS}
         rows = with_bands(rows, rows_over_starts({**runs, **ensembles}, scorecard_rows))
-        compared += [folder_of(name, out, True) for name in PROTOTYPES]
         draw_runs([folder_of(name, out, True) for name in PROTOTYPES])
     for name in RUNS:
-        # Figure 3 compares the prototype with and without the heating model.
         draw_runs(compared if name == PROTOTYPES[0] else [out / name])
     with writing(out):
         write_atomically(out / "scorecard.md", as_markdown(rows).encode())

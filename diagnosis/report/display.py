@@ -69,6 +69,16 @@ def number(value: float, digits: int = 3) -> str:
     return f"{round(value, digits - 1 - size):.{max(digits - 1 - size, 0)}f}"
 
 
+def instant(value: float, digits: int = 4) -> str:
+    """A time without needless zeros, and without an exponent where people write none.
+
+    >>> instant(6.0), instant(43200.0), instant(0.3125)
+    ('6', '43200', '0.3125')
+    """
+    text = f"{value:.{digits}g}"
+    return number(value, digits) if "e" in text else text
+
+
 def interval(value: float, lower: float, upper: float, unit: str) -> str:
     """An estimate with its interval, as many digits as the interval deserves.
 

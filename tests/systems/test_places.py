@@ -12,6 +12,7 @@ from diagnosis.laws.law import Role
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
+from evaluation.fmus.model import OdeModel
 from evaluation.real.__main__ import main as real
 from tests.systems.rigs import LUMP, OSCILLATOR, OSCILLATOR_SCENARIO, TANK
 
@@ -135,3 +136,22 @@ def test_a_missing_recording_is_named_with_its_source(tmp_path: Path, capsys: py
     said = capsys.readouterr().err
     assert "slide.csv: there is no such file" in said
     assert "nonlinearbenchmark.org" in said
+
+
+def test_a_state_without_a_unit_is_no_level_and_no_angle(tmp_path: Path) -> None:
+    """A pure number and a radian have one dimension: a concentration has no opening to flow out of."""
+    OdeModel("reactor", {"k": (0.1, "")}, {"feed": ""}, {"a": ("", "0.5", "feed - k*a")}, {"A": ("", "a")}).build(
+        tmp_path
+    )
+    text = """
+title: A reactor
+time: {stop: 60 s, macro_step: 1 s, output_step: 1 s}
+components:
+  pump: {kind: programme, outputs: {feed: {unit: "1", points: [[0 s, 0.1], [20 s, 0]]}}}
+  reactor: {kind: fmu, fmu: reactor.fmu, integrator: cvode}
+connections: [pump.feed -> reactor.feed]
+"""
+    found = {name for name, to in _fits(text, tmp_path) if to == "der(a)"}
+    assert "constant" in found
+    assert "rate_linear" in found
+    assert not found & {"steady_inflow", "free_outflow", "leak", "viscous_damping", "dry_friction"}

@@ -80,7 +80,7 @@ class FastSystem:
     def _build(self, laws: Sequence[Placed]) -> None:
         system = self.assembly.system
         if system.loops or system.initial_loops:
-            raise NotFast("it has an algebraic loop")
+            raise NotFast("it has an algebraic loop, by the dependencies of outputs on inputs that its FMUs declare")
         self.fmus: dict[str, FastFmu] = {}
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):

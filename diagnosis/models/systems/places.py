@@ -11,7 +11,7 @@ import numpy as np
 
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from cosim.unit.quantity import PhysicalValue, cycles_and_angles, parse_unit, registry
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem, Rows
@@ -270,7 +270,10 @@ def _single(
 
 
 def _is(quantity: Quantity, *units: str) -> bool:
-    return any(parse_unit(quantity.unit).dimensionality == parse_unit(u).dimensionality for u in units)
+    """Whether a quantity is of the kind of one of these units; a pure number is no angle, nor 1/s its rate."""
+    own = parse_unit(quantity.unit).dimensionality
+    is_angle = any(cycles_and_angles(quantity.unit))
+    return any(own == parse_unit(u).dimensionality and (is_angle or not any(cycles_and_angles(u))) for u in units)
 
 
 def _fit(
