@@ -78,6 +78,18 @@ def test_a_long_table_is_thinned_to_readings_as_they_are(tmp_path, monkeypatch):
     assert "thinned" not in sparse.dropped
 
 
+def test_channels_of_a_recording_share_the_readings_that_are_compared(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "MOST_READINGS", 250)
+    monkeypatch.setattr(module, "LEAST_KEPT", 10)
+    times = np.arange(0.0, 100.0, 0.1)
+    rare = np.where(np.arange(1000) % 20 == 7, times, math.nan)
+    channels = channel() | {f"coil[{n}].temperature": {"column": "T", "unit": "degC"} for n in (2, 3)}
+    channels |= {"coil[4].temperature": {"column": "rare", "unit": "degC"}}
+    found = load_recording(folder(tmp_path, {"time": times, "T": times, "rare": rare}, channels=channels)).channels
+    assert [len(c.times) for c in found.values()] == [63, 63, 63, 50]  # every 16th row; the last has no more
+    assert [c.dropped.get("thinned", 0) for c in found.values()] == [937, 937, 937, 0]
+
+
 def test_an_input_that_changes_in_every_row_is_refused_and_one_that_stays_is_not(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "MOST_CHANGES", 20)
     entry = {"inputs": {"drive.power_1": {"column": "P", "unit": "W"}}}
