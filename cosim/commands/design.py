@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -36,7 +37,7 @@ def design(
             code = find(task, out, choose_place(jobs, cluster, goes_on=True), resume, display.stage, display.progress)
     except KeyboardInterrupt as error:
         print(
-            f"interrupted; finished runs are kept, go on with: cosim design {task} --out {out} --resume",
+            f"interrupted; finished runs are kept, go on with: cosim design {shlex.quote(str(task))} --out {shlex.quote(str(out))} --resume",
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

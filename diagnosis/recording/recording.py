@@ -442,7 +442,7 @@ def fair_share(counts: Sequence[int]) -> int:
             break
         left, rest = left - count, rest - 1
     share = left // rest if rest else MOST_VALUES
-    return max(min(share, MOST_VALUES), LEAST_KEPT)
+    return min(max(share, LEAST_KEPT), MOST_VALUES)
 
 
 def _thinned(rows: AnyArray, count: int, most: int) -> AnyArray:
