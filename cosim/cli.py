@@ -92,8 +92,9 @@ def list_scenarios() -> None:
 
 @app.command()
 def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
-    """Check a scenario, its FMUs and its connections without running it."""
+    """Check a scenario, its FMUs and its connections without running it; guess how long a run takes."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
+    from cosim.estimate import estimate
 
     loaded = load_scenario(scenario, changes or ())
     assembly = assemble(loaded)
@@ -104,6 +105,7 @@ def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
     print(f"{loaded.path}: valid; {parts}; {len(assembly.scenario.connections)} connections")
     for loop in loops:
         print(f"  {loop}")
+    print(f"  {estimate(assembly)}")
 
 
 @app.command()

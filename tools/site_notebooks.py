@@ -23,5 +23,5 @@ def page(path: Path) -> str:
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     parts = ["".join(cell["source"]) for cell in cells]
     shown = [f"```python\n{text}\n```" if cell["cell_type"] == "code" else text for cell, text in zip(cells, parts)]
-    run = f"Run it: `jupyter lab docs/notebooks/{path.name}` in a clone, where `pip install jupyterlab` has brought Jupyter."
+    run = f"Run it in a clone, after `pip install jupyterlab`: `jupyter lab docs/notebooks/{path.name}`."
     return "\n\n".join([shown[0], run, *shown[1:]]) + "\n"

@@ -37,7 +37,8 @@ def design(
             code = find(task, out, choose_place(jobs, cluster, goes_on=True), resume, display.stage, display.progress)
     except KeyboardInterrupt as error:
         print(
-            f"interrupted; finished runs are kept, go on with: cosim design {shlex.quote(str(task))} --out {shlex.quote(str(out))} --resume",
+            "interrupted; finished runs are kept, go on with: "
+            + shlex.join(["cosim", "design", str(task), "--out", str(out), "--resume"]),
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

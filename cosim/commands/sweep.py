@@ -40,7 +40,8 @@ def sweep(
             code = make(file, folder, choose_place(jobs, cluster, goes_on=True), resume, display.progress)
     except KeyboardInterrupt as error:
         print(
-            f"interrupted; finished runs are kept, go on with: cosim sweep {shlex.quote(str(file))} --out {shlex.quote(str(folder))} --resume",
+            "interrupted; finished runs are kept, go on with: "
+            + shlex.join(["cosim", "sweep", str(file), "--out", str(folder), "--resume"]),
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

@@ -58,7 +58,7 @@ class Trace:
     def __init__(self, system: System, times: Sequence[int], folder: Path | None = None) -> None:
         self.system = system
         self.times = times
-        self.channels = _channels(system)
+        self.channels = recorded_channels(system)
         self.count = 0
         #: Name of a channel to its values, shape (output times, ...); the first `count` rows are recorded.
         shapes = [((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels]
@@ -158,7 +158,8 @@ def keep(rows: AnyArray, row: int, variable: Variable, value: AnyArray) -> None:
     rows[row, ...] = _HEXADECIMAL(value) if variable.type is VariableType.BINARY else value
 
 
-def _channels(system: System) -> list[Channel]:
+def recorded_channels(system: System) -> list[Channel]:
+    """What a trace of a system holds."""
     sizes: dict[str, int] = {}
     result = []
     for name, unit in system.units.items():
