@@ -10,7 +10,7 @@ from cosim.components import CircuitComponent, FabricComponent, nanoseconds
 from cosim.observers.trace import recorded_channels
 from cosim.unit.protocol import NANOSECONDS
 
-#: Seconds of a micro-step for a link: in Bullet by iteration, at least so much; in MuJoCo. benchmarks/results/engines.md
+#: Seconds of a micro-step for a link: in Bullet by iteration, at least so much; in MuJoCo (benchmarks/results/engines).
 BULLET, LEAST_BULLET, MUJOCO = 0.65e-6, 4e-5, 1.2e-5
 #: Share of its time that Bullet needs with the friction pyramid.
 PYRAMID = 0.6
