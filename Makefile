@@ -12,20 +12,25 @@ JOBS ?= 2
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: help run plan prove real test test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
+comma := ,
+
+.PHONY: help run plan prove real nightly test test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
+# Starts in MuJoCo for the bands (0: none), or starts in Bullet instead, which take three times as long.
 STARTS ?= 1
-run: plan setup fmus  ## the paper's experiment: all runs, figures and the scorecard, in runs/reproduce
-	@$(BIN)/cosim reproduce --out runs/reproduce --starts $(STARTS)
+BANDS ?= $(if $(filter 1,$(STARTS)),12,0)
+run: plan setup fmus  ## the paper's experiment: all runs, figures and the scorecard with bands, in runs/reproduce
+	@$(BIN)/cosim reproduce --out runs/reproduce --starts $(STARTS) --bands $(BANDS)
 
 plan:
-	@echo "make run does, in this order:"
+	@echo "make run does the paper's experiments in Bullet$(if $(filter 1,$(STARTS)),, from $(STARTS) starts)$(if $(filter 0,$(BANDS)),,, then bands over $(BANDS) starts in MuJoCo):" \
+	  "$(if $(filter-out 0,$(BANDS)),half an hour on two cores (make run BANDS=0: without bands$(comma) 6 min),6 min a start on two cores). In this order:"
 	@echo "  1. a virtual environment in $(VENV) and libngspice (the first time: downloads, minutes)"
 	@echo "  2. the FMUs from their C sources (the first time: seconds; compiler lines go to $(FMUS)/build.log)"
-	@echo "  3. the paper's experiments, figures and scorecard (minutes; it says how many)"
+	@echo "  3. the paper's experiments, figures and scorecard; before it begins it says how long each takes"
 
 PROOF ?= runs/prove
 prove: dev fmus  ## the diagnosis on 480 cases with concealed effects (three hours); what is done is kept in runs/prove
@@ -51,6 +56,9 @@ wheel: setup  ## the package, in build/wheel
 
 docs: $(VENV)/.installed-docs  ## the documents as a searchable site, in build/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
+
+nightly: setup fmus  ## a fabric of 276 links, heated row by row, to its end (hours), in runs/large_row_by_row
+	$(BIN)/cosim run large_row_by_row $(if $(wildcard runs/large_row_by_row/scenario.yaml),--resume)
 
 test-slow: dev fmus  ## tests that take minutes each
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
@@ -103,7 +111,7 @@ $(VENV)/.installed-docs: requirements-docs.lock $(VENV)/.installed
 	@touch $@
 
 lock:  ## pin the newest versions that pyproject.toml allows (needs uv)
-	uv pip compile pyproject.toml --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements.lock
+	uv pip compile pyproject.toml --extra mujoco --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements.lock
 	uv pip compile pyproject.toml --extra dev -c requirements.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-dev.lock
 	uv pip compile pyproject.toml --extra docs -c requirements-dev.lock --python-version 3.11 --generate-hashes --no-header --no-emit-index-url --upgrade -q -o requirements-docs.lock
 

@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say: a wheel holds the scenarios, actuators, templates and examples of the tree.
+"""What pyproject.toml cannot say: a wheel holds scenarios, actuators, templates and examples, and no evaluation.
 
 They go into `cosim/data`, under their names in the tree; cosim/shipped.py finds them there. A clone that is installed
 with `pip install -e` uses its own folders.
@@ -19,12 +19,16 @@ PACKED = {
     "templates": ("*.c", "*.h", "*.html", "*.py", "*.yaml"),
     "docs/examples": ("*.yaml", "*.csv", "*.py"),
 }
+#: Packages of a clone that no wheel has: evidence, not product.
+LEFT_OUT = {"evaluation"}
 
 
 class BuildWithData(build_py):
     """Copies the folders of `PACKED` beside the modules."""
 
     def run(self) -> None:
+        if not self.editable_mode:
+            self.packages = [p for p in self.packages if p.split(".")[0] not in LEFT_OUT]
         super().run()
         if self.editable_mode:
             return

@@ -25,6 +25,8 @@ ESCAPED = 2e-3
 #: Name to the settings.
 SETTINGS: dict[str, dict[str, Any]] = {
     "Bullet, cone, 200": {"micro_step": 5e-4, "iterations": 200},
+    "Bullet, anchors, 200": {"micro_step": 5e-4, "iterations": 200, "friction_anchors": True},
+    "Bullet, anchors, 0.25 ms, 100": {"micro_step": 2.5e-4, "iterations": 100, "friction_anchors": True},
     "Bullet, pyramid, 200": {"micro_step": 5e-4, "iterations": 200, "friction_model": "pyramid"},
     "Bullet, pyramid, 100": {"micro_step": 5e-4, "iterations": 100, "friction_model": "pyramid"},
     "MuJoCo, 0.5 ms": {"micro_step": 5e-4, "iterations": 200, "engine": "mujoco"},

@@ -150,6 +150,7 @@ def run(
     formats = formats_of(figures)
     folder = _folder(scenario, out, resume, overwrite)
     loaded = _loaded(scenario, folder, resume, changes or [])
+    _announce(loaded, starts or 1, jobs, resume)
     if starts is not None or (resume and is_ensemble(folder.path)):
         _run_starts(loaded, folder, starts, resume, jobs, csv, formats if plots else [])
     else:
@@ -157,6 +158,15 @@ def run(
     if plots:
         _draw(folder, formats)
     print(f"{folder.path}: {in_one_line(loaded.title)}")
+
+
+def _announce(scenario: Scenario, starts: int, jobs: int, resume: bool) -> None:
+    """Say how long a fabric will take, where that is minutes; the progress bar says it of a run that goes on."""
+    from cosim.expected_time import announcement
+
+    text = "" if resume else announcement(scenario, starts, jobs)
+    if text:
+        print(text, file=sys.stderr, flush=True)
 
 
 def is_ensemble(folder: Path) -> bool:
@@ -252,11 +262,20 @@ def reproduce(
     starts: Annotated[
         int, typer.Option(min=1, help="Starts of every fabric; with several the scorecard has medians and bands.")
     ] = 1,
+    bands: Annotated[
+        int | None,
+        typer.Option(
+            min=0,
+            help="Starts in MuJoCo for the bands beside the runs in Bullet; default: 12, or 0 with --starts.",
+        ),
+    ] = None,
 ) -> None:
     """Run the paper's experiments and compare every published number with ours."""
+    from chainmail.reproduce.command import STARTS_OF_BANDS
     from chainmail.reproduce.command import reproduce as reproduce_paper
 
-    raise typer.Exit(reproduce_paper(out, jobs, starts))
+    default = STARTS_OF_BANDS if starts == 1 else 0
+    raise typer.Exit(reproduce_paper(out, jobs, starts, default if bands is None else bands))
 
 
 def main() -> NoReturn:

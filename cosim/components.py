@@ -242,6 +242,9 @@ class Solver(Strict):
     springs: Literal["force", "motor"] = Field(
         default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
     )
+    friction_anchors: bool = Field(
+        default=False, description="bullet: contacts that stick stay where they are, so that nothing at rest creeps."
+    )
     penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
 
 

@@ -108,6 +108,7 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
         springs=component.solver.springs,
         engine=component.engine,
         friction_model=component.solver.friction_model,
+        friction_anchors=component.solver.friction_anchors,
     )
     try:
         return FabricUnit(name, design, solver)

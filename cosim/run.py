@@ -339,7 +339,7 @@ def _step_to_end(
     state: _Clockwork, folder: RunFolder | None, on_progress: Callable[[Progress], None] | None, interrupt: Interrupt
 ) -> None:
     per_checkpoint = nanoseconds(state.scenario.time.checkpoint_step) // state.macro
-    has_checkpoints = state.total <= per_checkpoint or _can_checkpoint(state)
+    has_checkpoints = state.total <= per_checkpoint or _can_checkpoint(state, folder is not None)
     while state.index < state.total:
         due = min((state.index // per_checkpoint + 1) * per_checkpoint, state.total)
         try:
@@ -368,10 +368,10 @@ def _step_to_end(
         interrupt.check()
 
 
-def _can_checkpoint(state: _Clockwork) -> bool:
-    """Whether all units can write their state; else that is said once, and the run goes on without checkpoints."""
+def _can_checkpoint(state: _Clockwork, is_kept: bool) -> bool:
+    """Whether all units can write their state; else a run that is kept says so once."""
     unable = [name for name, unit in state.assembly.system.units.items() if not unit.can_checkpoint]
-    if unable:
+    if unable and is_kept:
         _LOG.warning(
             "%s: an FMU that cannot serialise its state (canSerializeFMUstate), so there are no checkpoints: "
             "a run that is interrupted keeps its results and begins anew",

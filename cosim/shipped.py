@@ -1,7 +1,7 @@
 """What comes with the program beside its modules: scenarios, parameter sets, sources of actuators, templates, examples.
 
 In a clone they are folders of the tree. A wheel holds copies of the same folders in `cosim/data` (setup.py), because
-the top-level names of an installation are those of the packages alone: circuit, cosim, diagnosis, mechanics, proving.
+the top-level names of an installation are those of the packages alone: chainmail, circuit, cosim, diagnosis, mechanics.
 """
 
 from __future__ import annotations

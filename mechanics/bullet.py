@@ -97,6 +97,7 @@ class World:
             enableConeFriction=int(self.solver.friction_model == "cone"),
             erp=_share(self.solver.micro_step / STOP_CORRECTION_TIME),
             contactERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
+            frictionERP=_share(self.solver.micro_step / CONTACT_CORRECTION_TIME),
             physicsClientId=self._client,
         )
         pybullet.setGravity(*(SCALE * g for g in self.design.gravity), physicsClientId=self._client)
@@ -187,6 +188,7 @@ class World:
                 rollingFriction=0.0,
                 restitution=math.sqrt(self.design.restitution),
                 jointDamping=0.0,
+                frictionAnchor=int(self.solver.friction_anchors),
                 physicsClientId=self._client,
                 **settings,
             )

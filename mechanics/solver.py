@@ -20,6 +20,8 @@ class SolverSettings:
         engine: "bullet" or "mujoco".
         friction_model: "cone": the friction of a contact points against its sliding; "pyramid": both its components are
             bounded by themselves, which is cheaper and holds up to sqrt(2) more in between; Bullet alone.
+        friction_anchors: Whether a contact that sticks is drawn back to where it began to stick, so that what is at
+            rest does not creep; Bullet alone.
 
     Raises:
         ValueError: A number is not positive, or there is no such way to apply springs.
@@ -31,6 +33,7 @@ class SolverSettings:
     springs: Literal["force", "motor"] = "force"
     engine: Literal["bullet", "mujoco"] = "bullet"
     friction_model: Literal["cone", "pyramid"] = "cone"
+    friction_anchors: bool = False
 
     def __post_init__(self) -> None:
         for name in ("micro_step", "iterations", "penetration_limit"):

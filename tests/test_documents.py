@@ -16,13 +16,14 @@ ROOT = Path(__file__).resolve().parents[1]
 #: Folders of the project that hold documents; what is built, installed or run lies elsewhere.
 FOLDERS = (
     "benchmarks",
+    "chainmail",
     "circuit",
     "cosim",
     "diagnosis",
     "docs",
+    "evaluation",
     "fmus",
     "mechanics",
-    "proving",
     "scenarios",
     "templates",
     "tests",

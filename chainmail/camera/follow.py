@@ -21,6 +21,9 @@ _OFF, _LEAST_OFF = 8.0, 4e-3
 #: Missing share of a marker that its own scatter does not explain: so many deviations, and at least so much.
 _MISSING, _LEAST_MISSING = 4.0, 0.012
 
+#: A marker has moved where two readings differ by so many deviations.
+_MOVED = 4.0
+
 Assign = Callable[[Places, Expected | None], Chain | None]
 
 
@@ -123,6 +126,29 @@ def _without_strays(tracks: Tracks) -> Tracks:
         off = np.abs(own[3:-3] - middle)
         is_off[has[3:-3], marker] = np.any(off > np.maximum(_OFF * spread, _LEAST_OFF), axis=1)
     return tracks.without(is_off)
+
+
+def without_repeats(tracks: Tracks, is_repeated: AnyArray) -> Tracks:
+    """Gaps where a camera or a recorder gave the picture before once more while the markers moved.
+
+    Such a reading belongs to an earlier time. Where nothing moved until the next picture it stays.
+
+    Args:
+        tracks: As followed.
+        is_repeated: Whether a picture is the one before it, shape (frames,).
+    """
+    is_late = np.zeros(len(is_repeated), dtype=bool)
+    new = np.flatnonzero(~is_repeated)
+    for begin, end in zip(new, [*new[1:], len(is_repeated)]):
+        if end - begin < 2:
+            continue
+        if end == len(is_repeated):  # nothing tells what came after it
+            is_late[begin + 1 : end] = True
+            continue
+        moved = np.abs(tracks.places[end] - tracks.places[begin])
+        noise = np.hypot(tracks.deviation[end], tracks.deviation[begin])
+        is_late[begin + 1 : end] = not np.any(np.isfinite(moved)) or bool(np.any(moved > _MOVED * noise))
+    return tracks.without(np.repeat(is_late[:, None], tracks.markers, axis=1))
 
 
 def doubt_parts(tracks: Tracks, radius: float) -> Tracks:

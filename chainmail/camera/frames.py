@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,8 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import conversion
 
+_NUMBER = re.compile(r"\d+")
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -25,10 +28,12 @@ class Frame:
     Args:
         picture: Blue, green, red, shape (height, width, 3), bytes.
         stamp: Time stamp that the video file gives [s]; not a number for pictures of a folder.
+        is_repeated: Whether it is the picture before it, bit for bit.
     """
 
     picture: AnyArray
     stamp: float = math.nan
+    is_repeated: bool = False
 
 
 class Frames:
@@ -44,15 +49,41 @@ class Frames:
     def __init__(self, source: Path) -> None:
         self.source = source
         self.files = pictures_in(source, "") if source.is_dir() else []
-        #: Frames per second that the video file states; 0 for a folder.
-        self.rate = 0.0
+        #: Frames per second and number of frames that the video file states; 0 for a folder.
+        self.rate, self.stated = 0.0, 0
+        #: Frames that the last pass could read.
+        self.read = 0
         first = next(iter(self), None)
         if first is None:
             raise InputError(source, "", "no frame of it can be read", "give a video that OpenCV decodes, or a folder")
         self.shape = first.picture.shape
 
     def __iter__(self) -> Iterator[Frame]:
-        yield from self._pictures() if self.files else self._video()
+        previous: AnyArray | None = None
+        for frame in self._pictures() if self.files else self._video():
+            yield Frame(frame.picture, frame.stamp, previous is not None and _is_same(frame.picture, previous))
+            previous = frame.picture
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the last pass could read fewer frames than the file states; what it read last was left out."""
+        return self.read < self.stated
+
+    def jump(self) -> tuple[str, str] | None:
+        """Two neighbours of a folder between whose numbers others are missing; None where none are.
+
+        Only where the names differ in one number alone, and their numbers rise by the same amount elsewhere.
+        """
+        names = [(_NUMBER.split(f.stem), [int(n) for n in _NUMBER.findall(f.stem)]) for f in self.files]
+        if len({tuple(text) for text, _ in names}) != 1:
+            return None
+        numbers = np.array([n for _, n in names], dtype=np.float64)
+        changing = np.flatnonzero(np.any(numbers != numbers[0], axis=0))
+        if len(changing) != 1:
+            return None
+        step = np.diff(numbers[:, changing[0]])
+        far = np.flatnonzero(step != np.min(step))
+        return (self.files[far[0]].name, self.files[far[0] + 1].name) if len(far) else None
 
     def _pictures(self) -> Iterator[Frame]:
         cv2, shape = opencv(), None
@@ -75,15 +106,29 @@ class Frames:
         if not self.source.is_file():
             raise InputError(self.source, "", "there is no such file or folder", "give a video or a folder of pictures")
         video = cv2.VideoCapture(str(self.source))
+        last: Frame | None = None
+        self.read = 0
         try:
             self.rate = float(video.get(cv2.CAP_PROP_FPS)) if video.isOpened() else 0.0
+            self.stated = int(max(video.get(cv2.CAP_PROP_FRAME_COUNT), 0.0)) if video.isOpened() else 0
             while video.isOpened():
                 is_read, picture = video.read()
                 if not is_read:
-                    return
-                yield Frame(picture, float(video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0)
+                    break
+                if last is not None:
+                    yield last
+                self.read += 1
+                last = Frame(picture, float(video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0)
+            # Where a file breaks off, decoders fill up its last picture from the one before.
+            if last is not None and not self.is_cut:
+                yield last
         finally:
             video.release()
+
+
+def _is_same(one: AnyArray, other: AnyArray) -> bool:
+    middle = len(one) // 2  # one line tells most pictures apart
+    return np.array_equal(one[middle], other[middle]) and np.array_equal(one, other)
 
 
 def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video: Path) -> tuple[Array, str]:

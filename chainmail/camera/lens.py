@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +22,8 @@ FEWEST_BOARDS = 6
 _BLURRED = 2.5
 #: Half of the window in which a corner is refined [px].
 _AROUND = 5
+#: Text, and the number that follows it.
+_PIECES = re.compile(r"(\D*)(\d*)")
 ENDINGS = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff")
 
 
@@ -89,19 +92,19 @@ class Calibration:
 
 
 def pictures_in(folder: Path, key: str, pattern: str = "*") -> list[Path]:
-    """Pictures of a folder, in the order of their names.
+    """Pictures of a folder, in the order of their names; numbers in them count as numbers: 2 comes before 10.
 
     Raises:
         InputError: There is no such folder, or it holds no picture.
     """
     if not folder.is_dir():
         raise InputError(folder, key, "there is no such folder", "give a folder of pictures")
-    found = sorted(p for p in folder.glob(pattern) if p.suffix.lower() in ENDINGS and p.is_file())
+    found = [p for p in folder.glob(pattern) if p.suffix.lower() in ENDINGS and p.is_file()]
     if not found:
         raise InputError(
             folder, key, f"it holds no picture `{pattern}`", f"give files that end in {', '.join(ENDINGS)}"
         )
-    return found
+    return sorted(found, key=lambda p: ([(t, int(n or -1)) for t, n in _PIECES.findall(p.name)], p.name))
 
 
 def calibrate(files: list[Path], corners: tuple[int, int], key: str) -> Calibration:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,8 @@ _THIRD = np.array([-1.0, 3.0, -3.0, 1.0])
 _SMALLEST, _LARGEST, _ENOUGH = 0.5, 4.0, 20
 #: Deviation of the window over which a link's length is averaged [s], and most pictures in it.
 _WINDOW, _MOST = 0.1, 12.0
+#: Mean and median of a length that differ by so many deviations of its noise: the link moves fast.
+_FAST = 2.0
 #: A link's length cannot be trusted nearer than this [m]: it slides and rattles.
 _RATTLE = 4e-5
 #: A link whose length is off by so many deviations, and so much [m], has a wrong marker.
@@ -58,15 +61,39 @@ def lengths(tracks: Tracks) -> Array:
     return np.asarray(np.hypot(step[..., 0], step[..., 1]))
 
 
-def smooth_lengths(tracks: Tracks) -> Array:
-    """The same, averaged over neighbouring pictures in which both markers are whole."""
+def smooth_lengths(tracks: Tracks) -> tuple[Array, Array]:
+    """Length of every link over time, and how far it may be off, both of shape (frames, links) [m].
+
+    A mean over neighbouring pictures in which both markers are whole. Where a link contracts faster than that, the
+    median of about as many pictures: it follows every course that only falls or only rises, and a wrong marker in fewer
+    than half of them does not move it. What mean and median differ by is then how far it may be off.
+    """
     own = lengths(tracks)
     is_whole = (tracks.state[:, 0::2] == SEEN) & (tracks.state[:, 1::2] == SEEN)
     period = float(np.median(np.diff(tracks.times))) if len(own) > 1 else 1.0
     wide = float(np.clip(_WINDOW / period, 0.5, _MOST))
     weight = gaussian_filter1d(is_whole.astype(np.float64), wide, axis=0, mode="nearest", truncate=6.0)
     total = gaussian_filter1d(np.where(is_whole, own, 0.0), wide, axis=0, mode="nearest", truncate=6.0)
-    return np.where(weight > 1e-3, total / np.maximum(weight, 1e-12), np.nan)
+    mean = np.where(weight > 1e-3, total / np.maximum(weight, 1e-12), np.nan)
+    known = np.where(is_whole, own, np.nan)
+    middle = _medians(known, int(1.5 * wide) + 1)
+    off = np.abs(mean - middle)
+    noise = _typical(np.where(is_whole, np.hypot(*np.sqrt(_along(tracks))), np.nan))
+    is_fast = off > _FAST * noise + _RATTLE
+    return np.where(is_fast, middle, mean), np.hypot(_RATTLE, np.where(is_fast, off, 0.0))
+
+
+def _medians(values: Array, reach: int) -> Array:
+    """Median of the values known within `reach` pictures before and after; not a number where there is none."""
+    padded = np.pad(values, ((reach, reach), (0, 0)), constant_values=np.nan)
+    return _typical(np.moveaxis(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=0), -1, 0))
+
+
+def _typical(values: Array) -> Array:
+    """Median over the first axis of the values that are known; not a number where there is none."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # nothing but gaps
+        return np.asarray(np.nanmedian(values, axis=0))
 
 
 @dataclass(frozen=True)
@@ -106,9 +133,9 @@ def fit_links(tracks: Tracks) -> Links:
     from the other, that length, and the link's angle between the pictures before and after; how far angles of this link
     are off such a line elsewhere in the video tells the deviation.
     """
-    length = smooth_lengths(tracks)
+    length, loose = smooth_lengths(tracks)
     checked = _without_wrong(tracks, length)
-    return _adjusted(_rebuilt(checked, length), length)
+    return _adjusted(_rebuilt(checked, length, loose), length, loose)
 
 
 def _without_wrong(tracks: Tracks, length: Array) -> Tracks:
@@ -127,7 +154,7 @@ def _along(tracks: Tracks) -> tuple[Array, Array]:
     return back, front
 
 
-def _rebuilt(tracks: Tracks, length: Array) -> Tracks:
+def _rebuilt(tracks: Tracks, length: Array, loose: Array) -> Tracks:
     places, covariance, state = tracks.places.copy(), tracks.covariance.copy(), tracks.state.copy()
     step = tracks.places[:, 1::2] - tracks.places[:, 0::2]
     angle = np.arctan2(step[..., 1], step[..., 0])
@@ -150,7 +177,7 @@ def _rebuilt(tracks: Tracks, length: Array) -> Tracks:
             places[frame, marker] = places[frame, seen] + sign * radius * unit
             covariance[frame, marker] = (
                 covariance[frame, seen]
-                + _RATTLE**2 * np.outer(unit, unit)
+                + loose[frame, link] ** 2 * np.outer(unit, unit)
                 + (radius * deviation) ** 2 * np.outer(across, across)
             )
             state[frame, marker] = REBUILT
@@ -186,7 +213,7 @@ def _turned(angle: Array) -> Array:
     return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
-def _adjusted(tracks: Tracks, length: Array) -> Links:
+def _adjusted(tracks: Tracks, length: Array, loose: Array) -> Links:
     """Both ends moved along their link towards its length, by their variances (one step of a Kalman filter)."""
     cross = _cross_of_rebuilt(tracks)
     places, covariance = tracks.places.copy(), tracks.covariance.copy()
@@ -197,7 +224,7 @@ def _adjusted(tracks: Tracks, length: Array) -> Links:
     usable = np.isfinite(own + length) & np.all(
         [(tracks.state[:, k::2] == SEEN) | (tracks.state[:, k::2] == PART) for k in (0, 1)], axis=0
     )
-    spread = back + front + _RATTLE**2
+    spread = back + front + loose**2
     pulls = [np.einsum("flij,flj->fli", tracks.covariance[:, k::2], unit) for k in (0, 1)]
     joint = pulls[0][..., :, None] * pulls[1][..., None, :] / spread[..., None, None]
     cross = np.where(usable[..., None, None], joint, cross)

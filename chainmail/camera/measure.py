@@ -10,18 +10,21 @@ import numpy as np
 
 from chainmail.camera.curvature import Curvature, largest_curvature
 from chainmail.camera.detect import Detector, Spots, outline_error
-from chainmail.camera.follow import doubt_parts, fabric_assigner, follow, point_assigner
+from chainmail.camera.follow import doubt_parts, fabric_assigner, follow, point_assigner, without_repeats
 from chainmail.camera.frames import Frames, frame_times
 from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
 from chainmail.camera.rig import FabricLayout, Rig
 from chainmail.camera.sight import Sight, sight_of
 from chainmail.camera.spots import WHOLE, places_of, radius_of
-from chainmail.camera.tracks import GAP, Tracks
+from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray
 
 #: A marker whose measured diameter is off by this factor is not what the rig describes.
 _OTHER_SIZE = 1.4
+#: A held row that moves by so much [m], while the last one moves by less than this share of it, is no held row.
+_HELD, _STILL = 5e-3, 0.3
 #: Frames whose outlines are looked at.
 _SAMPLES = 60
 #: Fewest frames of a recording.
@@ -66,9 +69,23 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     sight = sight_of(rig, rig_file, frames)
     layout = rig.markers.layout
     count = 2 * layout.rows if isinstance(layout, FabricLayout) else len(layout.points)
-    pictures, stamps = _spots(frames, rig, sight, count, on_frame)
+    pictures, stamps, is_repeated = _spots(frames, rig, sight, count, on_frame)
+    cut = f"the file states {frames.stated} frames, {frames.read} could be read" if frames.is_cut else ""
     if len(pictures) < FEWEST:
-        raise InputError(video, "", f"it has {len(pictures)} frames; at least {FEWEST} are needed", "film longer")
+        raise InputError(
+            video,
+            "",
+            f"it has {len(pictures)} frames{f' ({cut})' if cut else ''}; at least {FEWEST} are needed",
+            "copy it once more: it is damaged" if cut else "film longer",
+        )
+    jump = frames.jump() if rig.clock.rate is not None else None
+    if jump is not None:
+        raise InputError(
+            video,
+            "",
+            f"a picture is missing between {jump[0]} and {jump[1]}: by `rate` all later ones would get wrong times",
+            "put it back, or give `clock.stamps`",
+        )
     times, said = frame_times(rig.clock, np.array(stamps), frames.rate, rig_file, video)
     radius = _radius(pictures, rig, rig_file, sight, count)
     places = [places_of(spots, sight, radius) for spots in pictures]
@@ -79,22 +96,57 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     )
     followed = follow(times, places, count, assign)
     if not np.any(followed.state != GAP):
+        seen = int(np.median([len(p) for p in places]))
         raise InputError(
             video,
             "",
-            f"in none of its {len(pictures)} frames can the markers be told apart",
+            f"in none of its {len(pictures)} frames can the markers be told apart: the rig has "
+            f"{count}, the median frame shows {seen} spots of that colour",
             "look at markers.layout, plane and markers.colour of the rig file",
         )
+    if isinstance(layout, FabricLayout):
+        _check_direction(followed, layout, rig_file)
     steady = _steady(pictures, sight, radius)
     tracks, factor = with_errors(followed, steady)
-    tracks = doubt_parts(tracks, radius)
+    moving = without_repeats(tracks, is_repeated)
+    tracks = doubt_parts(moving, radius)
     notes = (
         *sight.notes,
         f"time: {said}",
         f"markers: {2e3 * radius:.2f} mm across",
         f"noise: {factor:.2f} times that of single pictures; error that stays: {1e6 * steady:.0f} um",
     )
+    if cut:
+        notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
+    late = int(np.sum(is_repeated & (moving.state == GAP).all(axis=1)))
+    if late:
+        notes = (*notes, f"{late} pictures repeat the one before them while the markers move: they are gaps")
     return _finished(tracks, rig, sight, notes, tuple(len(p) for p in places))
+
+
+def _check_direction(tracks: Tracks, layout: FabricLayout, rig_file: Path) -> None:
+    """Refuse a fabric whose held row moves while its last one stays: it is read from its free end.
+
+    Turned by half a turn a weave looks the same, so no single picture can tell.
+    """
+    if not layout.tethered_rows:
+        return
+    first, last = (_travel(tracks, k) for k in (slice(0, 2), slice(-2, None)))
+    if first > _HELD and last < _STILL * first:
+        raise InputError(
+            rig_file,
+            "markers.layout.along",
+            f"row 1 is held at the tether, but what looks like it moves "
+            f"by {1e3 * first:.3g} mm, and row {layout.rows} by {1e3 * last:.2g} mm: the fabric points "
+            "the other way",
+            "correct `along`, or the directions of y and z under `plane`",
+        )
+
+
+def _travel(tracks: Tracks, markers: slice) -> float:
+    """How far markers travel [m], without the extreme tenths of the time."""
+    own = tracks.places[:, markers][(tracks.state[:, markers] == SEEN).all(axis=1)]
+    return float(np.max(np.ptp(np.quantile(own, (0.1, 0.9), axis=0), axis=0))) if len(own) else 0.0
 
 
 def _finished(tracks: Tracks, rig: Rig, sight: Sight, notes: tuple[str, ...], spots: tuple[int, ...]) -> Measured:
@@ -116,16 +168,17 @@ def _vague(tracks: Tracks, largest: float) -> np.ndarray[tuple[int, ...], np.dty
 
 def _spots(
     frames: Frames, rig: Rig, sight: Sight, count: int, on_frame: Callable[[int], None]
-) -> tuple[list[Spots], list[float]]:
+) -> tuple[list[Spots], list[float], AnyArray]:
     centre = np.array([[frames.shape[1] / 2.0, frames.shape[0] / 2.0]])
     pixel = float(sight.pixel_length(centre)[0])
     detector = Detector(rig.markers.colour, rig.markers.diameter.to("m") / pixel, count)
-    pictures, stamps = [], []
+    pictures, stamps, repeated = [], [], []
     for frame in frames:
         pictures.append(detector.spots(frame.picture))
         stamps.append(frame.stamp)
+        repeated.append(frame.is_repeated)
         on_frame(len(pictures))
-    return pictures, stamps
+    return pictures, stamps, np.array(repeated, dtype=bool)
 
 
 def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: int) -> float:

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from chainmail.measures import band
 
 
-def draw_band(axes: Axes, values: xr.DataArray, colour: str, label: str) -> None:
+def draw_band(axes: Axes, values: xr.DataArray, colour: str, label: str, style: str = "-") -> None:
     """The median over the starts of an ensemble, and the band from 5 to 95 %; neither is smoothed.
 
     Args:
@@ -16,7 +16,8 @@ def draw_band(axes: Axes, values: xr.DataArray, colour: str, label: str) -> None
         values: Dimensions `time`, `start`.
         colour: Of both.
         label: Of the median.
+        style: Of its line.
     """
     low, middle, high = band(values)
     axes.fill_between(values["time"], low, high, color=colour, alpha=0.2, lw=0)
-    axes.plot(values["time"], middle, color=colour, lw=1.4, label=label)
+    axes.plot(values["time"], middle, color=colour, lw=1.4, ls=style, label=label)

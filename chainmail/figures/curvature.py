@@ -32,19 +32,21 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     """Draw `fabric.max_curvature` [1/cm] of each run from t = 0 (or from its start) on.
 
     Thin: as simulated. Thick: its mean over 0.2 s. Of an ensemble: the median as it is, and the band over the starts.
-    Of the paper's own experiment what its text states is marked.
+    Of the paper's own experiment what its text states is marked. Where there are as many ensembles as single runs, the
+    first of either have one colour, and so on: they are the same experiments.
     """
     is_paper = label_of(runs[0]).endswith(PAPER)
     title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
     named = label_of(runs[0]) if len(runs) == 1 else ""
     with figure(path, height=4.2, title=title, run=named) as (axes,):
-        for run, colour in zip(runs, (WITH_MODEL, WITHOUT_MODEL, "0.3", "0.6"), strict=False):
+        colours, shown_labels = _colours(runs), []
+        for run, colour in zip(runs, colours, strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
-            label = label_of(run).split(" (")[0]
+            label = _shortened(label_of(run).split(" (")[0], shown_labels)
             if "start" in shown.dims:
                 label += f": median and 5 to 95 % of {run.sizes['start']} starts"
-                draw_band(axes, shown, colour, label)
+                draw_band(axes, shown, colour, label, "--" if colours.count(colour) > 1 else "-")
             else:
                 draw_noisy(axes, shown["time"].values, shown.values, colour, label)
         mark_switches(axes, marks)
@@ -55,6 +57,24 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
             _mark_text(axes, runs[0], marks)
         axes.legend(frameon=False, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=1)
     return path
+
+
+def _shortened(label: str, before: list[str]) -> str:
+    """`the same, ...` where a label goes on from one that was shown; that one is noted otherwise."""
+    for known in before:
+        if label.startswith(known) and label != known:
+            return "the same" + label.removeprefix(known)
+    before.append(label)
+    return label
+
+
+def _colours(runs: Sequence[xr.Dataset]) -> list[str]:
+    colours = [WITH_MODEL, WITHOUT_MODEL, "0.3", "0.6"]
+    is_ensemble = ["start" in run.dims for run in runs]
+    if 2 * sum(is_ensemble) != len(runs) or len(runs) > 2 * len(colours):
+        return colours
+    singles, ensembles = iter(colours), iter(colours)
+    return [next(ensembles if is_one else singles) for is_one in is_ensemble]
 
 
 def _mark_text(axes: Axes, run: xr.Dataset, marks: list[float]) -> None:

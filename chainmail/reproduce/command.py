@@ -15,6 +15,7 @@ from rich.console import Console
 from chainmail.ensemble.folder import EnsembleFolder
 from chainmail.ensemble.run import run_ensemble
 from chainmail.figures.draw import draw_runs, open_run
+from chainmail.reproduce.bands import ENGINE, in_mujoco, is_available, with_bands
 from chainmail.reproduce.electrical import electrical_rows
 from chainmail.reproduce.mechanical import curvature_rows, link_rows
 from chainmail.reproduce.row import Row
@@ -40,6 +41,14 @@ RUNS = {
     "single_coil_own_rate": 5,
     "water_bath": 5,
 }
+#: Those of them with a fabric, which are repeated in MuJoCo for the bands, with the time [s] of one start.
+BANDS = {"hanging_contraction": 65, "prototype_cantilever": 60, "prototype_cantilever_instant": 60, "passive_drape": 10}
+#: Starts of the bands unless another number is asked for.
+STARTS_OF_BANDS = 12
+#: Compared in Figure 3.
+PROTOTYPES = ("prototype_cantilever", "prototype_cantilever_instant")
+#: Name, number of starts, whether it is a band.
+Task = tuple[str, int, bool]
 #: Where these times were measured.
 MACHINE = "a core of a server each, November 2026"
 
@@ -56,30 +65,36 @@ def scenario_of(name: str) -> Scenario:
     return base.model_copy(update={"components": {**base.components, "actuator": changed}, "title": title})
 
 
-def run_one(name: str, out: Path, starts: int = 1, line: int = 0) -> str:
-    """Run or resume one scenario in `out/name`, a fabric from several starts.
+def run_one(name: str, out: Path, starts: int = 1, line: int = 0, is_band: bool = False) -> str:
+    """Run or resume one scenario, a fabric from several starts.
 
     Args:
         name: Of `RUNS`.
         out: Folder of all of them.
         starts: Of a fabric.
         line: Its line on the board, where there is one.
+        is_band: Run it in the engine of the bands, in the folder of the bands.
 
     Returns:
         An empty text or why it stopped.
     """
-    folder = RunFolder(out / name)
-    if folder.is_complete() and (starts == 1 or not _has_fabric(scenario_of(name)) or _has_starts(folder.path, starts)):
+    folder = RunFolder(folder_of(name, out, is_band))
+    scenario = in_mujoco(scenario_of(name)) if is_band else scenario_of(name)
+    if folder.is_complete() and (starts == 1 or not _has_fabric(scenario) or _has_starts(folder.path, starts)):
         return ""
-    scenario = scenario_of(name)
     if starts > 1 and _has_fabric(scenario):
-        return _run_starts(name, scenario, folder.path, starts, line)
+        return _run_starts(scenario, folder.path, starts, line)
     is_begun = folder.scenario.exists()
     try:
         record(load_scenario(folder.scenario) if is_begun else scenario, folder.path, is_begun, reporter(line))
     except (RunStopped, InputError) as error:
         return f"{name}: {error}"
     return ""
+
+
+def folder_of(name: str, out: Path, is_band: bool = False) -> Path:
+    """Where a run is kept."""
+    return out / "bands" / name if is_band else out / name
 
 
 def _has_fabric(scenario: Scenario) -> bool:
@@ -91,9 +106,9 @@ def _has_starts(path: Path, starts: int) -> bool:
     return folder.exists() and folder.starts() >= starts
 
 
-def _run_starts(name: str, scenario: Scenario, path: Path, starts: int, line: int) -> str:
+def _run_starts(scenario: Scenario, path: Path, starts: int, line: int) -> str:
     """An ensemble; starts that stop are left out, and said, as long as one is complete."""
-    folder = EnsembleFolder(path)
+    folder, name = EnsembleFolder(path), path.name
     report = reporter(line)
 
     def say(text: str) -> None:
@@ -112,58 +127,110 @@ def _run_starts(name: str, scenario: Scenario, path: Path, starts: int, line: in
     return "" if outcome.complete else f"{name}: no start reached its end: {next(iter(outcome.failures.values()))}"
 
 
-def reproduce(out: Path, jobs: int, starts: int = 1) -> int:
+def reproduce(out: Path, jobs: int, starts: int = 1, bands: int = 0) -> int:
     """Run what is needed, then print and write the scorecard.
 
     Args:
         out: Folder; complete runs in it are used again, begun ones are resumed.
         jobs: Processes.
-        starts: Starts of every scenario with a fabric; with several the scorecard has medians and bands.
+        starts: Starts in Bullet of every scenario with a fabric; with several the scorecard has medians and bands.
+        bands: Starts in MuJoCo of every scenario with a fabric, whose bands stand beside the one run in Bullet; 0 for
+            none. They come last: the scorecard without them is there before.
 
     Returns:
         Exit code: 0 where the scorecard was made (a line that fails stays visible in it), 1 where a run stopped.
+
+    Raises:
+        InputError: Bands are asked for that cannot be: of one start, or beside several starts in Bullet.
     """
+    bands = _possible_bands(starts, bands)
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
-    print(plan(out, jobs, starts), file=sys.stderr, flush=True)
-    problems = _run_all(out, jobs, starts)
+    print(plan(out, jobs, starts, bands), file=sys.stderr, flush=True)
+    problems = _run_all(out, jobs, [(name, starts, False) for name in RUNS])
+    if not problems:
+        _score(out, 0, is_shown=not bands)
+        if bands:
+            print(
+                f"scorecard of the runs in Bullet: {out / 'scorecard.md'}; now the bands", file=sys.stderr, flush=True
+            )
+            problems = _run_all(out, jobs, [(name, bands, True) for name in BANDS])
     if problems:
         for problem in problems:
             print(f"stopped: {problem}", file=sys.stderr)
         return 1
-    runs = {name: open_run(out / name) for name in RUNS}
-    rows = rows_over_starts(runs, scorecard_rows)
-    for name in RUNS:
-        # Figure 3 compares the prototype with and without the heating model.
-        compared = ["prototype_cantilever_instant"] if name == "prototype_cantilever" else []
-        draw_runs([out / n for n in (name, *compared)])
-    with writing(out):
-        write_atomically(out / "scorecard.md", as_markdown(rows).encode())
-        write_atomically(out / "scorecard.json", as_json(rows).encode())
-    show(rows, Console())
+    if bands:
+        _score(out, bands)
     print(f"scorecard: {out / 'scorecard.md'}\nFigure 3:  {out / 'prototype_cantilever/figures/curvature.png'}")
     return 0
 
 
-def plan(out: Path, jobs: int, starts: int = 1) -> str:
+def _possible_bands(starts: int, bands: int) -> int:
+    """How many starts the bands get: none where their engine is not installed, which is said."""
+    if bands == 1:
+        raise InputError("command line", "--bands", "one start gives no band", "give 0, or at least 2")
+    if bands and starts > 1:
+        raise InputError(
+            "command line",
+            "--bands",
+            f"{starts} starts in Bullet have bands of their own",
+            "give `--starts` or `--bands`, not both",
+        )
+    if bands and not is_available():
+        print(f'no bands: {ENGINE} is not installed; pip install "active-chainmail[mujoco]" brings it', file=sys.stderr)
+        return 0
+    return bands
+
+
+def _score(out: Path, bands: int, is_shown: bool = True) -> None:
+    """Figures and scorecard of what is there."""
+    runs = {name: open_run(out / name) for name in RUNS}
+    rows = rows_over_starts(runs, scorecard_rows)
+    # Figure 3 compares the prototype with and without the heating model, each with its band.
+    compared = [folder_of(n, out, is_band) for n in PROTOTYPES for is_band in ((False, True) if bands else (False,))]
+    if bands:
+        ensembles = {name: open_run(folder_of(name, out, True)) for name in BANDS}
+        rows = with_bands(rows, rows_over_starts({**runs, **ensembles}, scorecard_rows))
+        draw_runs([folder_of(name, out, True) for name in PROTOTYPES])
+    for name in RUNS:
+        draw_runs(compared if name == PROTOTYPES[0] else [out / name])
+    with writing(out):
+        write_atomically(out / "scorecard.md", as_markdown(rows).encode())
+        write_atomically(out / "scorecard.json", as_json(rows).encode())
+    if is_shown:
+        show(rows, Console())
+
+
+def plan(out: Path, jobs: int, starts: int = 1, bands: int = 0) -> str:
     """What is going to be done, and about how long it takes."""
+    first, seconds = _plan_lines(out, jobs, [(name, starts, False) for name in RUNS])
+    what = f"the paper's experiments in Bullet, {about(seconds)}"
+    if starts > 1:
+        what = f"the paper's experiments from {starts} starts in Bullet, {about(seconds)}"
+    lines = [f"({jobs} at a time, into {out}; times: {MACHINE})", *first]
+    if bands:
+        second, more = _plan_lines(out, jobs, [(name, bands, True) for name in BANDS])
+        what += f", then bands from {bands} starts in {ENGINE}, {about(more)}: in all {about(seconds + more)}"
+        lines += [f"bands, in {ENGINE}:", *second]
+    return "\n".join([what, *lines, "then figures and the scorecard. Ctrl-C keeps what is computed."])
+
+
+def about(seconds: float) -> str:
+    """`about 40 s`, `about 12 min`."""
+    return f"about {seconds / 60:.0f} min" if seconds >= 90 else f"about {seconds:.0f} s"
+
+
+def _plan_lines(out: Path, jobs: int, tasks: list[Task]) -> tuple[list[str], float]:
+    """A line for each task, and how long [s] all of them take."""
     lines, seconds = [], []
-    for name, wall in RUNS.items():
-        folder = RunFolder(out / name)
-        count = _starts_left(name, folder, starts)
+    for name, starts, is_band in tasks:
+        folder = RunFolder(folder_of(name, out, is_band))
+        count, wall = _starts_left(name, folder, starts), (BANDS if is_band else RUNS)[name]
         state = "done" if not count else "to go on" if folder.scenario.exists() else "to run"
         seconds += [count * wall] if count else []
         of = f"  {count} starts" if count > 1 else ""
         lines.append(f"  {name:<30} {state:<9} {f'{count * wall:>4} s{of}' if count else ''}".rstrip())
-    longest = max([sum(seconds) / jobs, *seconds], default=0)
-    about = f"about {longest / 60:.0f} min" if longest >= 90 else f"about {longest:.0f} s"
-    return "\n".join(
-        [
-            f"the paper's experiments, {jobs} at a time, into {out} (times: {MACHINE}):",
-            *lines,
-            f"then figures and the scorecard; in all {about}. Ctrl-C keeps what is computed.",
-        ]
-    )
+    return lines, float(max([sum(seconds) / jobs, *seconds], default=0))
 
 
 def _starts_left(name: str, folder: RunFolder, starts: int) -> int:
@@ -174,13 +241,14 @@ def _starts_left(name: str, folder: RunFolder, starts: int) -> int:
     return sum(not members.member(s).is_complete() for s in range(1, starts + 1))
 
 
-def _run_all(out: Path, jobs: int, starts: int) -> list[str]:
+def _run_all(out: Path, jobs: int, tasks: list[Task]) -> list[str]:
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
     problems: list[str] = []
-    board = Board(list(RUNS), context)
+    board = Board([f"{name}, band" if is_band else name for name, _, is_band in tasks], context)
     with board.drawn(), ProcessPoolExecutor(jobs, context, report_to, (board.slots,)) as pool:
         futures: dict[Future[str], int] = {
-            pool.submit(run_one, name, out, starts, line): line for line, name in enumerate(RUNS)
+            pool.submit(run_one, name, out, starts, line, is_band): line
+            for line, (name, starts, is_band) in enumerate(tasks)
         }
         try:
             for future in as_completed(futures):

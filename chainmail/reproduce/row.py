@@ -22,8 +22,9 @@ class Row:
         reason: Why this tolerance.
         is_met: Whether it passes.
         explanation: Why the two differ, where they do.
-        band: 5 and 95 % over the starts, `ours` being their median; None for a single run.
+        band: 5 and 95 % over the starts; None for a single run.
         starts: How many starts there are.
+        median: Their median where the starts are other runs than ours; None where `ours` is their median.
     """
 
     section: str
@@ -38,6 +39,7 @@ class Row:
     explanation: str = ""
     band: tuple[float, float] | None = None
     starts: int = 1
+    median: float | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON; a value that is not finite becomes null."""

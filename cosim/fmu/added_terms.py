@@ -303,6 +303,9 @@ class AddedTerms:
     def bind(self, binding: Binding, values: Mapping[str, AnyArray]) -> None:
         """Connect to an instance; `values` are its inputs (as given from outside) and outputs."""
         self._outside = values
+        #: Outputs that terms add to, as the FMU has them: what formulas see.
+        self._own_outputs = {t.target: np.zeros(self.table.all[t.target].variable.shape) for t in self.outputs}
+        self._own_output_readers = [binding.reader(self.table.all[n], v) for n, v in self._own_outputs.items()]
         used = {n for t in (*self.derivatives, *self.inputs) for n in t.names}
         self._inner: dict[str, AnyArray] = {}
         self._readers: list[Access] = []
@@ -327,6 +330,8 @@ class AddedTerms:
                 values = np.asarray(states)[self.states[name]]
             elif inside and name in self._inner:
                 values = self._inner[name]
+            elif name in self._own_outputs:
+                values = self._own_outputs[name]
             elif name in self._outside:
                 values = self._outside[name]
             else:
@@ -379,10 +384,16 @@ class AddedTerms:
     def add_outputs(self) -> None:
         """Add to outputs that were just read."""
         if self.outputs:
+            for name, own in self._own_outputs.items():
+                own[...] = self._outside[name]
             environment = self._environment(self.time, None)
-            amounts = [(t.target, self._amount(t, environment)) for t in self.outputs]
-            for target, amount in amounts:
-                self._outside[target][...] += amount
+            for term in self.outputs:
+                self._outside[term.target][...] += self._amount(term, environment)
+
+    def see_outputs(self) -> None:
+        """The FMU is back at a saved state: read the outputs that formulas see."""
+        for read in self._own_output_readers if self.outputs else ():
+            read()
 
     def _amount(self, term: _Term, environment: Mapping[str, AnyArray]) -> Any:
         amount = term.amount(environment)

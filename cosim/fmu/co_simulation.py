@@ -76,6 +76,8 @@ class CoSimulationUnit(FmuUnit):
 
     def _begin(self, time: int) -> None:
         self._now = seconds(time)
+        if self.added.owners:
+            self.buffers.read(time)  # some FMUs have their start values only from the end of Initialization Mode on
         self.added.start_own(self._now, None)
         self._mode = Mode.EVENT if self.binding.uses_event_mode else Mode.RUNNING
         if self._mode is Mode.EVENT:

@@ -270,6 +270,7 @@ class FmuUnit(Unit):
         self.buffers.restore(saved.values)
         self._mode, self._is_stale = saved.mode, saved.is_stale
         self._take_extra(saved.extra, time)
+        self.added.see_outputs()
 
     def release(self, saved: SavedState) -> None:
         """Free a saved state."""

@@ -111,6 +111,8 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
     if left_out and "order" in own["algorithm"]:
         own["algorithm"]["order"] = [n for n in own["algorithm"]["order"] if n not in left_out]
     start, stop = (nanoseconds(t) / NANOSECONDS for t in (scenario.time.start, scenario.time.stop))
+    termed = [n for n, p in parts.items() if p.fmu is not None and getattr(p.component, "added_terms", [])]
+    notes = tuple(f"other tools run `{n}` without the terms that are added to it" for n in termed)
     return WrittenStructure(
         scenario.title,
         scenario.description,
@@ -121,7 +123,7 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
         start,
         stop,
         own,
-    ), replaced.notes
+    ), (*replaced.notes, *notes)
 
 
 def _scaling(given: str | ScaledConnection) -> tuple[Linear, bool]:

@@ -24,7 +24,7 @@ from cosim.unit.errors import InputError
 from cosim.yaml_file import parse_yaml, read_text
 
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
-OWN_KEYS = ("tolerance", "isolation", "structure", "record")
+OWN_KEYS = ("tolerance", "isolation", "structure", "record", "added_terms")
 _EXACT = 2**53
 _WITHOUT_FMU = (
     "programme",

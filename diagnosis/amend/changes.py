@@ -17,7 +17,6 @@ from diagnosis.models.coil_network.translate import Translation, translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.search.shares import is_own
 
 #: Fields of the network that are moved by an amount and not by a factor: the room, and the start.
 OFFSETS = ("ambient_offset", "initial_temperature")
@@ -89,7 +88,7 @@ def changes_of(scenario: Scenario, model: CoilNetworkModel, point: Point) -> Cha
     Raises:
         CannotAmend: A parameter of the scenario was changed that no scenario can say.
     """
-    lasting = np.array([0.0 if is_own(p.name) else z for p, z in zip(model.parameters, point.base)], dtype=np.float64)
+    lasting = np.array([z if p.own is None else 0.0 for p, z in zip(model.parameters, point.base)], dtype=np.float64)
     nominal = model.network_parameters(Point(np.zeros(len(lasting))), 0)
     fitted = model.network_parameters(Point(lasting), 0)
     sensors = {name: np.asarray(fitted.base[name], dtype=np.float64) for name in QUANTITY_FIELDS if name in fitted.base}

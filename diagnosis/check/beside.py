@@ -20,6 +20,7 @@ from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
+from diagnosis.report.user_units import Units
 
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
 MOST_STEPS = 400_000
@@ -147,6 +148,11 @@ class Compared:
     note: str = ""
     results: xr.Dataset | None = field(default=None, repr=False)
     base: Scenario | None = None
+
+    @cached_property
+    def units(self) -> Units:
+        """Units that the recording was written in: what is shown of it is shown in them."""
+        return Units(self.recording.units)
 
     @cached_property
     def begin(self) -> float:

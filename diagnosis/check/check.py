@@ -15,6 +15,7 @@ from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
+from diagnosis.check.still import still_doubts
 from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
@@ -49,7 +50,7 @@ def check_recordings(
 
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
-    found: list[Doubt] = []
+    found: list[Doubt] = still_doubts(every)
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow

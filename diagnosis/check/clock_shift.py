@@ -16,6 +16,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, direct, lagged
 from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
+from diagnosis.check.explain import explained, explains
 from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.check.timing import critical, leading, resolution
 from diagnosis.judge.diagnosis import Doubt
@@ -104,7 +105,7 @@ class Shift:
 def shift_doubts(compared: Compared) -> list[Doubt]:
     """At most one doubt: the clock is off beyond its bound, or a lag makes it seem so."""
     found = clock_shift(compared)
-    if found is None:
+    if found is None or not _is_followed(compared, found):
         return []
     bound = max(resolution(compared, b.channel) for b in asked(compared))
     slowest = max(b.channel.lag_bound for b in asked(compared))
@@ -137,6 +138,19 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
         )
         return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
     return []
+
+
+def _is_followed(compared: Compared, found: Shift) -> bool:
+    """Whether the readings follow the programme at all, as it is or moved, behind any lags.
+
+    Of a response to something else some shift leaves a little less than none does, and says nothing of a clock.
+    """
+    rate = found.rate * found.size if found.is_rate else 0.0
+    shift = 0.0 if found.is_rate else found.size
+    shares = [
+        max(explained(b, b).share, explained(b, b, (b.times - shift) / (1.0 + rate)).share) for b in asked(compared)
+    ]
+    return explains(0.0, float(np.median(shares)))
 
 
 def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:

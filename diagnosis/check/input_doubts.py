@@ -14,6 +14,7 @@ from diagnosis.check.inputs import Course, InputComparison, compare_inputs, set_
 from diagnosis.check.timing import critical, leading, percent, within
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
+from diagnosis.report.display import instant
 
 #: Stretches that a sentence lists.
 _LISTED = 4
@@ -124,6 +125,10 @@ def how(one: InputComparison) -> str:
         return f"is 0 {where}"
     mine, theirs = one.switches
     met = sum(any(abs(s - t) < 0.01 * max(abs(s), 1.0) + 1.0 for t in mine) for s in theirs)
+    if not theirs:
+        return f"has another course {where}; the programme is constant"
+    if not mine:  # a column that changes at every reading has no switches
+        return f"has another course {where}; the programme switches {len(theirs)} times"
     return (
         f"has another course {where}; it switches {len(mine)} times, the programme {len(theirs)} times, {met} of them "
         f"together"
@@ -131,7 +136,7 @@ def how(one: InputComparison) -> str:
 
 
 def _where(one: InputComparison) -> str:
-    listed = ", ".join(f"from {a:.4g} to {b:.4g} s" for a, b in one.stretches[:_LISTED])
+    listed = ", ".join(f"from {instant(a)} to {instant(b)} s" for a, b in one.stretches[:_LISTED])
     more = f" and in {len(one.stretches) - _LISTED} more stretches" if len(one.stretches) > _LISTED else ""
     return listed + more
 

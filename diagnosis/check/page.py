@@ -15,7 +15,6 @@ from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.inputs import compare_inputs
 from diagnosis.check.tables import course_text, input_text, row, summary
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.report.display import axis
 from diagnosis.report.figures import drawn, thinned
 from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
 
@@ -61,7 +60,7 @@ def _doubt(doubt: Doubt) -> Html:
 
 def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
     head = ("channel", "readings", "span [s]", "noise stated / seen", "measured", "simulated", "correlation", "RMSE")
-    rows = [row(b) for b in one.channels.values()]
+    rows = [row(b, one.units) for b in one.channels.values()]
     cells = [(r.name, r.samples, r.span, r.noise, *r.ranges, *r.fit) for r in rows]
     own = [d for d in doubts if d.recording == one.recording.title]
     note = [element("p", one.note)] if one.note else []
@@ -100,7 +99,7 @@ def _paint(
         _paint_courses(panels[0], one, courses)
     for axes, beside in zip(panels[bool(courses) :], chosen):
         channel = beside.channel
-        scaled = axis(channel.values, channel.unit)
+        scaled = one.units.axis(channel.values, channel.unit)
         if beside.simulated is not None:
             keep = thinned(beside.simulated.values)
             axes.plot(

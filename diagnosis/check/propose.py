@@ -22,6 +22,7 @@ from diagnosis.recording.channels import offered
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import SI_UNITS, parse_quantity
 from diagnosis.recording.recording import FEWEST_VALUES
+from diagnosis.recording.units import si_unit
 
 #: How a unit may be spelled at the end of a column's name: spelling to unit and SI unit of its quantity.
 SPELLINGS = {
@@ -87,6 +88,7 @@ class Heading:
 
     Args:
         name: As it stands.
+        body: The same without its unit.
         word: Letters at its begin, small.
         numbers: Numbers in it.
         unit: As recording.yaml has it; None where the name has none.
@@ -94,6 +96,7 @@ class Heading:
     """
 
     name: str
+    body: str
     word: str
     numbers: tuple[int, ...]
     unit: str | None
@@ -121,7 +124,7 @@ def heading(name: str) -> Heading:
     """Read the name of a column.
 
     >>> heading("T2_degC")
-    Heading(name='T2_degC', word='t', numbers=(2,), unit='degC', si_unit='K')
+    Heading(name='T2_degC', body='T2', word='t', numbers=(2,), unit='degC', si_unit='K')
     >>> heading("Strom 1 [mA]").unit
     'mA'
     """
@@ -136,7 +139,7 @@ def heading(name: str) -> Heading:
         unit, si_unit = None, None
     numbers = tuple(int(n) for n in re.findall(r"\d+", body))
     word = re.sub(r"[\d\W_]+", "_", body).strip("_").lower()
-    return Heading(name, word, numbers, unit, si_unit)
+    return Heading(name, body, word, numbers, unit, si_unit)
 
 
 def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
@@ -166,9 +169,11 @@ def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
         if not reason and np.count_nonzero(known) < FEWEST_VALUES:
             reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}"
         if reason:
+            steered = [n for n in _programmes(scenario) if _is_called(head, n)]
+            if len(steered) == 1:
+                reason = f"by its name it is the input {steered[0]}: give it under `inputs`, with its unit"
             unclear.append(f"{head.name}: {reason}")
             continue
-        assert head.unit is not None
         channels[name] = _entry(head, times[known], table.columns[k][known])
     dropped = int(np.count_nonzero(~keep))
     text = _sidecar(scenario, table, heads[clock], channels, unclear, dropped, source)
@@ -223,9 +228,13 @@ def _offered(scenario: Scenario) -> dict[str, str]:
     if any(isinstance(c, CircuitComponent) for c in scenario.components.values()):
         names += [n for n in ("supply.voltage", "supply.power") if n not in names]
     found = {}
+    driven = {n for n, c in scenario.components.items() if isinstance(c, ProgrammeComponent)}
+    if all(parse_quantity(n).is_component for n in names):  # FMUs of somebody: whatever they have
+        names = [n for n in map(str, results) if results[n].ndim == 1 and n.partition(".")[0] not in driven]
     for name in names:
         target = parse_quantity(name)
-        found[name] = SI_UNITS.get(target.quantity, "1")
+        own = results[name].attrs.get("units", "1") if name in results else "1"
+        found[name] = si_unit(str(own)) if target.is_component else SI_UNITS.get(target.quantity, "1")
     return found
 
 
@@ -238,6 +247,9 @@ def _match(table: Sniffed, head: Heading, names: dict[str, str], taken: Sequence
     quantities = [q for q, words in WORDS.items() if head.word.split("_")[0] in words or head.word in words]
     if head.word.startswith("set") or "setpoint" in head.word or head.word.startswith("sp_"):
         return "by its name it is a set point, not a reading", ""
+    own = _called(head, names, taken)
+    if own:
+        return "", own
     if head.unit is None:
         return "its name has no unit that is known; write it as `name_degC`, `name_mA` or `name [mm]`", ""
     fitting = [n for n, unit in names.items() if unit == head.si_unit]
@@ -252,6 +264,27 @@ def _match(table: Sniffed, head: Heading, names: dict[str, str], taken: Sequence
     if chosen[0] in taken:
         return f"another column is {chosen[0]} already", ""
     return "", chosen[0]
+
+
+def _called(head: Heading, names: dict[str, str], taken: Sequence[str]) -> str:
+    """The one variable of a component that has the name of a column and its unit, or none of both; else empty."""
+    found = [n for n, unit in names.items() if unit == (head.si_unit or "1") and _is_called(head, n) and n not in taken]
+    return found[0] if len(found) == 1 else ""
+
+
+def _programmes(scenario: Scenario) -> list[str]:
+    """Outputs of all programmes."""
+    every = scenario.components.items()
+    return [f"{n}.{o}" for n, c in every if isinstance(c, ProgrammeComponent) for o in c.outputs]
+
+
+def _is_called(head: Heading, name: str) -> bool:
+    """Whether a column has the name of a variable of a component, with the component before it or without."""
+    target = parse_quantity(name)
+    if not target.is_component or target.element:
+        return False
+    body = re.sub(r"\W+", "_", head.body).strip("_").lower()
+    return body in (target.quantity.lower(), f"{target.kind}_{target.quantity}".lower())
 
 
 def _numbered(names: Sequence[str], head: Heading) -> list[str]:
@@ -285,13 +318,13 @@ def _few(names: Sequence[str]) -> str:
 
 
 def _entry(head: Heading, times: Array, values: Array) -> dict[str, str]:
-    unit = head.unit or ""
+    unit = head.unit or "1"
     difference = {"degC": "K", "degF": "delta_degF"}.get(unit, unit)
     entry = {"column": head.name, "unit": unit}
     quantum = find_quantum(values)
     if quantum:
-        entry["quantum"] = f"{quantum:.3g} {difference}"
-    entry["noise"] = f"{estimate_noise(times, values, quantum):.3g} {difference}"
+        entry["quantum"] = f"{quantum:.3g} {difference}".removesuffix(" 1")
+    entry["noise"] = f"{estimate_noise(times, values, quantum):.3g} {difference}".removesuffix(" 1")
     return entry
 
 

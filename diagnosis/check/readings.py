@@ -16,6 +16,7 @@ from diagnosis.check.explain import LEVEL, explained
 from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.noise import estimate_noise, is_unresolved
+from diagnosis.report.display import instant
 
 #: A noise is measured by its neighbours to within a factor: what filters and pickup do to neighbouring readings counts.
 HONEST = 2.0
@@ -96,10 +97,12 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     if not is_small and is_unresolved(channel.times, channel.values, channel.quantum):
         return []
     way = "less" if is_small else "more"
+    is_rounded = stated > 1.005 * channel.deviation
+    rounded = f" ({compared.units.text(stated, channel.unit)} with the rounding)" if is_rounded else ""
     text = (
-        f"stated is a noise of {stated:.3g} {channel.unit}; neighbouring readings scatter by {seen:.3g} "
-        f"{channel.unit}, "
-        f"{max(ratio, 1 / ratio):.3g} times {way}"
+        f"stated is a noise of {compared.units.text(channel.deviation, channel.unit)}{rounded}; "
+        "neighbouring readings scatter by "
+        f"{compared.units.text(seen, channel.unit)}, {max(ratio, 1 / ratio):.3g} times {way}"
     )
     remedy = f"correct `channels.{channel.name}.noise`, or leave it out: then it is estimated"
     return [
@@ -213,11 +216,12 @@ def _stuck(compared: Compared, beside: Beside, first: int, last: int) -> Doubt:
     channel = beside.channel
     begin, end = float(channel.times[first]), float(channel.times[last])
     caught = (
-        f", then {_size(channel.values[last + 1] - channel.values[last], channel.unit)} more at once"
+        f", then {compared.units.text(channel.values[last + 1] - channel.values[last], channel.unit)} more at once"
         if (last + 1 < len(channel.values))
         else " to the end, while the rest moves"
     )
-    text = f"{last - first + 1} equal readings from {begin:.4g} to {end:.4g} s{caught}: the sensor stood still"
+    count = last - first + 1
+    text = f"{count} equal readings from {instant(begin)} to {instant(end)} s{caught}: the sensor stood still"
     shift = abs(float(channel.values[min(last + 1, len(channel.values) - 1)] - channel.values[last]))
     return Doubt(
         compared.recording.title,
@@ -230,11 +234,6 @@ def _stuck(compared: Compared, beside: Beside, first: int, last: int) -> Doubt:
         end,
         shift / max(channel.deviation, 1e-300),
     )
-
-
-def _size(value: float, unit: str) -> str:
-    factor, name = {"A": (1e3, "mA"), "m": (1e3, "mm")}.get(unit, (1.0, unit))
-    return f"{factor * value:.3g} {name}"
 
 
 def far(values: Array, noise: float, tests: float, width: int = 0) -> float:
@@ -463,8 +462,8 @@ def _wild_doubt(compared: Compared, beside: Beside, off: Array, wild: AnyArray, 
     times = channel.times[places]
     count = f"{len(places)} readings are" if len(places) > 1 else "one reading is"
     text = (
-        f"{count} far from both neighbours, the farthest at {channel.times[worst]:.4g} s by "
-        f"{_size(off[worst], channel.unit)}, {abs(off[worst]) / noise:.3g} times the noise"
+        f"{count} far from both neighbours, the farthest at {instant(channel.times[worst])} s by "
+        f"{compared.units.text(off[worst], channel.unit)}, {abs(off[worst]) / noise:.3g} times the noise"
     )
     return Doubt(
         compared.recording.title,
@@ -521,7 +520,8 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
                 continue
             begin, end = float(channel.times[first.index]), float(channel.times[back.index - 1])
             text = (
-                f"from {begin:.4g} to {end:.4g} s the readings stand {_size(first.size, channel.unit)} "
+                f"from {instant(begin)} to {instant(end)} s the readings stand "
+                f"{compared.units.text(first.size, channel.unit)} "
                 f"{'higher' if first.size > 0 else 'lower'}, with a step at both ends within one reading"
             )
             remedy = "leave this stretch empty in the table, or correct it; look at plug and amplifier"
@@ -535,8 +535,9 @@ def _stretches(compared: Compared, beside: Beside, every: Sequence[Jump], noise:
         begin, end = float(channel.times[worst.index]), float(channel.times[-1])
         more = f" (the largest of {len(stays)} steps)" if len(stays) > 1 else ""
         text = (
-            f"at {begin:.4g} s the readings step by {_size(worst.size, channel.unit)} from one reading to the "
-            f"next{more}, {abs(worst.size) / fastest:.2g} times as much as anywhere else but at single wild readings"
+            f"at {instant(begin)} s the readings step by {compared.units.text(worst.size, channel.unit)} from one "
+            f"reading to the next{more}, {abs(worst.size) / fastest:.2g} times as much as anywhere else but at "
+            f"single wild readings"
         )
         found.append((text, "was the sensor moved or knocked off? Use `begin` and `end`", begin, end, worst.z))
     return [

@@ -12,6 +12,7 @@ from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, Basis, Fit, basis, explains, gain
 from diagnosis.check.quantiles import chi_square_beyond
+from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
@@ -36,6 +37,10 @@ UNITS = {
     "N/m": ("N/m", "N/mm"),
     "ohm": ("ohm", "mohm", "kohm"),
     "1/m": ("1/m", "1/cm", "1/mm"),
+    "Pa": ("Pa", "mbar", "kPa", "psi", "bar", "MPa"),
+    "m/s": ("m/s", "mm/s", "km/h"),
+    "m^3/s": ("m^3/s", "l/s", "l/min", "m^3/h"),
+    "N*m": ("N*m", "N*mm"),
 }
 #: Factors on the time of a swing that has no input: its frequency is a parameter.
 PACES = np.geomspace(0.5, 2.0, 57)
@@ -171,8 +176,8 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
     if found <= limit or not explains(same.share, other.share):
         return []
     text = (
-        f"the readings fall where the simulation rises: turned over it explains {100 * other.share:.2g} % of them, "
-        f"as it is {100 * same.share:.2g} %"
+        f"the readings fall where the simulation rises: turned over it explains {percent(other.share)} of them, "
+        f"as it is {percent(same.share)}"
     )
     remedy = "is the sensor or the column of opposite sign? Correct the table, or the scenario's direction"
     return [

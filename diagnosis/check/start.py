@@ -13,8 +13,14 @@ from diagnosis.check.quantiles import normal_beyond
 from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import FEWEST_VALUES
+from diagnosis.report.display import instant
 from diagnosis.search.shares import RIG_START
 
+#: Share of what a channel has moved since the simulation began that a model's wrong numbers may have done.
+WRONG_NUMBERS = 0.5
+#: How much farther off than later ones first readings are that show another start.
+ELSEWHERE = 3.0
 #: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
 STRAINED = 4.0
 
@@ -43,6 +49,37 @@ def start_doubts(compared: Compared) -> list[Doubt]:
             most = STRAINED * float(np.hypot(deviation, usual)) + beside.channel.bias_bound
             is_far = abs(off) > most and not compared.recording.beginning
             found.append(replace(_doubt(compared, beside, off, abs(off) / total), is_far=is_far))
+    return [*found, *_others(compared)]
+
+
+def _others(compared: Compared) -> list[Doubt]:
+    """Positions, levels, pressures that begin elsewhere than simulated, and come nearer to the simulation later.
+
+    What stays as far off is no start: an offset of a sensor, or a number of the model.
+    """
+    found: list[Doubt] = []
+    if compared.recording.beginning or any("initial" in key for key in compared.recording.uncertain):
+        return found
+    every = [b for b in compared.channels.values() if b.channel.unit != "K" and b.simulated is not None]
+    every = [b for b in every if not _is_flow(b) and not _is_driven_before(b) and len(b.pick) > FEWEST_VALUES]
+    limit = normal_beyond(LEVEL / (2.0 * max(len(every), 1)))
+    for beside in every:
+        off, deviation = _off(beside)
+        later = float(np.median(np.abs(beside.measured - beside.simulated_there)))
+        if abs(off) > limit * deviation + beside.channel.bias_bound and abs(off) > ELSEWHERE * later:
+            values, time = first(beside)
+            end = float(beside.channel.times[len(values) - 1])
+            mean = float(np.mean(values))
+            texts = [compared.units.text(v, beside.channel.unit, False) for v in (mean, mean - off)]
+            text = (
+                f"its first {len(values)} readings ({instant(time)} to {instant(end)} s) are {texts[0]} on average, "
+                f"where {texts[1]} is simulated, and later ones are nearer to the simulation"
+            )
+            remedy = "let the scenario start there (`overrides`), or use `begin` from where the start is forgotten"
+            z = abs(off) / deviation
+            found.append(
+                Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
+            )
     return found
 
 
@@ -55,10 +92,16 @@ def _is_driven_before(beside: Beside) -> bool:
 
 
 def _off(beside: Beside) -> tuple[float, float]:
-    """First readings less the simulated ones, and the deviation of that [K]."""
+    """First readings less the simulated ones, and the deviation of that [K].
+
+    A rig that is driven from the begin moves before three readings are taken: by how much is a matter of its numbers.
+    """
     values, _ = first(beside)
     course = beside.at(beside.channel.times[: len(values)])
-    return float(np.mean(values - course)), max(beside.floor, measured_noise(beside)) / np.sqrt(len(values))
+    assert beside.simulated is not None
+    moved = WRONG_NUMBERS * abs(float(np.mean(course)) - float(beside.simulated.values[0]))
+    noise = max(beside.floor, measured_noise(beside)) / np.sqrt(len(values))
+    return float(np.mean(values - course)), float(np.hypot(noise, moved))
 
 
 def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
@@ -66,13 +109,22 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     measured = float(np.mean(values))
     simulated = measured - off
     end = float(beside.channel.times[len(values) - 1])
+    unit = "K" if "K" in compared.recording.units else "degC"
+    begin, mean, there = (
+        f"{conversion('K', unit)[0] * v + conversion('K', unit)[1]:.4g} {unit}"
+        for v in (float(np.mean(values[:3])), measured, simulated)
+    )
     text = (
-        f"begins at {np.mean(values[:3]) - 273.15:.4g} degC; its first {len(values)} readings "
-        f"({time:.4g} to {end:.4g} s) are {measured - 273.15:.4g} degC on average, "
-        f"where {simulated - 273.15:.4g} degC is simulated"
+        f"begins at {begin}; its first {len(values)} readings ({instant(time)} to {instant(end)} s) are "
+        f"{mean} on average, where {there} is simulated"
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
         "are unknown under `uncertain`"
     )
     return Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
+
+
+def _is_flow(beside: Beside) -> bool:
+    """Whether a channel follows a switch at once, as a current does: it has no start of its own."""
+    return beside.simulated is None or beside.simulated.is_flow

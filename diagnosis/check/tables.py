@@ -16,9 +16,8 @@ from diagnosis.check.inputs import InputComparison, compare_inputs
 from diagnosis.check.readings import measured_noise
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.usage import usage
-
-#: Name and factor in which an SI unit is printed; an offset makes degC.
-_SHOWN = {"K": ("degC", 1.0, -273.15), "A": ("mA", 1e3, 0.0), "m": ("mm", 1e3, 0.0)}
+from diagnosis.report.display import instant
+from diagnosis.report.user_units import Units
 
 
 @dataclass(frozen=True)
@@ -42,17 +41,18 @@ class Row:
     fit: tuple[str, str]
 
 
-def row(beside: Beside) -> Row:
-    """Numbers of a channel."""
+def row(beside: Beside, units: Units) -> Row:
+    """Numbers of a channel, in the units that the recording was written in."""
     channel = beside.channel
     clipped = int(np.count_nonzero(channel.is_clipped))
-    unit, factor, offset = _SHOWN.get(channel.unit, (channel.unit, 1.0, 0.0))
-    of_difference = "K" if channel.unit == "K" else unit
+    scale = units.axis(channel.values, channel.unit)
+    unit, factor, offset = scale.unit, scale.factor, scale.offset
+    of_difference = units.difference(channel.unit)[1]
     stated = f"{factor * channel.deviation:.3g}" if channel.is_deviation_given else "-"
     return Row(
         channel.name,
         f"{len(channel.values)}" + (f", {clipped} at a limit" if clipped else ""),
-        f"{channel.times[0]:.4g} to {channel.times[-1]:.4g}",
+        f"{instant(channel.times[0])} to {instant(channel.times[-1])}",
         f"{stated} / {factor * measured_noise(beside):.3g} {of_difference}",
         (_range(factor * channel.values + offset, unit), _simulated(beside, unit, factor, offset)),
         _fit(beside, of_difference, factor),
@@ -92,7 +92,7 @@ def course_text(course: Course) -> str:
     if low == high:
         return f"{course.name}: {origin}, {low:.4g} {course.unit} throughout"
     times = course.switches()
-    listed = ", ".join(f"{t:.4g}" for t in times[:6]) + (f", ... ({len(times)} in all)" if len(times) > 6 else "")
+    listed = ", ".join(instant(t) for t in times[:6]) + (f", ... ({len(times)} in all)" if len(times) > 6 else "")
     return f"{course.name}: {origin}, {low:.4g} to {high:.4g} {course.unit}, switches at {listed} s"
 
 
@@ -119,7 +119,7 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         for name in ("readings", "span [s]", "noise stated / seen", "measured", "simulated", "corr.", "RMSE"):
             table.add_column(name)
         for beside in one.channels.values():
-            r = row(beside)
+            r = row(beside, one.units)
             table.add_row(escape(r.name), r.samples, r.span, r.noise, *r.ranges, *r.fit)
         console.print(table)
         for course in one.courses:

@@ -19,7 +19,6 @@ from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import Fit
 from diagnosis.search.objective import STEP
 from diagnosis.search.problem import Layout, Point, Term
-from diagnosis.search.shares import is_own
 
 #: Samples of a channel that a prediction uses; others count through the weight of these.
 SAMPLES = 60
@@ -110,7 +109,7 @@ class Bench:
         counts = np.cumsum([len(r.series) for r in model.runs])
         every = np.ones(int(counts[-1])) if inflation is None else inflation
         self._inflation = np.split(every, counts[:-1])
-        self._daily = np.array([is_own(p.name) for p in model.parameters])
+        self._daily = np.array([p.own is not None for p in model.parameters])
         self._points = [self._restarted(b.point) for b in beliefs]
         has_sensor = any(t.unit == "measurement" for b in beliefs for t in b.point.terms)
         finest = float(min(np.max(np.diff(run.inputs.time)) for run in model.runs))

@@ -17,6 +17,7 @@ from diagnosis.search.problem import Term
 
 #: A temperature is no input that is a share off: of a room that is another the catalogue has laws.
 _TEMPERATURES = ("K", "degC")
+#: Second per nanosecond.
 _NANO = 1e-9
 
 

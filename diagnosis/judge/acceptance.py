@@ -57,6 +57,7 @@ class Accepted:
         basis: Which readings judged.
         judged_by: Term to which readings judged it: others of its own recording where no other one has it.
         strengths: Term to its strength in the readings that judge, where they reject the model.
+        without: Term that is accepted to the fit of all others without it.
     """
 
     headline: Explanation
@@ -75,6 +76,7 @@ class Accepted:
     basis: str
     judged_by: Mapping[Term, str] = field(default_factory=dict)
     strengths: Mapping[Term, Constancy] = field(default_factory=dict)
+    without: Mapping[Term, Fit] = field(default_factory=dict)
 
 
 class _Judge:
@@ -141,10 +143,13 @@ def accept(
         headline, rivals = _most_probable(judge, outcome)
     reasons: dict[Term, tuple[str, ...]] = {}
     gains: dict[Term, Gain] = {}
+    others: dict[Term, Fit] = {}
     current = headline
     while current.terms:
-        on_progress(f"judging {len(current.terms)} effects on readings that they were not fitted to")
-        judged = {t: _judged(judge, outcome, current, t, is_local(t)) for t in current.terms}
+        what = "one effect" if len(current.terms) == 1 else f"{len(current.terms)} effects"
+        on_progress(f"judging {what} by readings that were not fitted")
+        others = {t: _others(judge.model, outcome, current, t) for t in current.terms}
+        judged = {t: _judged(judge, current, t, others[t], is_local(t)) for t in current.terms}
         gains |= {t: found for t, (found, _) in judged.items()}
         failing = [t for t, (_, why) in judged.items() if why]
         if not failing:
@@ -186,6 +191,7 @@ def accept(
         unfitted.basis,
         {t: judge.basis(is_local(t)) for t in gains},
         strengths,
+        {t: others[t] for t in current.terms},
     )
 
 
@@ -234,12 +240,16 @@ def _most_probable(judge: _Judge, outcome: Outcome) -> tuple[Explanation, tuple[
     return chosen, tuple(ranked)
 
 
-def _judged(
-    judge: _Judge, outcome: Outcome, current: Explanation, term: Term, is_local: bool
-) -> tuple[Gain, tuple[str, ...]]:
-    """What a term gains on unfitted readings, and why it is not accepted."""
+def _others(model: Model, outcome: Outcome, current: Explanation, term: Term) -> Fit:
+    """The fit of an explanation without one of its terms."""
     others = current.fit.point.without(term)
-    without = outcome.base if not others.terms else fit(judge.model, others, near=current.fit)
+    return outcome.base if not others.terms else fit(model, others, near=current.fit)
+
+
+def _judged(
+    judge: _Judge, current: Explanation, term: Term, without: Fit, is_local: bool
+) -> tuple[Gain, tuple[str, ...]]:
+    """What a term gains on unfitted readings over the fit without it, and why it is not accepted."""
     found = judge.evidence(without, current.fit, is_local)
     where = judge.basis(is_local)
     reasons = []

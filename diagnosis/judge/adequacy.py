@@ -11,7 +11,7 @@ from diagnosis.judge.held_out import root_mean_square
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.search.problem import Parameter
-from diagnosis.search.shares import of_title
+from diagnosis.search.shares import titled
 
 #: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
@@ -97,9 +97,9 @@ def moved_day(predicted: Predicted, parameters: Sequence[Parameter], titles: Seq
         parameters: Of the model that judges.
         titles: Of its recordings, in their order: a number says nothing to who gave recordings of two kinds.
     """
-    units = {p.name: p.unit for p in parameters}
+    known = {p.name: p for p in parameters}
     return tuple(
-        Moved(of_title(name, titles), units[name], amount, False, far)
+        Moved(titled(known[name], titles), known[name].unit, amount, False, far)
         for name, (amount, far) in predicted.day.items()
         if abs(far) > TOLD
     )

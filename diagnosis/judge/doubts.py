@@ -89,7 +89,7 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
     told = _one_cause(findings)
     accepted = [f for f in told if f.is_accepted and f.unit in MEASURED]
     open_ones = (*faults(doubts), *far_starts(doubts), *late_responses(doubts))
-    left = [d for d in open_ones if not any(_is_explained(d, f) for f in accepted)]
+    left = [d for d in open_ones if not any(is_explained(d, f) for f in accepted)]
     if not left:
         return told
     what = _FIRST.get(left[0].kind, "the fault has to be cleared")
@@ -97,7 +97,7 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
     return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
 
 
-def _is_explained(doubt: Doubt, finding: Finding) -> bool:
+def is_explained(doubt: Doubt, finding: Finding) -> bool:
     """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording."""
     is_there = not finding.effect.endswith(_IN_INTERVAL) or finding.recording in ("", doubt.recording)
     return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
-from diagnosis.judge.doubts import accuses, faults, is_physics, of_another_experiment
+from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
 from diagnosis.report.display import clean, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
 
+#: Faults seen by the check that are told in one sentence.
+SEEN = 2
 #: Findings that are named in one sentence.
 TOLD = 3
 #: Explained share from which a whole number of per cent would read as everything.
 ALL = 0.995
+#: What serious doubts say, as a rule.
+_OF_ANOTHER = "The recording and the scenario are not of the same experiment"
+#: Kinds of serious doubts that say less than that the experiment is another one, with what they say.
+_LESS = (
+    ({"swapped"}, "Channels are exchanged"),
+    ({"unit", "sign"}, "A column is not what its recording says"),
+    ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
+)
 #: Share below which what recalibration explains would read as 0 %.
 LEAST_SHARE = 0.005
 
@@ -42,8 +53,13 @@ def headline(
     is_told = verdict in (Verdict.MISSING_PHYSICS, Verdict.UNNAMED_PHYSICS)
     physics = _listed(of_the_rig if is_told else [])
     measured = _listed([f for f in at_fault if accuses(f)])
-    described = _listed([*([] if is_told else of_the_rig), *(f for f in at_fault if not accuses(f))])
+    unsure = [f for f in at_fault if not accuses(f)]
+    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is told, and not as something else
+        unsure = [f for f in unsure if not any(is_explained(d, f) for d in faults(doubts)[:SEEN])]
+    described = _listed([*([] if is_told else of_the_rig), *unsure])
     suggested = _listed([f for f in found if not f.is_accepted])
+    if any(f.statement in suggested for f in found if f.is_accepted):
+        suggested = f"one more law beside these: {suggested}"
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within "
@@ -71,17 +87,20 @@ def headline(
 
 
 def _open(adequacy: Adequacy) -> str:
-    """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something."""
-    is_wrong = adequacy.is_rejected and not adequacy.is_irregular
+    """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something.
+
+    Noise that is not stated is that of neighbouring readings: a sensor that drifts to and fro has more.
+    """
+    is_wrong = adequacy.is_rejected and not adequacy.is_irregular and adequacy.is_noise_stated
     return "what is missing or wrong" if is_wrong else "whether something is missing"
 
 
 def _not_comparable(serious: Sequence[Doubt]) -> str:
     """Why nothing was fitted. Exchanged sensors are of the same experiment, and readings do not tell them apart."""
-    exchanged = all(d.kind == "swapped" for d in serious)
-    what = "Channels are exchanged" if exchanged else "The recording and the scenario are not of the same experiment"
-    kinds = list(dict.fromkeys(d.kind for d in serious))[: 1 if exchanged else 2]
-    return f"{what}: {'; '.join(_once([d for d in serious if d.kind == k]) for k in kinds)}."
+    kinds = {d.kind for d in serious}
+    what = next((text for own, text in _LESS if kinds <= own), _OF_ANOTHER)
+    told = list(dict.fromkeys(d.kind for d in serious))[: 1 if kinds == {"swapped"} else 2]
+    return f"{what}: {'; '.join(_once([d for d in serious if d.kind == k]) for k in told)}."
 
 
 def _once(alike: Sequence[Doubt]) -> str:
@@ -89,18 +108,22 @@ def _once(alike: Sequence[Doubt]) -> str:
     others = len({d.recording for d in alike} - {alike[0].recording})
     which = "1 more recording raises" if others == 1 else f"{others} more recordings raise"
     more = f" ({which} a doubt of this kind)" if others else ""
-    return alike[0].statement.rstrip(".") + more
+    channel = f"{alike[0].subject}: " if alike[0].kind in ("unit", "sign") else ""
+    return f"in {clean(alike[0].recording)}, {channel}{alike[0].statement.rstrip('.')}{more}"
 
 
 def _listed(found: Sequence[Finding]) -> str:
     """Statements of findings; of many the first ones."""
-    more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
-    return "; ".join(f.statement for f in found[:TOLD]) + more
+    counts = Counter(f.statement for f in found)
+    told = [s if n == 1 else f"{s} ({n} such laws)" for s, n in counts.items()]
+    more = f"; and {len(told) - TOLD} more" if len(told) > TOLD else ""
+    return "; ".join(told[:TOLD]) + more
 
 
 def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
     """What was fitted of the faults, or else what the check saw."""
-    return accepted or "; ".join(d.statement.rstrip(".") for d in faults(doubts)[:2])
+    seen = faults(doubts)[:SEEN]
+    return accepted or "; ".join(f"{d.subject} of {clean(d.recording)}: {d.statement.rstrip('.')}" for d in seen)
 
 
 def _basis(adequacy: Adequacy) -> str:
@@ -138,7 +161,7 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
     name, noise = _model(adequacy, is_amended, has_fault), _noise(adequacy)
     has_more = is_amended or has_fault
     is_changed = has_more or adequacy.is_recalibrated
-    before, now = adequacy.chi_square["before"], adequacy.chi_square["after"]
+    before = adequacy.chi_square["before"]
     is_met = not adequacy.is_rejected
     if is_met and not (is_changed and adequacy.is_nominal_rejected):
         text = f"The {adequacy.basis} are met within {noise}" + (", before and after" if is_changed else "")
@@ -148,7 +171,6 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
         text = f"The model as it is misses the {adequacy.basis}"
     elif adequacy.explained < 0.0:
         text = f"{name} predicts the {_basis(adequacy)} worse"
-        text += f": chi-square per reading {number(before)} -> {number(now)}" if now > before else ""
         text += f"; what is left is not more than {noise}" if is_met else ""
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
@@ -175,7 +197,8 @@ def _cause(adequacy: Adequacy, has_more: bool) -> str:
             "as much as it changes from one reading to the next: noise is larger than it is taken to be, or single "
             "readings are wild"
         )
-    return f"something {'else ' if has_more else ''}is missing or wrong"
+    slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
+    return f"something {'else ' if has_more else ''}is missing or wrong{slow}"
 
 
 def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:

@@ -11,7 +11,6 @@ from diagnosis.judge.diagnosis import ChannelFit, Difference
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
-from diagnosis.search.shares import is_carried
 from diagnosis.search.structure import WINDOWS
 
 #: The three models that are compared.
@@ -32,7 +31,7 @@ def carried_over(point: Point, trained: DiagnosisModel, other: DiagnosisModel) -
     alone is taken as the scenario has it. Where the two models doubt a number differently, its amount is carried.
     Terms that the other recordings do not have (a fault of one day) are left away.
     """
-    known = {p.name: (z, p.deviation) for p, z in zip(trained.parameters, point.base) if is_carried(p.name)}
+    known = {p.name: (z, p.deviation) for p, z in zip(trained.parameters, point.base) if p.is_carried}
     found = [(p, *known.get(p.name, (0.0, 1.0))) for p in other.parameters]
     base = np.array([z * (deviation / p.deviation) for p, z, deviation in found])
     wanted = {t.identifier for t in point.terms}  # a rig of 36 coils has thousands of terms

@@ -41,7 +41,7 @@ from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome
-from diagnosis.search.shares import departures, of_title
+from diagnosis.search.shares import departures, titled
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -64,6 +64,8 @@ MOVED = 2.0
 STRAINED = 4.0
 #: Why a law has no name beside one that has none.
 _BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
+#: Factor on an interval from which it is said that a number depends on a law that is not identified.
+WIDER = 1.5
 #: Share of its peak from which an effect counts as being there.
 SHOWS = 0.1
 
@@ -139,6 +141,7 @@ def why_open(
     if late := late_responses(doubts):
         return (f"{late[0].recording}: {late[0].statement.rstrip('.')}",)
     reasons = _open_ones(found)
+    reasons += [d.statement for d in doubts if d.kind == "still"]
     if any(f.is_accepted and is_physics(f) for f in found) and leaves_most(adequacy):
         reasons.append("what improves the prediction has no name and leaves most of the mismatch")
     if not searched.has_physics:
@@ -272,6 +275,9 @@ def findings(
                 _without_name(f, model.where(t)[0].name) if _is_beside_unnamed(f, found) else f
                 for t, f in zip(ordered, found)
             ]
+            found = [
+                _widened(model, outcome, accepted, t, f, list(zip(ordered, found))) for t, f in zip(ordered, found)
+            ]
     return tuple(found)
 
 
@@ -286,6 +292,45 @@ def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:
     if finding.unit in MEASURED:  # a sensor takes part in all that its readings show
         return any(set(f.channels) & set(finding.channels) for f in others)
     return any(set(f.elements) & set(finding.elements) for f in others if f.unit == finding.unit)
+
+
+def _widened(
+    model: DiagnosisModel,
+    outcome: Outcome,
+    accepted: Accepted,
+    term: Term,
+    finding: Finding,
+    every: Sequence[tuple[Term, Finding]],
+) -> Finding:
+    """The finding with intervals that hold its numbers without each law that is accepted and not identified.
+
+    A gain of a sensor, say, that no reading tells from something else scales every number of the rig with it: what is
+    known of these is known with and without it alone.
+    """
+    if not (is_physics(finding) or accuses(finding)):
+        return finding
+    for other, beside in every:
+        fitted = accepted.without.get(other)
+        if is_physics(beside) or accuses(beside) or fitted is None or term not in fitted.point.terms:
+            continue
+        doubt = _doubt(outcome)
+        found = estimates(fitted, term, doubt, model.scale_uncertainty(term))
+        alone = between_samples(local_estimates(found, term, fitted, model, doubt), term, model)
+        both = tuple(_over(a, b) for a, b in zip(finding.parameters, alone))
+        if any(b.upper - b.lower > WIDER * (a.upper - a.lower) for a, b in zip(finding.parameters, both)):
+            why = f"its numbers depend on {beside.statement}: the intervals hold what is fitted with and without that"
+            finding = replace(finding, parameters=both, doubts=(*finding.doubts, why))
+    return finding
+
+
+def _over(one: Estimate, other: Estimate) -> Estimate:
+    """The estimate with an interval that holds that of another too."""
+    physical = one.physical
+    if physical is not None and other.physical is not None:
+        physical = replace(
+            physical, lower=min(physical.lower, other.physical.lower), upper=max(physical.upper, other.physical.upper)
+        )
+    return replace(one, lower=min(one.lower, other.lower), upper=max(one.upper, other.upper), physical=physical)
 
 
 def _without_name(finding: Finding, name: str) -> Finding:
@@ -357,7 +402,7 @@ def _finding(
         confused_with=dict(candidate.confused_with),
         standing=standing,
         is_accepted=is_accepted,
-        doubts=(*accepted.reasons.get(term, ()), *doubts),
+        doubts=(*accepted.reasons.get(term, ()), *doubts, *(_beyond(accepted) if is_accepted else ())),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
@@ -413,6 +458,13 @@ def _elsewhere(accepted: Accepted) -> str:
     wherever that state comes again.
     """
     return f"the {accepted.basis} reject the model with it: a law that acts there may be what it stands for"
+
+
+def _beyond(accepted: Accepted) -> tuple[str, ...]:
+    """Why an interval may miss the true number: it is that of the fit, and takes the rest of the model for granted."""
+    if not accepted.agreement.is_rejected or accepted.agreement.is_irregular:
+        return ()
+    return (f"the {accepted.basis} reject the model with it, so what is still missing may shift its numbers",)
 
 
 def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) -> str:
@@ -553,18 +605,16 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
 
 def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -> tuple[Moved, ...]:
     """Parameters that moved by more than `MOVED` prior deviations, the farthest first; recordings by their titles."""
-    names, deviations = [p.name for p in model.parameters], np.array([p.deviation for p in model.parameters])
-    units = {p.name: p.unit for p in model.parameters}
-    relative = {p.name for p in model.parameters if p.is_relative}
+    known = {p.name: p for p in model.parameters}
     found = [
         Moved(
-            of_title(name, titles),
-            "1" if name in relative else units.get(name, ""),
-            float(np.exp(amount)) if name in relative else amount,
-            name in relative,
+            titled(known[name], titles),
+            "1" if known[name].is_relative else known[name].unit,
+            float(np.exp(amount)) if known[name].is_relative else amount,
+            known[name].is_relative,
             float(z),
         )
-        for name, (amount, z) in departures(names, deviations, fit.point.base).items()
+        for name, (amount, z) in departures(model.parameters, fit.point.base).items()
         if abs(z) > MOVED
     ]
     return tuple(sorted(found, key=lambda m: -abs(m.deviations)))

@@ -26,7 +26,6 @@ from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.search.objective import AT_BOUND, Objective
 from diagnosis.search.problem import Point
-from diagnosis.search.shares import is_carried
 
 #: Steps of the numbers, and halvings of one that does not lower the sum.
 STEPS, HALVINGS = 6, 6
@@ -157,7 +156,7 @@ def freedom(trained: DiagnosisModel, fitted: Point, judge: DiagnosisModel, carri
 
 def _numbers(objective: Objective, is_same: bool) -> list[tuple[str, float]]:
     """Name and size of every scaled coordinate; without a name where no other model has it."""
-    base = [(p.name if is_same or is_carried(p.name) else "", p.deviation) for p in objective.model.parameters]
+    base = [(p.name if is_same or p.is_carried else "", p.deviation) for p in objective.model.parameters]
     terms = [f"{t}: {p.name}" for t in objective.terms for p in t.parameters]
     return [*base, *zip(terms, objective.scale.tolist())]
 

@@ -10,12 +10,11 @@ from cosim.unit.protocol import Array
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Point, Term
-from diagnosis.search.shares import is_carried
 
 
 def recording_parameters(judge: DiagnosisModel, trained: DiagnosisModel) -> list[int]:
     """Numbers of the parameters of the judge that belong to its recordings alone, or to days that were not fitted."""
-    known = {p.name for p in trained.parameters if is_carried(p.name)}
+    known = {p.name for p in trained.parameters if p.is_carried}
     return [i for i, p in enumerate(judge.parameters) if p.name not in known]
 
 

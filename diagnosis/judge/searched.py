@@ -15,7 +15,6 @@ from diagnosis.judge.diagnosis import Domain, Searched
 from diagnosis.judge.doubts import MEASURED
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.search.problem import Point, Term, strength_slopes
-from diagnosis.search.shares import is_own
 
 
 def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], base: Point | None = None) -> Searched:
@@ -54,8 +53,11 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
     untried += _untried(model)
-    if not any(not is_own(p.name) for p in model.parameters):
-        untried.append("no parameter of the scenario states an uncertainty, so none was recalibrated")
+    if not any(p.own is None for p in model.parameters):
+        untried.append(
+            "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
+            "code) moves these readings"
+        )
     return Searched(domains, tuple(untried))
 
 

@@ -265,8 +265,8 @@ class HeldOutReadings:
             return Predicted(plain, plain, points=(carried,))
         found = self._with_day(carried)
         z = found.base[self._own]
-        names, deviations = zip(*((p.name, p.deviation) for p in self._judge.parameters))
-        whole = departures(names, np.array(deviations), found.base)
+        names = [p.name for p in self._judge.parameters]
+        whole = departures(self._judge.parameters, found.base)
         moved = {names[i]: whole[names[i]] for i in self._own if names[i] in whole}
         residuals = raw_residuals(self._judge, found)[self.readings.chosen]
         return Predicted(residuals, plain, float(z @ z), moved, (carried,))

@@ -31,6 +31,10 @@ class Role(Enum):
     INPUT = "input"
     #: An input u of an FMU that hides its states, over an output o.
     PORT = "input over an output"
+    #: An output y of an FMU that hides its states.
+    OUTPUT = "output"
+    #: An output y of an FMU that hides its states, over an input or output o.
+    RESPONSE = "output over an input or output"
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
+from dataclasses import replace
 
 import diagnosis.laws as package
-from diagnosis.laws.law import Law, Number, Role
+from diagnosis.laws.law import Law, Number, OwnState, Role
 
 #: Folders of laws with a file each.
 FOLDERS = ("motion", "heat", "fluid", "electrical", "signal")
@@ -53,7 +54,95 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
+    return [*found, *_with_memory(), *_corrections()]
+
+
+#: An output behind a delay of one reading, and the derivative of the output that follows from it.
+_BEHIND = OwnState("behind", "(o - behind) / step", "o", "o")
+_SLOPE = "((o - behind) / step)"
+_READING = {"step": ("u/rate", 1.0)}
+
+
+def _with_memory() -> list[Law]:
+    """Laws at an input over the rate of an output or over its past: what hidden states would do."""
+    rate = "o*rate/u"
+    found = [
+        _law("port_of_rate", "law of the rate of an output", Role.PORT, f"a * {_SLOPE}", f"u/({rate})", _READING),
+        _law(
+            "port_of_squared_rate",
+            "law of the squared rate of an output",
+            Role.PORT,
+            f"a * abs({_SLOPE}) * {_SLOPE}",
+            f"u/({rate})**2",
+            _READING,
+        ),
+        _law(
+            "port_of_sign_of_rate",
+            "law of the sign of the rate of an output",
+            Role.PORT,
+            f"a * tanh({_SLOPE} / rounding)",
+            "u",
+            {**_READING, "rounding": (rate, 0.002)},
+        ),
+    ]
+    hidden = Law(
+        "port_hidden_state",
+        "hidden state beside an output, acting on an input",
+        Role.PORT,
+        "a * (o - inside)",
+        (Number("a", "u/o", "strength", (0.05, -0.05), 1000.0, None), _time("settling_time", "u/rate")),
+        _FORM,
+        states=(OwnState("inside", "(o - inside) / settling_time", "o", "o"),),
+        is_named=False,
+    )
+    return [
+        *(replace(law, states=(_BEHIND,)) for law in found),
+        hidden,
+        _beyond("above", "o - edge"),
+        _beyond("below", "edge - o"),
+    ]
+
+
+def _beyond(side: str, distance: str) -> Law:
+    """What an end stop would do, seen at an input."""
+    sign = 1.0 if side == "above" else -1.0
+    numbers = (
+        Number("a", "u/o", "strength", (0.5, -0.5), 1e4, None),
+        Number("edge", "o", "value from which it acts", (0.4 * sign, 0.8 * sign), 2.0, -2.0, "o"),
+    )
+    formula = f"a * max({distance}, 0 * o)"
+    return Law(
+        f"port_{side}_edge", f"law of an output {side} an edge", Role.PORT, formula, numbers, _FORM, is_named=False
+    )
+
+
+def _corrections() -> list[Law]:
+    """Laws at an output: static ones, and correction states, which follow an input or output behind a delay."""
+    found = [
+        _law("output_offset", "offset of an output", Role.OUTPUT, "a", "y"),
+        _law("output_squared", "distortion of an output with its square", Role.OUTPUT, "a * y ** 2", "1/y"),
+        _law("output_cubed", "distortion of an output with its cube", Role.OUTPUT, "a * y ** 3", "1/y**2"),
+    ]
+    for name, (formula, power) in {"linear": ("o", "o"), "squared": ("o ** 2", "o**2")}.items():
+        strength = Number("a", f"y/({power})", "strength", (0.05, -0.05), 1000.0, None)
+        state = OwnState("correction", f"(a * {formula} - correction) / settling_time", f"a * {formula}", "y")
+        found.append(
+            Law(
+                f"correction_state_{name}",
+                "correction state of an output",
+                Role.RESPONSE,
+                "correction",
+                (strength, _time("settling_time", "y/rate")),
+                _FORM,
+                states=(state,),
+                is_named=False,
+            )
+        )
     return found
+
+
+def _time(name: str, of: str) -> Number:
+    return Number(name, of, "time in which it follows", (10.0, 100.0), 3000.0, 1.0)
 
 
 def _law(

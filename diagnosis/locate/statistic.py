@@ -14,6 +14,7 @@ from scipy.ndimage import median_filter
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.locate.panel import Noise, Panel
+from diagnosis.search.extreme import Gumbel
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.structure import LEVEL, WINDOWS
 
@@ -236,8 +237,7 @@ def _limit(panels: Sequence[Panel], sums: Sequence[_Sums], refit: Refit, count: 
         residual[panel.used] = own
         for _, _, z in sum_.standardised(residual):
             largest = np.maximum(largest, np.abs(z).max(axis=0))
-    scale = float(np.std(largest)) * np.sqrt(6.0) / np.pi  # Gumbel's law of the largest of many
-    return float(np.mean(largest) - 0.5772156649015329 * scale - scale * np.log(-np.log1p(-LEVEL)))
+    return Gumbel.of(largest).quantile(LEVEL)
 
 
 class _Sums:

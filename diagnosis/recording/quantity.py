@@ -45,6 +45,8 @@ _DOMAINS = {
     "ohm": "electrical",
     "N/m": "stiffness",
 }
+#: Quantities of a component whose name says what they are: its `x` or `y` may be anything.
+_TELLING = {name: unit for name, unit in SI_UNITS.items() if name not in ("x", "y", "z")}
 _INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
 _NAME = re.compile(
     rf"^(?P<kind>[A-Za-z]\w*){_INDEX.format('index')}\.(?P<quantity>[A-Za-z]\w*){_INDEX.format('last')}$"
@@ -59,7 +61,7 @@ class Target:
         kind: `supply`, `string`, `coil`, `link`, `marker`, `fabric`, or the name of a component of the scenario.
         element: Numbers of the element, from 1: (string, place in it) or (number,); empty for a scalar.
         quantity: What is measured.
-        unit: SI unit where the quantity has no name of its own.
+        unit: SI unit where the quantity has no name of its own; of a variable of a component, as it was recorded.
     """
 
     kind: str
@@ -74,6 +76,8 @@ class Target:
     @property
     def si_unit(self) -> str:
         """Unit of its values."""
+        if self.is_component:
+            return self.unit if self.unit != "1" else _TELLING.get(self.quantity, self.unit)
         return SI_UNITS.get(self.quantity, self.unit)
 
     @property

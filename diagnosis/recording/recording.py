@@ -18,7 +18,7 @@ from diagnosis.recording.quantity import SI_UNITS, Target, parse_quantity
 from diagnosis.recording.series import MOST
 from diagnosis.recording.sidecar import ChannelEntry, Clock, InputEntry, Sidecar, load_sidecar
 from diagnosis.recording.table import Table
-from diagnosis.recording.units import WrongUnit, conversion_of_difference, conversion_of_reading
+from diagnosis.recording.units import WrongUnit, conversion_of_difference, conversion_of_reading, unit_of_component
 
 #: A channel needs at least this many values to be worth anything.
 FEWEST_VALUES = 8
@@ -292,6 +292,8 @@ class _Reader:
         key = f"channels.{name}"
         target = self._target(name, key)
         unit = SI_UNITS.get(target.quantity, entry.unit)
+        if target.is_component:
+            unit = unit_of_component(entry.unit, target.si_unit if target.si_unit != "1" else "")
         factor, offset = self._conversion(entry.unit, unit, f"{key}.unit")
         times, clock = self._times(entry.table, entry.time, key)
         raw = self._table(entry.table).column(entry.column, f"{key}.column")

@@ -4,8 +4,36 @@ from __future__ import annotations
 
 import re
 
-from cosim.unit.quantity import conversion, parse_unit, registry
+from cosim.unit.quantity import PhysicalValue, conversion, cycles_and_angles, parse_unit, registry
 
+#: SI units by which a unit of the same dimension is replaced.
+_SI = (
+    "rad",
+    "rad/s",
+    "K",
+    "m",
+    "kg",
+    "kg*m^2",
+    "m^2",
+    "m^3",
+    "W/(m^2*K)",
+    "J/(kg*K)",
+    "kg/m^3",
+    "1",
+    "ohm",
+    "V",
+    "W",
+    "N/m",
+    "N*m",
+    "N*m*s",
+    "1/K",
+    "m/s^2",
+    "A",
+    "Pa",
+    "N",
+    "m/s",
+    "m^3/s",
+)
 #: Ends of the names of units that belong to screens and print; as lengths they are those of a printed page.
 _SCREEN = ("pixel", "pixels", "point", "pica", "didot", "cicero")
 #: Words that a unit of an angle, or of its rate, is made of. Other numbers without dimension count something else.
@@ -42,6 +70,46 @@ _MEANT = {
 _RAW = ("", "1", "%", "percent", "count", "counts", "bit", "bits", "steps", "ticks", "dB")
 #: A prefix of 1e6 or more before these is a slip of the shift key: no rig has readings of megavolts or megametres.
 _NEVER_MEGA = {"m": "mm", "s": "ms", "A": "mA", "V": "mV"}
+
+
+def si_unit(unit: str) -> str:
+    """SI unit of the same dimension; the unit itself where none is known.
+
+    >>> si_unit("mbar"), si_unit("degC"), si_unit("mol/m^3")
+    ('Pa', 'K', 'mol/m^3')
+    >>> si_unit("rpm"), si_unit("%")
+    ('rad/s', '1')
+    """
+    try:
+        base = PhysicalValue(1.0, unit)
+        is_angle = any(cycles_and_angles(unit or "1"))
+        for candidate in _SI[0 if is_angle else 2 :]:  # per cent is no angle
+            try:
+                base.to(candidate)
+            except ValueError:
+                continue
+            # 1/s is no rad/s, though they are of one size
+            return unit if unit and conversion(unit, candidate) == (1.0, 0.0) else candidate
+    except ValueError:  # an FMU's own way to write it
+        return unit
+    return unit
+
+
+def unit_of_component(unit: str, usual: str) -> str:
+    """SI unit of a variable of a component: by its name where the unit fits that, else by its unit.
+
+    An FMU may call a pressure `current`, but `C` at a `temperature` is a slip and no coulomb.
+
+    Args:
+        unit: As written for its column.
+        usual: SI unit that the variable's name says; empty where it says none.
+    """
+    is_slip = (usual, unit.strip()) in _MEANT or unit.strip() in _RAW
+    try:
+        conversion(unit, usual or unit)
+    except ValueError:
+        return usual if is_slip else si_unit(unit)
+    return usual or si_unit(unit)
 
 
 class WrongUnit(ValueError):

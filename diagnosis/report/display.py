@@ -16,6 +16,7 @@ from cosim.unit.quantity import conversion, parse_unit
 _DIFFERENCES = {"A": (1e3, "mA"), "V": (1e3, "mV"), "W": (1e3, "mW"), "m": (1e3, "mm")}
 #: SI unit to factor and unit for values below 1.
 _SMALL = {"A": (1e3, "mA"), "W": (1e3, "mW"), "m": (1e3, "mm")}
+#: 0 degC [K].
 _KELVIN = 273.15
 UNKNOWN = "\N{EN DASH}"
 
@@ -66,6 +67,16 @@ def number(value: float, digits: int = 3) -> str:
     if not -4 <= size < 6:
         return f"{value:.{digits - 1}e}"
     return f"{round(value, digits - 1 - size):.{max(digits - 1 - size, 0)}f}"
+
+
+def instant(value: float, digits: int = 4) -> str:
+    """A time without needless zeros, and without an exponent where people write none.
+
+    >>> instant(6.0), instant(43200.0), instant(0.3125)
+    ('6', '43200', '0.3125')
+    """
+    text = f"{value:.{digits}g}"
+    return number(value, digits) if "e" in text else text
 
 
 def interval(value: float, lower: float, upper: float, unit: str) -> str:

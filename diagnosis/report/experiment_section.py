@@ -8,6 +8,7 @@ from diagnosis.report.course_figures import experiment_figure
 from diagnosis.report.display import clean, listed, number, percent
 from diagnosis.report.markup import Html, element, folded, image, listing, table, wrapped
 
+#: Most channels whose spread between explanations is listed.
 _CHANNELS = 5
 #: Faults up to which they are shown as a matrix.
 _MATRIX = 24

@@ -128,8 +128,10 @@ def sureness(diagnosis: Diagnosis) -> str:
     for f in diagnosis.findings:
         by.setdefault(f.judged_by or basis, []).append(fall(f.held_out_gain))
     judged = "; ".join(f"{listed(falls, 4)} ({name})" for name, falls in by.items())
-    chance = f"noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
-    return f"{margin}: {gains}; {chance}. -2 log likelihood of readings that judge {judged}."
+    chance = f"; noise alone gives the first gain in {percent(diagnosis.false_alarm_rate)} of searches"
+    if diagnosis.false_alarm_rate >= 1.0:  # a fault that was found beside a search without a first effect: not asked
+        chance = ""
+    return f"{margin}: {gains}{chance}. -2 log likelihood of readings that judge {judged}."
 
 
 def fall(gain: float) -> str:

@@ -77,7 +77,8 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
     if len(diagnosis.doubts) > _FINDINGS:
-        yield f"         and {len(diagnosis.doubts) - _FINDINGS} more doubts in diagnosis.json"
+        more = len(diagnosis.doubts) - _FINDINGS
+        yield f"         and {more} more doubt{'s' if more > 1 else ''} in diagnosis.json"
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
         yield from _finding(order, finding, width, units)
@@ -133,7 +134,8 @@ def _fit(diagnosis: Diagnosis, width: int) -> Iterator[str]:
 
 def _fit_row(row: Row, units: Units) -> str:
     factor, unit = units.difference(row.unit)
-    told = " -> ".join(number(factor * row.rmse[stage]) for stage in STAGES)
+    every = [number(factor * row.rmse[stage]) for stage in STAGES]
+    told = " -> ".join(every) if len(set(every)) > 1 else every[0]  # nothing was changed
     part = "held out" if row.is_held_out else "training"
     return f"{part}, {row.quantity}: RMSE {told} {unit} ({clean(row.recording)})"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -42,6 +42,41 @@ class ComponentTerm:
     term: Term
     component: str
     names: tuple[str, ...]
+
+
+def with_law(
+    numbers: Numbers, law: ComponentTerm, values: Sequence[float], fitted: Mapping[str, PhysicalValue]
+) -> dict[str, PhysicalValue]:
+    """Parameters of a component with a law switched on: its strength comes on top of what the scenario has of it.
+
+    Args:
+        numbers: Of the scenario.
+        law: The law.
+        values: Of its parameters; the first is the strength.
+        fitted: Parameters of the component that the fit has moved.
+    """
+    found = {}
+    for index, (name, parameter, value) in enumerate(zip(law.names, law.term.parameters, values)):
+        there = 0.0
+        if index == 0 and name in fitted:
+            there = fitted[name].to(parameter.unit)
+        elif index == 0:
+            there = given_strength(numbers, law)
+        found[name] = PhysicalValue(there + value, parameter.unit)
+    return found
+
+
+def given_strength(numbers: Numbers, law: ComponentTerm) -> float:
+    """What a scenario has of a law already, in the unit of the law's strength."""
+    if not law.names:
+        return 0.0
+    known = numbers.of(law.component, law.names[0])
+    return PhysicalValue(known.values[0], known.unit).to(law.term.parameters[0].unit) if known else 0.0
+
+
+def can_be_added(numbers: Numbers, law: ComponentTerm) -> bool:
+    """Whether a unit can have more of a law: one whose shape has numbers of its own acts once in a unit."""
+    return len(law.names) < 2 or given_strength(numbers, law) == 0.0
 
 
 class CosimModel:
@@ -113,8 +148,8 @@ class CosimModel:
                     gains.setdefault(component, {})[output] = (values[0], values[1], values[2])
                 continue
             law = self._terms[term]
-            for name, parameter, value in zip(law.names, term.parameters, values):
-                parameters.setdefault(law.component, {})[name] = PhysicalValue(value, parameter.unit)
+            there = parameters.setdefault(law.component, {})
+            there.update(with_law(numbers, law, values, there))
         return Changes(parameters, shifts, lists, gains)
 
     def scenario_at(self, point: Point, number: int) -> Scenario:

@@ -23,35 +23,13 @@ from cosim.unit.protocol import Causality
 from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
-from diagnosis.search.problem import Parameter
+from diagnosis.recording.units import si_unit
+from diagnosis.search.problem import Own, Parameter
 from diagnosis.search.shares import RIG_START, own_deviation, own_label, shared_deviation
 
 #: Kind of component to what its numbers may be off by where neither its scenario nor its parameter set says so
 #: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
 USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
-#: Units in which numbers are varied, by dimension; others are varied in the unit that they are written in.
-_SI = (
-    "rad",
-    "rad/s",
-    "K",
-    "m",
-    "kg",
-    "kg*m^2",
-    "m^2",
-    "m^3",
-    "W/(m^2*K)",
-    "J/(kg*K)",
-    "kg/m^3",
-    "1",
-    "ohm",
-    "V",
-    "W",
-    "N/m",
-    "N*m",
-    "N*m*s",
-    "1/K",
-    "m/s^2",
-)
 _ELEMENT = re.compile(r"^(?P<name>.*?)\[(?P<element>\d+)\]$")
 
 
@@ -217,7 +195,8 @@ def _alone(doubt: _Doubt) -> Free:
     label = doubt.name if doubt.element is None else f"{doubt.name}[{doubt.element + 1}]"
     component, _, name = doubt.name.partition(".")
     value = doubt.number.values[doubt.element or 0]
-    parameter = Parameter(own_label(label, doubt.recording), doubt.number.unit, value, doubt.deviation, False)
+    own = Own(label, doubt.recording)
+    parameter = Parameter(own_label(own), doubt.number.unit, value, doubt.deviation, False, own=own)
     return Free(parameter, component, name, frozenset((doubt.recording,)), doubt.element, doubt.number.is_list)
 
 
@@ -229,8 +208,9 @@ def _divided(name: str, doubts: Sequence[_Doubt], is_room: bool) -> Iterator[Fre
     whole = [d for d in doubts if d.element is None]
     shared = shared_deviation([d.deviation for d in doubts], math.inf if is_room else RIG_START) if whole else 0.0
     if whole:
-        yield _offset(name, whole[0], f"offset of {name}", shared, None)
+        yield _offset(name, whole[0], f"offset of {name}", shared)
     members: dict[str, list[_Doubt]] = {}
+    owners: dict[str, Own] = {}
     for d in doubts:
         elements: Iterable[int | None] = (d.element,)
         if d.element is None and d.number.is_list:
@@ -238,17 +218,25 @@ def _divided(name: str, doubts: Sequence[_Doubt], is_room: bool) -> Iterator[Fre
             elements = [i for i in range(len(d.number.values)) if i not in others]
         for element in elements:
             label = f"offset of {name}" + ("" if element is None else f"[{element + 1}]")
-            own = own_label(label, d.recording, d.day if is_room else "")
-            members.setdefault(own, []).append(replace(d, element=element))
+            own = Own(label, d.recording, d.day if is_room else "")
+            owners.setdefault(own_label(own), own)
+            members.setdefault(own_label(own), []).append(replace(d, element=element))
     for label, own_doubts in members.items():
         left = own_deviation(min(d.deviation for d in own_doubts), shared)
-        yield _offset(name, own_doubts[0], label, left, frozenset(d.recording for d in own_doubts))
+        yield _offset(name, own_doubts[0], label, left, frozenset(d.recording for d in own_doubts), owners[label])
 
 
-def _offset(name: str, doubt: _Doubt, label: str, deviation: float, recordings: frozenset[int] | None) -> Free:
-    component, _, own = name.partition(".")
-    parameter = Parameter(label, doubt.number.unit, 0.0, deviation, False)
-    return Free(parameter, component, own, recordings, doubt.element, doubt.number.is_list)
+def _offset(
+    name: str,
+    doubt: _Doubt,
+    label: str,
+    deviation: float,
+    recordings: frozenset[int] | None = None,
+    own: Own | None = None,
+) -> Free:
+    component, _, field = name.partition(".")
+    parameter = Parameter(label, doubt.number.unit, 0.0, deviation, False, own=own)
+    return Free(parameter, component, field, recordings, doubt.element, doubt.number.is_list)
 
 
 def moved(numbers: Numbers, free: Iterable[tuple[Free, float]]) -> dict[tuple[str, str], Number]:
@@ -323,16 +311,3 @@ def _of_fmu(given: FmuComponent, component: str, name: str, value: object, sourc
     # in FMI 3.0 one start value may stand for all elements
     values = factor * np.broadcast_to(np.asarray(array, dtype=np.float64), v.shape).reshape(-1) + offset
     return Number(tuple(values.tolist()), unit, bool(v.shape))
-
-
-def si_unit(unit: str) -> str:
-    """SI unit of the same dimension."""
-    base = PhysicalValue(1.0, unit)
-    for candidate in _SI:
-        try:
-            base.to(candidate)
-        except ValueError:
-            continue
-        # 1/s is no rad/s, though they are of one size
-        return unit if unit and conversion(unit, candidate) == (1.0, 0.0) else candidate
-    return unit

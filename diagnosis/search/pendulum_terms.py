@@ -65,6 +65,7 @@ def arm_of(scenario: Scenario, component: str) -> Arm:
     return Arm(mass * _GRAVITY * distance, math.sqrt(_GRAVITY / distance))
 
 
+#: Standard gravity [m/s^2].
 _GRAVITY = 9.80665
 #: Mass [kg] and distance of its centre from the hinge [m] of an arm for the bench.
 BENCH = (0.1, 0.1)

@@ -16,6 +16,34 @@ MOST_FOLD = 100.0
 
 
 @dataclass(frozen=True)
+class Own:
+    """Whose a parameter is that not all recordings share.
+
+    Args:
+        number: Name of what all recordings share of the same number; that may be no parameter.
+        recording: Number of the recording, from 0.
+        day: Name of the day that it belongs to; recordings held out may be of the same day. Empty: the recording alone.
+    """
+
+    number: str
+    recording: int
+    day: str = ""
+
+
+@dataclass(frozen=True)
+class Alike:
+    """What parameters of equal elements are compared by, to tell how far such elements really are apart.
+
+    Args:
+        kind: What the elements have each, for example `heat_transfer_coefficient`.
+        group: Those of one group (the coils of a string) are compared with each other.
+    """
+
+    kind: str
+    group: str
+
+
+@dataclass(frozen=True)
 class Parameter:
     """A number that the model already has, and how far it may be off.
 
@@ -29,6 +57,9 @@ class Parameter:
         deviation: Prior standard deviation, of ln(value) or of the value.
         is_relative: See above.
         bounds: Largest departure from the nominal value in deviations.
+        own: Whose it is, where it belongs to some recordings alone.
+        alike: Which others it is compared with, where it belongs to one of many equal elements.
+        is_clock: Whether it is a delay or a lag of readings.
     """
 
     name: str
@@ -37,6 +68,14 @@ class Parameter:
     deviation: float
     is_relative: bool = True
     bounds: float = 6.0
+    own: Own | None = None
+    alike: Alike | None = None
+    is_clock: bool = False
+
+    @property
+    def is_carried(self) -> bool:
+        """Whether it means the same in another model of the rig: it is shared, or belongs to a day with a name."""
+        return self.own is None or bool(self.own.day)
 
     def value(self, z: float) -> float:
         """Value at a distance of z deviations."""

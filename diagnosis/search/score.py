@@ -11,6 +11,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from cosim.compute.steps import counted
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.search.extreme import Gumbel
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import huber_weights
 from diagnosis.search.problem import Model, Term, limits_of, strength_slopes
@@ -21,8 +22,6 @@ SHARE = 0.02
 BATCH = 128
 #: Slope beyond which a law runs away: a million squares of it still have a sum in single precision (3e38).
 STEEPEST = 1e16
-#: Exponent beyond which exp(-exp(x)) is 0 for long.
-MOST_EXPONENT = 700.0
 #: A direction of which the recalibration absorbs all but this share of the length cannot be seen.
 LEAST_VISIBLE = 5e-3  # below it single precision would see its own rounding
 
@@ -219,15 +218,14 @@ class Scoring:
     def false_alarm_rate(self, gain: float) -> float:
         """Probability of a gain at least this large where nothing is missing, from the tail of the nulls.
 
-        The largest of many gains follows a Gumbel law; its scale is taken from mean and deviation of the draws.
+        See `diagnosis.search.extreme.Gumbel`.
         """
-        scale = float(np.std(self.chance)) * np.sqrt(6.0) / np.pi
         if not self.tried or not self.chance.size:
             return 1.0
-        if scale == 0.0:  # no null gained more than its price: one more null would be the first
+        law = Gumbel.of(self.chance)
+        if law.scale == 0.0:  # no null gained more than its price: one more null would be the first
             return 1.0 if gain <= self.chance[0] else 1.0 / (len(self.chance) + 1.0)
-        place = float(np.mean(self.chance)) - 0.5772156649015329 * scale
-        return float(-np.expm1(-np.exp(min(-(gain - place) / scale, MOST_EXPONENT))))
+        return law.exceeded(gain)
 
 
 def score(

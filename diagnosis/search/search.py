@@ -83,7 +83,7 @@ def recalibrate(model: Model) -> Fit:
 
 
 def with_clocks_set(model: Model, found: Fit) -> Fit:
-    """The better of a fit and of one that begins again with clocks and lags, the parameters in seconds, as stated.
+    """The better of a fit and of one that begins again with clocks and lags as stated.
 
     A few readings near a switch can be explained twice: by a sensor that is slow, or by one that is early and slower
     still. While everything else is off the fit may run into the wrong one, and no step leads out of it.
@@ -92,7 +92,7 @@ def with_clocks_set(model: Model, found: Fit) -> Fit:
         model: Model and training recordings.
         found: Fit without terms.
     """
-    clocks = np.array([p.unit == "s" for p in model.parameters], dtype=bool)
+    clocks = np.array([p.is_clock for p in model.parameters], dtype=bool)
     if not np.any(np.abs(found.point.base[clocks]) > LATE):
         return found
     again = fit(model, Point(np.where(clocks, 0.0, found.point.base)), iterations=200)
@@ -108,9 +108,8 @@ def spread(parameters: Sequence[Parameter], base: Array) -> Array:
     widths = np.ones(len(base))
     kinds: dict[str, dict[str, list[int]]] = {}
     for i, parameter in enumerate(parameters):
-        if "]." in parameter.name:
-            element, kind = parameter.name.split("].", 1)
-            kinds.setdefault(kind, {}).setdefault(element.split(",")[0], []).append(i)
+        if parameter.alike is not None:
+            kinds.setdefault(parameter.alike.kind, {}).setdefault(parameter.alike.group, []).append(i)
     for strings in kinds.values():
         members = [i for string in strings.values() for i in string]
         apart = [base[a] - base[b] for string in strings.values() for a, b in itertools.combinations(string, 2)]

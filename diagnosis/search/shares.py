@@ -16,47 +16,33 @@ import math
 from collections.abc import Collection, Sequence
 
 from cosim.unit.protocol import Array
+from diagnosis.search.problem import Own, Parameter
 
-#: Stands in the name of every parameter that belongs to some recordings alone.
-OWN = " of recording "
-#: Stands in the name of those that belong to a day that has a name; recordings held out may be of the same day.
-DAY = " of recording day "
 #: Largest doubt about a temperature at the start that can be the rig's [K]; beyond it the start is what is not known.
 #: It is the doubt that is taken where none is stated: a thermometer of the rig and the room, not a start by hand.
 RIG_START = 0.3
 
 
-def own_label(name: str, number: int, day: str = "") -> str:
-    """Name of a parameter that belongs to one recording, or to all of one day.
+def own_label(own: Own) -> str:
+    """Name of a parameter that belongs to one recording, or to all of one day."""
+    return f"{own.number} of recording day {own.day}" if own.day else _of_recording(own.number, str(own.recording + 1))
+
+
+def titled(parameter: Parameter, titles: Sequence[str]) -> str:
+    """Name of a parameter, with the title of its recording in the place of the number.
 
     Args:
-        name: Of the number.
-        number: Of the recording, from 0.
-        day: Name of the day; empty: the recording's own.
+        parameter: Any.
+        titles: Of the recordings of its model, in their order; those that are missing keep their numbers.
     """
-    return f"{name}{DAY}{day}" if day else f"{name}{OWN}{number + 1}"
+    own = parameter.own
+    if own is None or own.day or own.recording >= len(titles):
+        return parameter.name
+    return _of_recording(own.number, titles[own.recording])
 
 
-def of_title(name: str, titles: Sequence[str]) -> str:
-    """A parameter of one recording, with the recording's title in the place of its number.
-
-    >>> of_title("initial_temperature of recording 2", ("monday", "tuesday")), of_title("capacity", ("monday",))
-    ('initial_temperature of recording tuesday', 'capacity')
-    """
-    field, own, number = name.partition(OWN)
-    if not own or DAY in name or not number.isdigit() or int(number) > len(titles):
-        return name
-    return f"{field}{OWN}{titles[int(number) - 1]}"
-
-
-def is_own(name: str) -> bool:
-    """Whether a parameter belongs to some recordings alone, by its name."""
-    return OWN in name
-
-
-def is_carried(name: str) -> bool:
-    """Whether a parameter means the same in another model of the rig: it is shared, or belongs to a day with a name."""
-    return not is_own(name) or DAY in name
+def _of_recording(number: str, recording: str) -> str:
+    return f"{number} of recording {recording}"
 
 
 def shared_deviation(stated: Collection[float], most: float = math.inf) -> float:
@@ -74,19 +60,18 @@ def own_deviation(stated: float, shared: float) -> float:
     return math.sqrt(stated**2 - shared**2)
 
 
-def departures(names: Sequence[str], deviations: Array, z: Array) -> dict[str, tuple[float, float]]:
+def departures(parameters: Sequence[Parameter], z: Array) -> dict[str, tuple[float, float]]:
     """How far numbers are from their nominal values: what is shared and what is a recording's own taken together.
 
     Args:
-        names: Of all parameters.
-        deviations: Their prior deviations, shape (parameters,).
-        z: Their distances in these, shape (parameters,).
+        parameters: All of a model.
+        z: Their distances in their prior deviations, shape (parameters,).
 
     Returns:
         Name to the amount, and the amount in deviations of the sum; what is shared stands in the sums alone.
     """
-    known = dict(zip(names, zip((deviations * z).tolist(), deviations.tolist())))
-    parts = {name: name.split(OWN)[0] for name in names if is_own(name) and name.split(OWN)[0] in known}
+    known = {p.name: (p.deviation * float(far), p.deviation) for p, far in zip(parameters, z)}
+    parts = {p.name: p.own.number for p in parameters if p.own is not None and p.own.number in known}
     found = {}
     for name, (amount, deviation) in known.items():
         if name in parts.values():

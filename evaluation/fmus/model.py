@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import platform
+import re
 import subprocess
 import tempfile
 import uuid
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -94,9 +95,20 @@ class OdeModel:
         begin = len(lines) + 1
         for name, (text, _) in self.outputs.items():
             variable(name, "output", "continuous", unit(text), "calculated")
-        outputs = "".join(f'<Unknown index="{begin + i}"/>' for i in range(len(self.outputs)))
-        rates = "".join(f'<Unknown index="{first + len(self.states) + i}"/>' for i in range(len(self.states)))
-        initial = "".join(f'<Unknown index="{i}"/>' for i in range(first, len(lines) + 1))
+        known = {n: i + 1 for i, n in enumerate((*self.parameters, *self.inputs, *self.states))}
+
+        def unknown(index: int, formula: str, depends: Iterable[str], always: Iterable[str] = ()) -> str:
+            """An unknown with what it depends on: where none is given, importers take every input."""
+            used = set(re.findall(r"[A-Za-z_]\w*", formula)) & set(depends) | set(always)
+            return f'<Unknown index="{index}" dependencies="{" ".join(str(known[n]) for n in known if n in used)}"/>'
+
+        formulas = [rate for _, _, rate in self.states.values()]
+        running, later = (*self.inputs, *self.states), [*formulas, *(f for _, f in self.outputs.values())]
+        outputs = "".join(unknown(begin + i, f, running) for i, (_, f) in enumerate(self.outputs.values()))
+        derivatives = first + len(self.states)
+        rates = "".join(unknown(derivatives + i, f, running) for i, f in enumerate(formulas))
+        initial = "".join(unknown(first + i, s, self.parameters) for i, (_, s, _) in enumerate(self.states.values()))
+        initial += "".join(unknown(derivatives + i, f, self.inputs, self.parameters) for i, f in enumerate(later))
         described = "".join(f"<Unit name={quoteattr(u)}/>" for u in units if u)
         flags = 'canGetAndSetFMUstate="true" canSerializeFMUstate="true"'
         return (

@@ -15,12 +15,13 @@ import numpy as np
 from scipy.stats import chi2
 
 from diagnosis.judge.diagnosis import Diagnosis, Moved
-from diagnosis.search.shares import OWN
 from evaluation.proof.answer import Answer
 from evaluation.proof.reference import Reference
 
 #: Probability that noise alone stays below the limit of a chi-square.
 _NOISE_LEVEL = 0.999
+#: Stands in names of numbers that belong to some recordings alone, as a diagnosis writes them.
+_OF_RECORDING = " of recording "
 #: Numbers of a day whose truth is how far the room is off: a rig begins as warm as its room.
 _OF_THE_ROOM = ("ambient_offset", "initial_temperature")
 #: Share of the doubt about a number of the day by which it may be off: a diagnosis does not tell less than that.
@@ -89,7 +90,7 @@ def _is_day_true(diagnosis: Diagnosis, answer: Answer) -> bool:
 
 def _is_true(moved: Moved, room: float) -> bool:
     """Whether a number of the day is no farther from the truth than what is written down, or by less than is said."""
-    if moved.name.split(OWN)[0].rpartition(".")[2] not in _OF_THE_ROOM or not moved.deviations:
+    if moved.name.split(_OF_RECORDING)[0].rpartition(".")[2] not in _OF_THE_ROOM or not moved.deviations:
         return True
     doubt = abs(moved.amount / moved.deviations)
     return abs(moved.amount - room) <= max(abs(room), _TOLD * doubt)

@@ -99,7 +99,8 @@ def drawn_with(folder: Path) -> str:
 
 
 def _prove(folder: Path, draw: Draw) -> None:
-    command = [sys.executable, "-m", "proving", str(folder), "--cases", str(draw.cases), "--seed", str(draw.seed)]
+    command = [sys.executable, "-m", "evaluation.proving", str(folder)]
+    command += ["--cases", str(draw.cases), "--seed", str(draw.seed)]
     command += ["--kinds", ",".join(draw.kinds), "--setups", ",".join(draw.setups)]
     made = subprocess.run(command, capture_output=True, text=True, check=False)
     if made.returncode:

@@ -14,12 +14,14 @@ from evaluation.real.pendulum import pendulum
 from evaluation.real.raw_files import SOURCES, VARIABLE, recordings_folder
 from evaluation.real.silverbox import silverbox
 from evaluation.real.sma_limb import sma_limb
+from evaluation.real.sma_limb_angle import sma_limb_angle
 from evaluation.real.tclab import tclab
 
 #: Name of a data set to its reader, called with the folder of the raw files and that of the data sets.
 DATA_SETS: dict[str, Callable[[Path, Path], DataSet]] = {
     "tclab": lambda raw, _: tclab(raw),
     "sma-limb": lambda raw, _: sma_limb(raw),
+    "sma-limb-angle": sma_limb_angle,
     "cart-pendulum": lambda raw, _: pendulum(raw),
     "emps": emps,
     "silverbox": silverbox,

@@ -3,23 +3,38 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from cosim.unit.protocol import Array
-from evaluation.systems.effects import Effect, composed, effects_of
+from evaluation.systems.effects import (
+    AT_INPUT,
+    Course,
+    Effect,
+    composed,
+    effects_inside,
+    effects_of_actuators,
+    with_memory,
+)
 from evaluation.systems.rigs import RIGS, Rig
 
-#: Kinds of cases with their shares.
-KINDS = {"null": 0.25, "single": 0.3, "two": 0.1, "hidden": 0.1, "composed": 0.15, "fault": 0.1}
+#: Kinds of cases with their shares. hidden: a law that the library is without; memory: a hidden state with its own
+#: equation, of which the library is without a name; composed: a law put together at random; fault: of one stretch of
+#: one recording, no physics.
+KINDS = {"null": 0.22, "single": 0.26, "two": 0.1, "hidden": 0.08, "memory": 0.08, "composed": 0.12, "fault": 0.14}
+#: Faults, in turn by chance.
+FAULTS = ("sensor offset", "sensor stuck", "wild readings", "input gain")
 #: Standard deviation of ln(number) of the truth from what the model says.
 OFF = 0.03
 #: Steps of the truth's integration between two readings.
 INNER = 8
 #: Draws of a case of which the truth may run away.
 TRIES = 10
+#: Standard deviation of a state of the truth over that of the model, beyond which nobody would record the rig.
+WILDEST = 5.0
 RECORDINGS = ("first", "second", "third")
 
 
@@ -33,6 +48,7 @@ class Case:
         places: Where effects act.
         answers: Of each effect, the identifiers that name it rightly.
         without: Laws that the library must not know.
+        fault: See `FAULTS`; empty: none.
     """
 
     kind: str
@@ -40,6 +56,7 @@ class Case:
     places: list[str]
     answers: list[list[str]]
     without: list[str]
+    fault: str = ""
 
 
 def drive(rig: Rig, rng: np.random.Generator) -> Array:
@@ -71,24 +88,34 @@ def start(rig: Rig) -> Array:
     return np.array(found)
 
 
-def course(rig: Rig, numbers: dict[str, float], inputs: Array, effects: list[Effect]) -> Array:
+def course(rig: Rig, numbers: dict[str, float], inputs: Array, effects: Sequence[Effect]) -> Array:
     """The truth: classical Runge-Kutta steps with inputs held, shape (samples, states)."""
-    x, h = start(rig), rig.step / INNER
-    states = [x]
+    count, h = len(rig.states), rig.step / INNER
+    own = [e for e in effects if e.own_rate is not None]
+    fine = np.repeat(inputs[:-1], INNER, axis=0)
+    for effect in effects:
+        if effect.passed is not None:
+            fine[:, effect.port] = effect.passed(fine[:, effect.port].copy(), h)
+    x = np.concatenate([start(rig), [e.own_start for e in own]])
+    states = [x[:count]]
 
     def rate(y: Array, u: Array) -> Array:
-        found = rig.rates(numbers, y, u)
+        found = np.concatenate([rig.rates(numbers, y[:count], u), np.zeros(len(own))])
         for effect in effects:
-            found[effect.state] += effect.added(y, u)
+            memory = float(y[count + own.index(effect)]) if effect in own else 0.0
+            if effect.added is not None:
+                found[effect.state] += effect.added(y[:count], u, memory)
+            if effect.own_rate is not None:
+                found[count + own.index(effect)] = effect.own_rate(y[:count], u, memory)
         return found
 
-    for u in inputs[:-1]:
-        for _ in range(INNER):
-            a = rate(x, u)
-            b = rate(x + 0.5 * h * a, u)
-            c = rate(x + 0.5 * h * b, u)
-            x = x + h / 6.0 * (a + 2.0 * (b + c) + rate(x + h * c, u))
-        states.append(x)
+    for number, u in enumerate(fine):
+        a = rate(x, u)
+        b = rate(x + 0.5 * h * a, u)
+        c = rate(x + 0.5 * h * b, u)
+        x = x + h / 6.0 * (a + 2.0 * (b + c) + rate(x + h * c, u))
+        if (number + 1) % INNER == 0:
+            states.append(x[:count])
     return np.array(states)
 
 
@@ -100,10 +127,31 @@ def make(folder: Path, kind: str, seed: int, number: int) -> Case:
     """
     for again in range(TRIES):
         try:
-            return _make(folder, kind, [seed, number, *([again] if again else [])], number)
+            with np.errstate(over="raise", invalid="raise"):
+                return _make(folder, kind, [seed, number, *([again] if again else [])], number)
         except (OverflowError, FloatingPointError):
             continue  # a spring that softens may throw the mass out
     raise RuntimeError(f"case {number + 1}: every truth runs away")
+
+
+def _drawn(kind: str, rig: Rig, plain: Course, rng: np.random.Generator) -> tuple[list[Effect], list[str]]:
+    """Effects of a case, and laws that the library must not know."""
+    inside, actuators = effects_inside(rig, plain, rng), effects_of_actuators(rig, plain)
+    #: Effects that have a law of their name at their place: inside an FMU that hides its states there is none.
+    known = [e for e in (*inside, *actuators) if e.place.partition(".")[0] not in rig.hidden or e.passed is not None]
+    known += [e for e in inside if e not in known and e.name in AT_INPUT]
+    if kind == "single":
+        return [known[int(rng.integers(len(known)))]], []
+    if kind == "two":
+        return [known[int(i)] for i in rng.choice(len(known), 2, replace=False)], []
+    if kind == "hidden":
+        unseen = [e for e in inside if e not in known]
+        one = (unseen or inside)[int(rng.integers(len(unseen or inside)))]
+        return [one], [] if unseen else list(one.answers)
+    if kind == "memory":
+        one = with_memory(rig, plain, rng)
+        return [one], list(one.answers)
+    return ([composed(rig, plain, rng)] if kind == "composed" else []), []
 
 
 def _make(folder: Path, kind: str, seed: list[int], number: int) -> Case:
@@ -113,14 +161,8 @@ def _make(folder: Path, kind: str, seed: list[int], number: int) -> Case:
     plain = drive(rig, rng)
     states = course(rig, dict(rig.numbers), plain, [])
     rates = np.array([rig.rates(rig.numbers, x, u) for x, u in zip(states, plain)])
-    known = effects_of(rig, states, rates, plain, rng)
-    effects: list[Effect] = []
-    if kind in ("single", "hidden"):
-        effects = [known[int(rng.integers(len(known)))]]
-    elif kind == "two":
-        effects = [known[int(i)] for i in rng.choice(len(known), 2, replace=False)]
-    elif kind == "composed":
-        effects = [composed(rig, states, rates, rng)]
+    effects, without = _drawn(kind, rig, Course(states, rates, plain), rng)
+    fault = str(rng.choice(FAULTS)) if kind == "fault" else ""
     task = folder / "task"
     task.mkdir(parents=True, exist_ok=True)
     for model in rig.models.values():
@@ -129,23 +171,46 @@ def _make(folder: Path, kind: str, seed: list[int], number: int) -> Case:
     sizes = np.std(states, axis=0)
     for i, name in enumerate(RECORDINGS):
         inputs = plain if i == 0 else drive(rig, rng)
-        truth = course(rig, numbers, inputs, effects)
-        if not np.isfinite(truth).all():
+        stretch = _stretch(rig, rng)
+        driven = inputs.copy()
+        if fault == "input gain" and i == 1:
+            driven[stretch, next(iter(rig.driven()))] *= 1.3
+        truth = course(rig, numbers, driven, effects)
+        if not np.isfinite(truth).all() or (np.std(truth, axis=0) > WILDEST * sizes).any():
             raise FloatingPointError("the truth runs away")
-        _write(task / name, rig, inputs, truth, sizes, rng, kind == "fault" and i == 1)
-    case = Case(
-        kind,
-        rig.name,
-        [rig.states[e.state] for e in effects],
-        [list(e.answers) for e in effects],
-        [a for e in effects for a in e.answers] if kind == "hidden" else [],
-    )
+        _write(task / name, rig, inputs, truth, sizes, rng, (fault, stretch) if i == 1 else ("", stretch))
+    case = Case(kind, rig.name, [e.place for e in effects], [list(e.answers) for e in effects], without, fault)
     (folder / "answer.json").write_text(json.dumps(case.__dict__, indent=1), encoding="utf-8")
     return case
 
 
+def _stretch(rig: Rig, rng: np.random.Generator) -> slice:
+    """Samples of a fault: an eighth of the recording at least."""
+    first, last = sorted(rng.integers(rig.count // 6, rig.count, 2).tolist())
+    return slice(first, max(last, first + rig.count // 8))
+
+
+def _faulty(values: Array, fault: str, stretch: slice, size: float, rng: np.random.Generator) -> Array:
+    """Readings of the first channel with a fault of its sensor."""
+    found = values.copy()
+    if fault == "sensor offset":
+        found[stretch] += 0.4 * size
+    elif fault == "sensor stuck":
+        found[stretch] = values[stretch.start]
+    elif fault == "wild readings":
+        wild = rng.choice(len(values), len(values) // 60, replace=False)
+        found[wild] += rng.choice([-1.0, 1.0], len(wild)) * rng.uniform(1.0, 3.0, len(wild)) * size
+    return found
+
+
 def _write(
-    folder: Path, rig: Rig, inputs: Array, truth: Array, sizes: Array, rng: np.random.Generator, is_faulty: bool
+    folder: Path,
+    rig: Rig,
+    inputs: Array,
+    truth: Array,
+    sizes: Array,
+    rng: np.random.Generator,
+    fault: tuple[str, slice],
 ) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     times = rig.step * np.arange(rig.count)
@@ -158,10 +223,8 @@ def _write(
         unit, share = rig.channels[name]
         noise = share * float(sizes[state])
         values = truth[:, state] + noise * rng.standard_normal(rig.count)
-        if is_faulty and i == 0:
-            first, last = sorted(rng.integers(rig.count // 6, rig.count, 2).tolist())
-            last = max(last, first + rig.count // 8)
-            values[first:last] += 0.4 * float(sizes[state])
+        if i == 0:
+            values = _faulty(values, *fault, float(sizes[state]), rng)
         columns[f"y{i + 1}"] = values
         lines.append(f"  {name}: {{column: y{i + 1}, unit: {unit}, noise: {noise:.4g} {unit}}}")
     table = np.column_stack(list(columns.values()))

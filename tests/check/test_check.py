@@ -304,3 +304,19 @@ def test_two_wild_readings_at_an_end_are_no_step_that_stays(
     a = rig.write(tmp_path / "a", rig.FIRST, readings)
     told = [d for d in doubts(scenario, a) if d.kind == "sensor" and "step" in d.statement]
     assert bool(told) is is_step
+
+
+def test_a_rig_that_is_driven_from_the_begin_has_moved_before_three_readings(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    """Full power from 0 s on, and a heat capacity that is 40 % off: the third reading is no other start."""
+    points = ((0.0, 3.0, 0.0), (300.0, 0.0, 0.5))
+    times = np.arange(0.0, rig.SPAN, 0.1)
+    starts, power = np.array([0.0, 300.0]), np.array([[3.0, 0.0], [0.0, 0.5]])
+    body = np.full((len(times), 2), 21.0)
+    for n in range(len(times) - 1):
+        given = power[np.searchsorted(starts, times[n], side="right") - 1]
+        body[n + 1] = body[n] + 0.1 * (given - 0.012 * (body[n] - 21.0)) / 1.4
+    values = body[::20] + rig.NOISE * np.random.default_rng(4).standard_normal((len(times[::20]), 2))
+    found = doubts(scenario, rig.write(tmp_path / "a", points, values))
+    assert [d for d in found if d.kind == "start"] == []

@@ -77,6 +77,8 @@ FABRIC = {
     "hanging_contraction": ("-2.8 s", every(0.04, -3.0, -2.8), (1e-4, 1e-8, 1e-7, 1e-8, 1e-8)),
     "spatial_control": ("-0.9 s", every(0.02, -1.0, -0.9), (0.3, 3e-4, 4e-4, 1e-4, 1e-4)),
 }
+#: Too large for a test: `make nightly`.
+NIGHTLY = {"large_row_by_row"}
 SHAPE = ("max_curvature", "fabric_length", "row_centre", "link_length", "potential_energy")
 
 
@@ -116,7 +118,7 @@ def test_the_first_moments_of_a_fabric_are_those_stored(name, request):
 
 def test_every_shipped_scenario_has_a_golden_trace():
     # Until power comes the instant variant is the cantilever: its fabric adds nothing.
-    assert {*ELECTRICAL, *LUMPS, *FABRIC} == set(shipped_scenarios())
+    assert {*ELECTRICAL, *LUMPS, *FABRIC} == set(shipped_scenarios()) - NIGHTLY
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
+from diagnosis.search.problem import Own, Parameter
 from diagnosis.search.shares import (
     departures,
-    is_carried,
-    is_own,
     own_deviation,
     own_label,
     shared_deviation,
@@ -22,17 +21,24 @@ def test_both_parts_add_to_what_is_stated_and_the_surest_recording_limits_what_i
 
 
 def test_names_tell_what_means_the_same_in_another_model():
-    own, day = own_label("ambient_offset", 0), own_label("ambient_offset", 0, "monday")
-    assert (own, day) == ("ambient_offset of recording 1", "ambient_offset of recording day monday")
-    assert [is_own(n) for n in ("ambient_offset", own, day)] == [False, True, True]
-    assert [is_carried(n) for n in ("ambient_offset", own, day)] == [True, False, True]
+    owners = (None, Own("ambient_offset", 0), Own("ambient_offset", 0, "monday"))
+    names = ["ambient_offset", *(own_label(o) for o in owners if o)]
+    assert names[1:] == ["ambient_offset of recording 1", "ambient_offset of recording day monday"]
+    parameters = [Parameter(n, "K", 0.0, 1.0, False, own=o) for n, o in zip(names, owners)]
+    assert [p.is_carried for p in parameters] == [True, False, True]
 
 
 def test_a_departure_is_that_of_both_parts_together():
     """1.7 deviations of each half of the variance are 2.4 of the whole: a room 1.2 K off that is doubted by 0.5 K."""
-    names = ["capacity", "ambient_offset", "ambient_offset of recording 1", "coil[1].start of recording 1"]
     half = 0.5 / np.sqrt(2.0)
-    found = departures(names, np.array([0.1, half, half, 3.0]), np.array([1.0, 0.6 / half, 0.6 / half, -2.0]))
+    room, start = Own("ambient_offset", 0), Own("coil[1].start", 0)
+    parameters = [
+        Parameter("capacity", "J/K", 1.0, 0.1),
+        Parameter("ambient_offset", "K", 0.0, half, False),
+        Parameter(own_label(room), "K", 0.0, half, False, own=room),
+        Parameter(own_label(start), "K", 0.0, 3.0, False, own=start),
+    ]
+    found = departures(parameters, np.array([1.0, 0.6 / half, 0.6 / half, -2.0]))
     assert found == {
         "capacity": (pytest.approx(0.1), pytest.approx(1.0)),
         "ambient_offset of recording 1": (pytest.approx(1.2), pytest.approx(2.4)),

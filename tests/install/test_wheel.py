@@ -64,7 +64,7 @@ def test_its_top_level_names_are_the_packages(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     top = {name.split("/")[0] for name in names}
-    packages = {"circuit", "cosim", "diagnosis", "mechanics", "proving"}
+    packages = {"chainmail", "circuit", "cosim", "diagnosis", "mechanics"}
     assert {name for name in top if not name.endswith(".dist-info")} == packages
     assert not [n for n in names if n.endswith((".fmu", "reference.csv")) or n.startswith("tests")]
     for folder in ("scenarios", "scenarios/parameter_sets"):

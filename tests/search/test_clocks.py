@@ -20,8 +20,8 @@ PERIOD = 0.2
 class WaveModel:
     """measured = sin(2 pi (t - delay) / PERIOD) + noise; the prior of the delay has a deviation of 0.1 s."""
 
-    def __init__(self, unit: str) -> None:
-        self.parameters = [Parameter("delay", unit, 0.0, 0.1, False)]
+    def __init__(self, is_clock: bool) -> None:
+        self.parameters = [Parameter("delay", "s", 0.0, 0.1, False, is_clock=is_clock)]
         self.layout = Layout(np.zeros(len(TIME)), TIME, ("wave",), ("measurement",))
         self.measured = np.sin(2.0 * np.pi * TIME / PERIOD) + 0.05 * np.random.default_rng(0).standard_normal(len(TIME))
 
@@ -37,9 +37,9 @@ class WaveModel:
         return np.asarray(np.cos(angle) * 0.2 * np.pi / PERIOD / 0.05)[:, None]
 
 
-@pytest.mark.parametrize(("unit", "delay"), [("s", 0.0), ("m", PERIOD)])
-def test_a_clock_that_is_off_by_a_period_is_set_right_and_what_is_no_clock_stays(unit: str, delay: float) -> None:
-    model = WaveModel(unit)
+@pytest.mark.parametrize(("is_clock", "delay"), [(True, 0.0), (False, PERIOD)])
+def test_a_clock_that_is_off_by_a_period_is_set_right_and_what_is_no_clock_stays(is_clock: bool, delay: float) -> None:
+    model = WaveModel(is_clock)
     wrong = fit(model, Point(np.array([2.1])), iterations=50)
     assert 0.1 * wrong.point.base[0] == pytest.approx(PERIOD, abs=2e-3)  # no step leads out of this minimum
     found = with_clocks_set(model, wrong)
@@ -49,6 +49,6 @@ def test_a_clock_that_is_off_by_a_period_is_set_right_and_what_is_no_clock_stays
 
 
 def test_a_clock_that_is_nearly_right_is_not_fitted_again() -> None:
-    model = WaveModel("s")
+    model = WaveModel(True)
     near = fit(model, Point(np.array([0.1])), iterations=50)
     assert with_clocks_set(model, near) is near

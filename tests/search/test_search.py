@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Layout, Parameter, Point
+from diagnosis.search.problem import Alike, Layout, Parameter, Point
 from diagnosis.search.score import Projection, score
 from diagnosis.search.search import Settings, recalibrate, search, spread
 from diagnosis.search.structure import structure
@@ -85,8 +85,11 @@ def test_structure_is_told_with_its_window():
 
 
 def test_priors_grow_where_coils_scatter_more_than_was_stated_and_not_by_one_string():
-    names = [f"coil[{s},{c}].conductance" for s in range(1, 7) for c in range(1, 7)]
-    parameters = [Parameter(n, "1", 1.0, 0.03) for n in names]
+    parameters = [
+        Parameter(f"coil[{s},{c}].conductance", "1", 1.0, 0.03, alike=Alike("conductance", f"string {s}"))
+        for s in range(1, 7)
+        for c in range(1, 7)
+    ]
     rng = np.random.default_rng(1)
     assert np.all(spread(parameters, rng.standard_normal(36)) < 1.4)
     # the median of 90 differences, which are not independent, is good to about 15 %

@@ -14,6 +14,7 @@ from cosim.ssp.importer import import_ssp
 from cosim.unit.errors import InputError
 from tests.cosim.short_runs import changed, drape, heating, prototype, shortened, without_fabric
 from tests.ssp.runs import round_trip
+from tests.systems.rigs import OSCILLATOR, TANK
 
 #: Shipped scenarios with what happens in them; of the others the first four outputs are compared.
 SHORT = {
@@ -152,3 +153,41 @@ def test_arrays_of_fmi_3_do_not_fit_into_ssp_1(tmp_path):
     with pytest.raises(InputError, match=r"SSP 1\.0.*`power` is an array of FMI 3\.0.*\n.*export as SSP 2\.0"):
         export_ssp(heating(), tmp_path / "a.ssp", "1.0")
     assert not (tmp_path / "a.ssp").exists()
+
+
+AMENDED = """
+title: A slide and a tank with terms
+time: {stop: 200 ms, macro_step: 5 ms, output_step: 10 ms, checkpoint_step: 100 ms}
+components:
+  drive: {kind: programme, outputs: {u: {unit: V, constant: 1 V}, flow: {unit: m^3/s, constant: 0.01 m^3/s}}}
+  slide:
+    kind: fmu
+    fmu: oscillator.fmu
+    integrator: cvode
+    added_terms:
+      - to: der(v)
+        formula: -branch * (x - slack) - limit * tanh(v / rounding)
+        parameters: {branch: 150 1/s^2, time_constant: 50 ms, limit: 2 m/s^2, rounding: 1 cm/s}
+        states: {slack: {rate: (x - slack) / time_constant, start: x, unit: m}}
+  tank:
+    kind: fmu
+    fmu: tank.fmu
+    added_terms:
+      - {to: outflow, formula: -share * outflow, parameters: {share: 0.2}}
+connections:
+  - drive.u -> slide.u
+  - drive.flow -> tank.inflow
+"""
+
+
+def test_terms_that_are_added_to_fmus_go_out_and_come_back(tmp_path):
+    for model in (OSCILLATOR, TANK):
+        model.build(tmp_path)
+    scenario = parse_scenario(AMENDED, tmp_path / "scenario.yaml")
+    again = round_trip(scenario, tmp_path, "2.0")
+    assert again.components["slide"].added_terms == scenario.components["slide"].added_terms
+    assert [t.to for t in again.components["tank"].added_terms] == ["outflow"]
+    notes = export_ssp(scenario, tmp_path / "again.ssp")
+    assert notes == tuple(
+        f"other tools run `{name}` without the terms that are added to it" for name in ("slide", "tank")
+    )

@@ -15,7 +15,7 @@ from cosim.scenario import load_scenario
 from tests.systems.rigs import oscillator, oscillator_recordings
 
 
-def _diagnosis(scenario: Path, recordings: list[Path], out: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+def diagnosis(scenario: Path, recordings: list[Path], out: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """Content of diagnosis.json; the last recording is held out."""
     given = [str(scenario)]
     for folder in recordings[:-1]:
@@ -33,7 +33,7 @@ def test_a_spring_that_hardens_is_found_named_and_put_into_a_scenario_that_runs(
 ) -> None:
     scenario = oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: -500.0 * x**3)
-    found = _diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
+    found = diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
     (one,) = found["findings"]
     assert (one["effect"], one["place"], one["is_named"]) == ("cubic_spring", "rig.v", True)
     (strength,) = one["parameters"]
@@ -50,7 +50,7 @@ def test_a_spring_that_hardens_is_found_named_and_put_into_a_scenario_that_runs(
 @pytest.mark.slow
 def test_nothing_is_found_where_numbers_are_off_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     scenario = oscillator(tmp_path)
-    found = _diagnosis(scenario, oscillator_recordings(tmp_path, lambda x, v: 0.0), tmp_path / "answer", monkeypatch)
+    found = diagnosis(scenario, oscillator_recordings(tmp_path, lambda x, v: 0.0), tmp_path / "answer", monkeypatch)
     assert found["findings"] == []
     assert found["verdict"] in ("recalibrated", "consistent")
 
@@ -60,7 +60,7 @@ def test_two_laws_that_hide_each_other_are_found_together(tmp_path: Path, monkey
     """Dry friction with a constant force."""
     scenario = oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: -4.0 * float(np.tanh(v / 0.02)) + 6.0)
-    found = _diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
+    found = diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
     names = {name for f in found["findings"] for name in (f["effect"], *f["ambiguous_with"])}
     assert "dry_friction" in names
     assert {"constant_force", "input_offset"} & names
@@ -70,5 +70,5 @@ def test_two_laws_that_hide_each_other_are_found_together(tmp_path: Path, monkey
 def test_an_fmu_that_hides_its_states_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     scenario = oscillator(tmp_path, "internal")
     recordings = oscillator_recordings(tmp_path, lambda x, v: -3.0 * v)
-    found = _diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
+    found = diagnosis(scenario, recordings, tmp_path / "answer", monkeypatch)
     assert any("hides its states" in text for text in found["searched"]["untried"])

@@ -145,6 +145,55 @@ connections:
     system.close()
 
 
+@pytest.mark.parametrize("kind", ["gauss_seidel", "jacobi"])
+def test_a_correction_state_at_an_output_reaches_the_fmu_behind_it_as_in_the_co_simulation(
+    folder: Path, kind: str
+) -> None:
+    """Terms at outputs see what the FMU itself gives, not what other terms add to it."""
+    text = f"""
+title: Two tanks
+time: {{stop: 60 s, macro_step: 500 ms, output_step: 1 s}}
+algorithm: {{kind: {kind}}}
+components:
+  pump: {{kind: programme, outputs: {{flow: {{unit: l/s, points: [[0 s, 8 l/s], [20 s, 2 l/s]]}}}}}}
+  upper: {{kind: fmu, fmu: tank.fmu, integrator: internal}}
+  lower: {{kind: fmu, fmu: tank.fmu, integrator: cvode, parameters: {{h_0: 20 cm}}}}
+connections:
+  - pump.flow -> upper.inflow
+  - upper.outflow -> lower.inflow
+"""
+    scenario = parse_scenario(text, folder / "scenario.yaml")
+    laws = [
+        Placed(
+            "upper",
+            "outflow",
+            "-extra",
+            (("gain", "m^2/s"), ("settling", "s")),
+            {},
+            (PlacedState("extra", "(gain * level - extra) / settling", "gain * level", "m^3/s"),),
+        ),
+        Placed("upper", "level", "bend * level * level", (("bend", "1/m"),)),
+    ]
+    values = [(0.004, 8.0), (0.1,)]
+    system = FastSystem(scenario, laws)
+    system.set_substeps(2)
+    before = _course(system, ("lower", "level"))
+    found = {n: _course(system, (n, "level"), laws=dict(enumerate(values))) for n in ("upper", "lower")}
+    assert np.max(np.abs(found["lower"] - before)) > 1e-3
+    upper = scenario.components["upper"].model_copy(
+        update={"added_terms": [law.entry(v) for law, v in zip(laws, values)]}
+    )
+    amended = scenario.model_copy(update={"components": {**scenario.components, "upper": upper}})
+    results = run(amended)
+    again = FastSystem(amended)
+    again.set_substeps(2)
+    for name, course in found.items():
+        np.testing.assert_allclose(course, results[f"{name}.level"].values, atol=INTEGRATED)
+        np.testing.assert_allclose(_course(again, (name, "level")), course, atol=1e-12)
+    system.close()
+    again.close()
+
+
 @pytest.mark.parametrize("version", [2, 3])
 def test_a_ball_bounces_at_the_same_instants(folder: Path, version: int) -> None:
     """State events: the first impact of a fall from 1 m is at sqrt(2 h / g)."""

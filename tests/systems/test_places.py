@@ -12,6 +12,7 @@ from diagnosis.laws.law import Role
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
+from evaluation.fmus.model import OdeModel
 from evaluation.real.__main__ import main as real
 from tests.systems.rigs import LUMP, OSCILLATOR, OSCILLATOR_SCENARIO, TANK
 
@@ -89,13 +90,20 @@ def test_a_temperature_radiates_against_the_room_in_kelvin(folder: Path) -> None
     assert ("second_mass", "der(T)") in found
 
 
-def test_an_fmu_that_hides_its_states_has_laws_at_its_inputs_alone(folder: Path) -> None:
+def test_an_fmu_that_hides_its_states_has_laws_at_its_inputs_and_outputs_alone(folder: Path) -> None:
     text = OSCILLATOR_SCENARIO.replace("INTEGRATOR", "internal")
     found = _fits(text, folder)
-    assert {to for _, to in found} == {"u"}
-    assert {"port_linear_of_speed", "port_of_sign_of_speed", "input_saturation"} <= {name for name, _ in found}
+    assert {to for _, to in found} == {"u", "position", "speed"}
+    at_input = {name for name, to in found if to == "u"}
+    assert {"input_saturation", "input_dead_time", "input_rate_limit", "input_play"} <= at_input
+    assert {"port_linear_of_speed", "port_of_sign_of_speed", "port_of_sign_of_rate_of_position"} <= at_input
+    assert "port_hidden_state_of_speed" in at_input
+    at_output = {name for name, to in found if to == "position"}
+    assert {"output_offset", "correction_state_linear_of_u", "correction_state_squared_of_position"} <= at_output
     system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
-    assert "hides its states" in places_of([system])[0].untried[0]
+    (said,) = places_of([system])[0].untried
+    assert "hides its states: laws were tried at its input `u` and at its outputs `position`, `speed` alone" in said
+    assert "with `integrator: cvode` they are tried at its states too" in said  # the FMU has both interfaces
     system.close()
 
 
@@ -135,3 +143,22 @@ def test_a_missing_recording_is_named_with_its_source(tmp_path: Path, capsys: py
     said = capsys.readouterr().err
     assert "slide.csv: there is no such file" in said
     assert "nonlinearbenchmark.org" in said
+
+
+def test_a_state_without_a_unit_is_no_level_and_no_angle(tmp_path: Path) -> None:
+    """A pure number and a radian have one dimension: a concentration has no opening to flow out of."""
+    OdeModel("reactor", {"k": (0.1, "")}, {"feed": ""}, {"a": ("", "0.5", "feed - k*a")}, {"A": ("", "a")}).build(
+        tmp_path
+    )
+    text = """
+title: A reactor
+time: {stop: 60 s, macro_step: 1 s, output_step: 1 s}
+components:
+  pump: {kind: programme, outputs: {feed: {unit: "1", points: [[0 s, 0.1], [20 s, 0]]}}}
+  reactor: {kind: fmu, fmu: reactor.fmu, integrator: cvode}
+connections: [pump.feed -> reactor.feed]
+"""
+    found = {name for name, to in _fits(text, tmp_path) if to == "der(a)"}
+    assert "constant" in found
+    assert "rate_linear" in found
+    assert not found & {"steady_inflow", "free_outflow", "leak", "viscous_damping", "dry_friction"}

@@ -9,7 +9,7 @@ import pytest
 
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.diagnosis import Standing
-from diagnosis.judge.judge import findings
+from diagnosis.judge.judge import _widened, findings
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_stretches
 from diagnosis.recording.recording import Recording
 from diagnosis.search.explanation import Settings
@@ -17,7 +17,7 @@ from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Explanation, Outcome, search
 from diagnosis.search.structure import Structure, structure
-from tests.search.line_model import BEND, TERMS, TIME, WAVE
+from tests.search.line_model import BEND, STEP, TERMS, TIME, WAVE
 from tests.verdict.lines import Lines, renamed
 
 QUICK = Settings(nulls=2)
@@ -204,3 +204,20 @@ def test_what_two_explanations_share_does_not_decide_between_them(tmp_path):
             _, found = judged(model, judge, tmp_path, outcome)
             assert found.headline.terms == (WAVE,)
             assert min(total for _, total in found.rivals) == found.rivals[0][1]
+
+
+def test_numbers_that_depend_on_a_law_that_is_not_identified_have_an_interval_that_holds_both(tmp_path):
+    """A jump takes a part of what a bend explains: how large the bend is depends on whether the jump is there."""
+    truth = 0.3 + 0.5 * TIME + 2.0 * TIME**2 + 0.8 * (TIME > 0.3)
+    model = Lines(truth, 1)
+    outcome, found = judged(model, Lines(truth, 2), tmp_path, forced(model, BEND, STEP))
+    assert set(found.explanation.terms) == set(found.without) == {BEND, STEP}
+    every = {f.effect: f for f in findings(model, outcome, found, ["training"])}
+    bend = every["bend"]
+    gain = replace(every["jump"], unit="measurement", standing=Standing.UNNAMED, is_named=False)
+    told = _widened(model, outcome, found, BEND, bend, [(BEND, bend), (STEP, gain)])
+    without = found.without[STEP].point.terms[BEND][0]
+    assert not bend.parameters[0].lower <= without <= bend.parameters[0].upper
+    assert told.parameters[0].lower <= without <= told.parameters[0].upper
+    assert told.doubts[-1].startswith("its numbers depend on")
+    assert _widened(model, outcome, found, BEND, bend, [(BEND, bend), (STEP, every["jump"])]) == bend  # of the rig

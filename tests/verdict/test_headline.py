@@ -53,9 +53,7 @@ def test_noise_alone_is_said_to_be_no_more_than_noise() -> None:
 
 def test_a_model_that_got_worse_says_so() -> None:
     worse = replace(ADEQUACY, explained=-0.5, chi_square={"before": 4.0, "recalibrated": 5.0, "after": 5.5}, day=())
-    assert how_right(worse, True).startswith(
-        "The amended model predicts the held-out recordings worse: chi-square per reading 4.00 -> 5.50; 1.2 K"
-    )
+    assert how_right(worse, True).startswith("The amended model predicts the held-out recordings worse; 1.2 K")
 
 
 def test_of_many_suggestions_the_first_are_named_and_the_others_counted() -> None:
@@ -68,18 +66,20 @@ def test_exchanged_channels_are_no_other_experiment() -> None:
     swapped = replace(DOUBT, kind="swapped", statement="`a` reads like `b`. Columns or sensors are exchanged")
     told = headline(Verdict.RECORDING_FAULT, [], None, doubts=[swapped, replace(swapped, recording="tuesday")])
     assert told == (
-        "Channels are exchanged: `a` reads like `b`. Columns or sensors are exchanged (1 more recording raises a doubt "
-        "of this kind)."
+        "Channels are exchanged: in steps, `a` reads like `b`. Columns or sensors are exchanged (1 more recording "
+        "raises a doubt of this kind)."
     )
     both = headline(Verdict.RECORDING_FAULT, [], None, doubts=[swapped, DOUBT])
-    assert both.startswith("The recording and the scenario are not of the same experiment: `a` reads like `b`.")
+    assert both.startswith(
+        "The recording and the scenario are not of the same experiment: in steps, `a` reads like `b`."
+    )
 
 
 def test_another_experiment_is_told_by_what_was_seen() -> None:
     told = headline(Verdict.RECORDING_FAULT, [], None, doubts=[DOUBT, replace(DOUBT, is_serious=False, statement="no")])
     assert told == (
-        "The recording and the scenario are not of the same experiment: The supply switches at 30 s, the readings at "
-        "50 s."
+        "The recording and the scenario are not of the same experiment: in steps, The supply switches at 30 s, the "
+        "readings at 50 s."
     )
 
 
@@ -88,7 +88,9 @@ def test_doubts_of_one_kind_are_told_once_and_their_recordings_counted() -> None
     other = replace(DOUBT, recording="tuesday", statement="The supply switches at 31 s, the readings at 50 s.")
     unit = replace(DOUBT, kind="unit", statement="These are mA.")
     told = headline(Verdict.RECORDING_FAULT, [], None, doubts=[DOUBT, other, replace(other, recording="friday"), unit])
-    assert told.endswith("the readings at 50 s (2 more recordings raise a doubt of this kind); These are mA.")
+    assert told.endswith(
+        "the readings at 50 s (2 more recordings raise a doubt of this kind); in steps, supply.voltage: These are mA."
+    )
 
 
 def test_what_the_error_of_fitted_parameters_explains_is_said_to_be_that() -> None:
@@ -97,11 +99,36 @@ def test_what_the_error_of_fitted_parameters_explains_is_said_to_be_that() -> No
     assert how_right(within, True).endswith(f"what is left is not more than {error}.")
     assert f"within {error} once" in headline(Verdict.RECALIBRATED, [], within)
     worse = replace(within, explained=-0.5, chi_square={"before": 4.0, "recalibrated": 5.0, "after": 5.5})
-    assert how_right(worse, False).endswith(
-        f"worse: chi-square per reading 4.00 -> 5.50; what is left is not more than {error}."
-    )
+    assert how_right(worse, False).endswith(f"worse; what is left is not more than {error}.")
 
 
 def test_of_a_model_as_it_is_no_number_was_fitted() -> None:
     told = headline(Verdict.CONSISTENT, [], replace(ADEQUACY, is_rejected=False, needs_parameter_error=True, day=()))
     assert "error of the fitted" not in told
+
+
+def test_noise_that_is_not_stated_may_last_longer_than_neighbours_show() -> None:
+    """A sensor that drifts to and fro has more noise than its neighbouring readings tell: nothing need be missing."""
+    unstated = replace(ADEQUACY, is_noise_stated=False)
+    told = headline(Verdict.CANNOT_TELL, [], unstated, ["the readings reject the model"])
+    assert told.startswith("It cannot be told whether something is missing")
+    assert "or noise lasts longer than neighbouring readings" in told
+    assert "lasts longer" not in headline(Verdict.CANNOT_TELL, [], ADEQUACY, ["the readings reject the model"])
+
+
+def test_a_fault_that_the_check_saw_is_told_once() -> None:
+    """A sensor that was seen to stand still is not called something else beside that."""
+    seen = replace(DOUBT, kind="sensor", subject="coil[1,2].temperature", statement="the sensor stood still", begin=3.0)
+    bent = replace(
+        LAG,
+        standing=Standing.UNNAMED,
+        is_named=False,
+        effect="sensor_stuck_in_interval",
+        channels=("coil[1,2].temperature",),
+        recording="steps",
+    )
+    told = headline(Verdict.MEASUREMENT_FAULT, [bent], ADEQUACY, doubts=[seen])
+    assert told.startswith("A sensor or an input is at fault: coil[1,2].temperature of steps: the sensor stood still.")
+    assert "What else improves" not in told
+    elsewhere = replace(bent, channels=("coil[1,1].temperature",))
+    assert "What else improves" in headline(Verdict.MEASUREMENT_FAULT, [elsewhere], ADEQUACY, doubts=[seen])

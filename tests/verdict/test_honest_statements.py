@@ -27,8 +27,8 @@ from diagnosis.judge.judge import (
 from diagnosis.models.build import DiagnosisModel
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
-from diagnosis.search.problem import Term, TermParameter
-from diagnosis.search.shares import of_title
+from diagnosis.search.problem import Own, Parameter, Term, TermParameter
+from diagnosis.search.shares import own_label, titled
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 from tests.search.line_model import BEND, TIME, WAVE
 from tests.verdict.lines import Lines
@@ -152,8 +152,11 @@ def test_a_far_start_is_the_reason_that_is_told() -> None:
 
 
 def test_numbers_of_a_day_carry_the_title_of_their_recording() -> None:
-    assert of_title("initial_temperature of recording 1", ["tuesday"]) == "initial_temperature of recording tuesday"
-    assert of_title("ambient_offset of recording day 1", ["tuesday"]) == "ambient_offset of recording day 1"
+    start, room = Own("initial_temperature", 0), Own("ambient_offset", 0, "1")
+    first, second = (Parameter(own_label(o), "K", 0.0, 1.0, False, own=o) for o in (start, room))
+    assert titled(first, ["tuesday"]) == "initial_temperature of recording tuesday"
+    assert titled(first, []) == "initial_temperature of recording 1"
+    assert titled(second, ["tuesday"]) == "ambient_offset of recording day 1"
 
 
 @pytest.mark.parametrize("spacing", [0.5, 4.0])

@@ -11,7 +11,8 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.adequacy import met, moved_day
 from diagnosis.judge.unfitted import HeldOutReadings
 from diagnosis.recording.recording import Recording
-from diagnosis.search.problem import Parameter, Point
+from diagnosis.search.problem import Own, Parameter, Point
+from diagnosis.search.shares import own_label
 from tests.search.line_model import TIME
 from tests.verdict.lines import NOISE, Lines
 
@@ -24,8 +25,9 @@ class Rooms(Lines):
 
     def __init__(self, truth: Array, seed: int = 0) -> None:
         super().__init__(truth, seed)
-        names = (("room", SHARED), ("slope", 1.0), ("room of recording 1", OWN))
-        self.parameters = [Parameter(n, "K", 0.0, d, False) for n, d in names]
+        alone = Own("room", 0)
+        names = (("room", SHARED, None), ("slope", 1.0, None), (own_label(alone), OWN, alone))
+        self.parameters = [Parameter(n, "K", 0.0, d, False, own=own) for n, d, own in names]
 
     def signal(self, point: Point) -> Array:
         shared, slope, own = point.base

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameter
 from diagnosis.models.coil_network.kernel.places import coil_label
 from diagnosis.models.coil_network.kernel.sensitivities import Direction
 from diagnosis.models.coil_network.priors import DailyPriors, Prior, matters
-from diagnosis.search.problem import MOST_FOLD, Parameter
+from diagnosis.search.problem import MOST_FOLD, Alike, Own, Parameter
 from diagnosis.search.shares import own_label
 
 #: Both branches of the stiffness moved along the temperature; no field of the network.
@@ -97,7 +97,8 @@ def free_parameters(
         if prior.shared:
             yield _free(name, name, np.ones(size), (value, prior.shared), prior)
         for i in range(size if prior.scatter and size > 1 else 0):
-            yield _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], (value, prior.scatter), prior)
+            one = _free(f"{coil_label(layout, i)}.{name}", name, np.eye(size)[i], (value, prior.scatter), prior)
+            yield replace(one, parameter=replace(one.parameter, alike=_alike(layout, i, name)))
     yield from _sensors(clocks)
     yield from _supply_gain(measured)
     yield from _daily(layout, daily)
@@ -108,41 +109,53 @@ def _daily(layout: CoilNetworkLayout, daily: DailyPriors) -> Iterator[Free]:
     every = np.ones(layout.coils)
     for name, deviation in daily.shared.items():
         yield Free(name, every, _offset(name, deviation))
-    days: dict[str, set[int]] = {}
+    days: dict[str, list[Own]] = {}
     for number, own in enumerate(daily.own):
-        days.setdefault(own_label("ambient_offset", number, own.day), set()).add(number)
-    for label, members in days.items():
+        room = Own("ambient_offset", number, own.day)
+        days.setdefault(own_label(room), []).append(room)
+    for label, rooms in days.items():
         # recordings of one day that doubt their room differently: the one that knows it best knows it for all
-        deviation = min(daily.own[n].ambient for n in members)
-        yield Free("ambient_offset", every, _offset(label, deviation), frozenset(members))
+        deviation = min(daily.own[r.recording].ambient for r in rooms)
+        offset = replace(_offset(label, deviation), own=rooms[0])
+        yield Free("ambient_offset", every, offset, frozenset(r.recording for r in rooms))
     for number, own in enumerate(daily.own):
         alone = frozenset((number,))
         if not own.are_all_stated:
-            label, others = own_label("initial_temperature", number), every.copy()
+            start, others = Own("initial_temperature", number), every.copy()
             others[list(own.starts)] = 0.0  # a coil whose start is stated is off by that alone
-            yield Free("initial_temperature", others, _offset(label, daily.start), alone)
+            yield Free("initial_temperature", others, _own_offset(start, daily.start), alone)
         for name, unit, stated in (
             ("initial_temperature", "K", own.starts),
             ("initial_loop_position", "1", own.positions),
         ):
             for i, deviation in stated.items():
-                label = own_label(f"{coil_label(layout, i)}.{name}", number)
-                yield Free(name, np.eye(layout.coils)[i], _offset(label, deviation, unit), alone)
+                offset = _own_offset(Own(f"{coil_label(layout, i)}.{name}", number), deviation, unit)
+                alike = _alike(layout, i, f"{name} of recording {number + 1}")
+                yield Free(name, np.eye(layout.coils)[i], replace(offset, alike=alike), alone)
 
 
 def _offset(label: str, deviation: float, unit: str = "K") -> Parameter:
     return Parameter(label, unit, 0.0, deviation, is_relative=False)
 
 
+def _own_offset(own: Own, deviation: float, unit: str = "K") -> Parameter:
+    return replace(_offset(own_label(own), deviation, unit), own=own)
+
+
+def _alike(layout: CoilNetworkLayout, element: int, kind: str) -> Alike:
+    """Coils of one string are compared; elements that are numbered alone (strings, coils without a circuit) are not."""
+    return Alike(kind, coil_label(layout, element).split(",")[0])
+
+
 def _sensors(clocks: Clocks) -> Iterator[Free]:
     """Clocks and lags within what the recordings state; beyond it they are faults, and candidates."""
     for quantity, late in clocks.late.items():
         deviation, label = LATE_SHARE * late, f"delay of every {quantity}"
-        clock = Parameter(label, "s", 0.0, deviation, is_relative=False, bounds=1.0 / LATE_SHARE)
+        clock = Parameter(label, "s", 0.0, deviation, is_relative=False, bounds=1.0 / LATE_SHARE, is_clock=True)
         yield Free("clock_offset", _over(quantity), clock)
     for quantity, slow in clocks.slow.items():
         most = -math.log(LAG_SHARE) / LAG_SPREAD  # as far below the typical lag as the bound is above it
-        lag = Parameter(f"lag of every {quantity}", "s", LAG_SHARE * slow, LAG_SPREAD, bounds=most)
+        lag = Parameter(f"lag of every {quantity}", "s", LAG_SHARE * slow, LAG_SPREAD, bounds=most, is_clock=True)
         yield Free("sensor_lag", _over(quantity), lag)
 
 

@@ -20,7 +20,8 @@ from diagnosis.models.systems.places import Fit
 from diagnosis.models.systems.run import is_system
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
-from diagnosis.search.cosim_model import ComponentTerm, CosimModel, free_parameters
+from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
+from diagnosis.search.free_numbers import Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
@@ -84,6 +85,8 @@ class ClosedLoopModel:
             channels = dict.fromkeys(name for r in recordings for name in r.channels)
             laws = [*pendulum_laws(component, without, arm_of(scenario, component)), *sensor_laws(component, channels)]
             kind = PendulumModel
+        numbers = Numbers(scenario)
+        laws = [law for law in laws if can_be_added(numbers, law.place)]
         self._laws = {law.place.term: law for law in laws if law.place.term.identifier not in without}
         free, self._torque_scale = free_parameters(scenario, recordings), 0.0
         if kind is PendulumModel:

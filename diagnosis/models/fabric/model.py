@@ -25,7 +25,8 @@ from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, div
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
-from diagnosis.search.cosim_model import Free, free_parameters
+from diagnosis.search.cosim_model import with_law
+from diagnosis.search.free_numbers import Free, Numbers, free_parameters
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
 
@@ -77,6 +78,7 @@ class FabricModel:
         self.network = _network(scenario, [p[0] for p in parts], catalogue, timeline)
         self.fabric_runs = self._simulations(scenario)
         self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
+        self._numbers = Numbers(scenario)
         self._laws = {u.place.term: u for u in fabric_laws(name) if u.place.term.identifier not in without}
         own_parameters = [f.parameter for f in self.free]
         self.parameters: Sequence[Parameter] = [*(self.network.parameters if self.network else ()), *own_parameters]
@@ -247,8 +249,7 @@ class FabricModel:
             if free.belongs_to(number) and z:
                 found[free.name] = PhysicalValue(free.parameter.value(float(z)), free.parameter.unit)
         for term, values in own.terms.items():
-            for name, parameter, value in zip(self._laws[term].place.names, term.parameters, values):
-                found[name] = PhysicalValue(value, parameter.unit)
+            found.update(with_law(self._numbers, self._laws[term].place, values, found))
         if start:
             found["start_number"] = PhysicalValue(float(start), "1")
             if not self._has_speed:

@@ -20,7 +20,7 @@ from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate,
 #: starts of the ensemble at the nominal point, from which scatter is known; starts of every effect; starts at the
 #: point found. An effort of 10,000 takes about a second of one core. It stands for the time, so that a result does
 #: not depend on the machine.
-EFFORTS = ((45e3, 8, 3, 6), (110e3, 6, 2, 5), (float("inf"), 6, 1, 4))
+EFFORTS: tuple[tuple[float, int, int, int], ...] = ((45e3, 8, 3, 6), (110e3, 6, 2, 5), (float("inf"), 6, 1, 4))
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 4, 40.0
 #: A strength this close to one that was simulated needs no other simulation.

@@ -80,7 +80,7 @@ class FastSystem:
     def _build(self, laws: Sequence[Placed]) -> None:
         system = self.assembly.system
         if system.loops or system.initial_loops:
-            raise NotFast("it has an algebraic loop")
+            raise NotFast("it has an algebraic loop, by the dependencies of outputs on inputs that its FMUs declare")
         self.fmus: dict[str, FastFmu] = {}
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):
@@ -118,6 +118,10 @@ class FastSystem:
             if name not in fmu.states:
                 raise NotFast(f"{law.component} has no state {name}")
             target = fmu.states[name]
+        elif law.to in fmu.outputs:
+            name, kind, target = law.to, Kind.OUTPUT, 0
+            if fmu.is_model_exchange or fmu.outputs[name].size != 1:
+                raise NotFast(f"a term at the output {name} of {law.component} is simulated by the co-simulation alone")
         else:
             name, kind = law.to, Kind.INPUT
             if name not in fmu.inputs or fmu.inputs[name].stop - fmu.inputs[name].start != 1:
@@ -132,6 +136,8 @@ class FastSystem:
             values=self._values[number].ctypes.data,
             amount=self._compiled.address(f"law_{number}_amount"),
         )
+        if kind is Kind.OUTPUT:
+            found.output = fmu.outputs[name].ctypes.data
         for i in range(len(law.states)):
             found.rates[i] = self._compiled.address(f"law_{number}_rate_{i}")
             found.starts[i] = self._compiled.address(f"law_{number}_start_{i}")

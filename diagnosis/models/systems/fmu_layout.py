@@ -104,6 +104,9 @@ class FastFmu:
         #: Name of what laws may use to its unit.
         self.units = {n: v.unit for n, v in known.items()}
         sources: dict[str, int] = {}
+        #: Outputs before laws have added to them, which is what laws see.
+        self.seen_outputs = np.zeros(max(len(self.outputs), 1))
+        self._own_outputs: list[CopyLayout] = []
         for name, variable in known.items():
             if variable.shape:
                 continue
@@ -112,7 +115,7 @@ class FastFmu:
             elif name in self.inputs:
                 sources[name] = self.outer.ctypes.data + 8 * self.inputs[name].start
             elif not self.is_model_exchange:
-                sources[name] = self.outputs[name].ctypes.data
+                sources[name] = self._own_output(name)
         self.environment = np.zeros(1 + len(sources))
         #: Name of what laws may use to what stands for it in C.
         self.symbols = {"time": "e[0]", **{n: f"e[{i + 1}]" for i, n in enumerate(sources)}}
@@ -128,9 +131,17 @@ class FastFmu:
         layout.readers, layout.reader_count = ctypes.addressof(self._reader_array), len(self.readers)
         layout.environment = self.environment.ctypes.data
         layout.known, layout.known_count = ctypes.addressof(self._known_array), len(copies)
+        self._own_output_array = (CopyLayout * max(len(self._own_outputs), 1))(*self._own_outputs)
+        layout.own_outputs, layout.own_output_count = ctypes.addressof(self._own_output_array), len(self._own_outputs)
         #: States of the FMU, those of laws, and room for the integration; its address stays.
         self.state = np.zeros(ROOM * (self.state_count + MOST_ADDED))
         self.set_added([])
+
+    def _own_output(self, name: str) -> int:
+        """Where laws see an output as the FMU has it."""
+        to = self.seen_outputs.ctypes.data + 8 * len(self._own_outputs)
+        self._own_outputs.append(CopyLayout(to, self.outputs[name].ctypes.data, 1.0, 0.0))
+        return int(to)
 
     def _take_functions(self) -> None:
         binding, layout = self.unit.binding, self.layout

@@ -25,6 +25,7 @@ class Kind(IntEnum):
 
     RATE = 0
     INPUT = 1
+    OUTPUT = 2
 
 
 class AccessLayout(ctypes.Structure):
@@ -63,6 +64,7 @@ class AddedLayout(ctypes.Structure):
         ("first", ctypes.c_int64),
         ("rates", ctypes.c_void_p * MOST_OWN),
         ("starts", ctypes.c_void_p * MOST_OWN),
+        ("output", ctypes.c_void_p),
     )
 
 
@@ -89,6 +91,8 @@ class UnitLayout(ctypes.Structure):
         ("added_count", ctypes.c_int64),
         ("next_event", ctypes.c_double),
         ("has_inputs_added", ctypes.c_int64),
+        ("own_outputs", ctypes.c_void_p),
+        ("own_output_count", ctypes.c_int64),
     )
 
 

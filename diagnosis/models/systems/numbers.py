@@ -11,9 +11,9 @@ from cosim.unit.protocol import Array, Causality
 from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu
+from diagnosis.recording.units import si_unit
 from diagnosis.search.cosim_model import Free
 from diagnosis.search.cosim_run import Changes
-from diagnosis.search.free_numbers import si_unit
 from diagnosis.search.problem import Parameter
 
 #: Standard deviation of ln(value) of a parameter of which nothing is stated: a careful data sheet.

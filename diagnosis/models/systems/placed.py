@@ -28,11 +28,11 @@ class PlacedState:
 
 @dataclass(frozen=True)
 class Placed:
-    """What is added to one derivative or input.
+    """What is added to one derivative, input or output.
 
     Args:
         component: Name of the FMU in the scenario.
-        to: `der(state)`, or an input.
+        to: `der(state)`, or an input or output.
         formula: In the FMU's variables, `time`, numbers, constants and own states.
         numbers: Names of the free numbers with their units.
         constants: Names to values with units of what is not fitted.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from cosim.unit.quantity import PhysicalValue, cycles_and_angles, parse_unit, registry
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem, Rows
@@ -123,12 +123,19 @@ def _copy(rows: Rows | None) -> Array | None:
 def _untried(fmu: FastFmu, own: Places) -> list[str]:
     """What offers no place, in words."""
     if not fmu.is_model_exchange:
-        what = "laws were tried at its inputs alone" if own.inputs else "it offers no place for a law"
-        return [f"`{own.component}` is used by Co-Simulation, which hides its states: {what}"]
+        places = [f"at its {_listed(kind, n)}" for kind, n in (("input", own.inputs), ("output", own.outputs)) if n]
+        what = f"laws were tried {' and '.join(places)} alone" if places else "it offers no place for a law"
+        is_both = fmu.unit.archive.description.modelExchange is not None
+        remedy = "; with `integrator: cvode` they are tried at its states too" if is_both else ""
+        return [f"`{own.component}` is used by Co-Simulation, which hides its states: {what}{remedy}"]
     if fmu.state_count and not fmu.states:
         return [f"`{own.component}` does not say which variables its states are: no law was tried at their derivatives"]
     lost = [n for n in fmu.states if n not in own.states]
     return [f"`{own.component}.{n}` has a unit or a name that no formula can use: no law was tried there" for n in lost]
+
+
+def _listed(kind: str, names: Collection[str]) -> str:
+    return f"{kind}{'s' if len(names) > 1 else ''} {', '.join(f'`{n}`' for n in names)}"
 
 
 def _quantities(
@@ -231,6 +238,12 @@ def _targets(own: Places, role: Role) -> Iterator[_Target]:
     elif role is Role.PORT:
         for name, q in own.inputs.items():
             yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
+    elif role is Role.OUTPUT:
+        yield from ((name, q, {"y": q}) for name, q in own.outputs.items())
+    elif role is Role.RESPONSE:
+        for name, q in own.outputs.items():
+            ports = (*own.inputs.values(), *own.outputs.values())
+            yield from ((name, q, {"y": q, "o": other}) for other in ports)
     elif role is Role.PAIR:
         for name, q in free.items():
             others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
@@ -270,7 +283,10 @@ def _single(
 
 
 def _is(quantity: Quantity, *units: str) -> bool:
-    return any(parse_unit(quantity.unit).dimensionality == parse_unit(u).dimensionality for u in units)
+    """Whether a quantity is of the kind of one of these units; a pure number is no angle, nor 1/s its rate."""
+    own = parse_unit(quantity.unit).dimensionality
+    is_angle = any(cycles_and_angles(quantity.unit))
+    return any(own == parse_unit(u).dimensionality and (is_angle or not any(cycles_and_angles(u))) for u in units)
 
 
 def _fit(

@@ -1,4 +1,4 @@
-/* Steps a system of FMUs over all its macro-steps, with laws that are added to derivatives and inputs.
+/* Steps a system of FMUs over all its macro-steps, with laws that are added to derivatives, inputs and outputs.
  *
  * The order of what happens in a macro-step is that of the co-simulation (cosim/system.py, cosim/algorithms); a Model
  * Exchange FMU is integrated by the classical Runge-Kutta method with a fixed number of steps in each macro-step
@@ -26,7 +26,7 @@ typedef int (*StepFmi3)(void *, double, double, bool, bool *, bool *, bool *, do
 
 enum { WARNING = 1, MOST_SWEEPS = 100, MOST_EVENTS = 1000, MOST_OWN = 2, BISECTIONS = 50 };
 enum { COPY, PUT, GET, STEP };
-enum { RATE, INPUT };
+enum { RATE, INPUT, OUTPUT };
 enum { DONE = 0, FAILED = 1 };
 
 typedef struct {
@@ -44,7 +44,7 @@ typedef struct {
 } Copy;
 
 typedef struct {
-    int64_t kind;   /* RATE or INPUT */
+    int64_t kind;   /* RATE, INPUT or OUTPUT */
     int64_t target; /* number of the state or of the input */
     double scale;   /* from SI base units to those of the target */
     Law amount;
@@ -52,6 +52,7 @@ typedef struct {
     int64_t own;          /* states of its own */
     int64_t first;        /* number of the first of them in the unit's vector */
     Law rates[MOST_OWN], starts[MOST_OWN];
+    double *output; /* the output, of the kind OUTPUT */
 } Added;
 
 typedef struct {
@@ -75,6 +76,8 @@ typedef struct {
     int64_t added_count;
     double next_event;
     int64_t has_inputs_added;
+    const Copy *own_outputs; /* outputs as the FMU has them, to where laws see them */
+    int64_t own_output_count;
 } Unit;
 
 typedef struct {
@@ -108,22 +111,50 @@ static int access(const Unit *u, const Access *a)
                       : ((AccessFmi2)a->call)(u->component, a->references, a->reference_count, a->values);
 }
 
-static int read_outputs(const Unit *u)
-{
-    for (int64_t i = 0; i < u->reader_count; ++i) {
-        if (access(u, u->readers + i) > WARNING) {
-            return FAILED;
-        }
-    }
-    return DONE;
-}
-
 static void look_around(const Unit *u, double time)
 {
     u->environment[0] = time;
     for (int64_t i = 0; i < u->known_count; ++i) {
         *u->known[i].to = u->known[i].factor * *u->known[i].from + u->known[i].offset;
     }
+}
+
+/* Outputs as the FMU has them; laws see these. */
+static int read_own_outputs(const Unit *u)
+{
+    for (int64_t i = 0; i < u->reader_count; ++i) {
+        if (access(u, u->readers + i) > WARNING) {
+            return FAILED;
+        }
+    }
+    for (int64_t i = 0; i < u->own_output_count; ++i) {
+        *u->own_outputs[i].to = *u->own_outputs[i].from;
+    }
+    return DONE;
+}
+
+/* What laws add to outputs that were just read. */
+static void add_to_outputs(const Unit *u, double time)
+{
+    if (!u->own_output_count) {
+        return;
+    }
+    look_around(u, time);
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        if (a->kind == OUTPUT) {
+            *a->output += a->scale * a->amount(u->environment, a->values, u->state + u->states + a->first);
+        }
+    }
+}
+
+static int read_outputs(const Unit *u, double time)
+{
+    if (read_own_outputs(u) != DONE) {
+        return FAILED;
+    }
+    add_to_outputs(u, time);
+    return DONE;
 }
 
 /* Hand the inputs to the FMU, with what laws add to them; the environment is that of `time`. */
@@ -452,10 +483,10 @@ static int carry_out(const System *s, const Operation *operations, int64_t count
         if (o->code == PUT) {
             status = put(u, now);
         } else if (o->code == GET) {
-            status = read_outputs(u);
+            status = read_outputs(u, now);
         } else {
             status = u->is_model_exchange ? integrate(u, begin, end) : do_step(u, begin, end, length);
-            status = status == DONE ? read_outputs(u) : status;
+            status = status == DONE ? read_outputs(u, end) : status;
         }
         if (status != DONE) {
             return FAILED;
@@ -472,11 +503,14 @@ static void record(const System *s, int64_t row)
     }
 }
 
-/* States of laws at the start. */
-static void begin_laws(Unit *u, double time)
+/* States of laws at the start, and outputs with what laws add to them there. */
+static int begin_laws(Unit *u, double time)
 {
     if (!u->added_count) {
-        return;
+        return DONE;
+    }
+    if (u->own_output_count && read_own_outputs(u) != DONE) {
+        return FAILED;
     }
     if (u->states) {
         memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
@@ -489,6 +523,8 @@ static void begin_laws(Unit *u, double time)
             own[k] = a->starts[k](u->environment, a->values, own);
         }
     }
+    add_to_outputs(u, time);
+    return DONE;
 }
 
 /* All macro-steps; the number of those that were completed. */
@@ -499,7 +535,9 @@ __attribute__((visibility("default"))) int64_t system_run(System *s)
         Unit *u = s->units + i;
         memcpy(u->inner, u->outer, (size_t)u->inputs * sizeof(double));
         memcpy(u->held, u->outer, (size_t)u->inputs * sizeof(double));
-        begin_laws(u, start);
+        if (begin_laws(u, start) != DONE) {
+            return 0;
+        }
     }
     if (carry_out(s, s->settle, s->settle_count, start, start, length, start) != DONE) {
         return 0;

@@ -1,0 +1,1 @@
+"""Blind draws of small fabrics: what the diagnosis says of truths that another engine made."""

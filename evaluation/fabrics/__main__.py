@@ -1,0 +1,72 @@
+"""`python -m evaluation.fabrics --cases N --seed S --out DIR`: draw small fabrics, diagnose each, score the answers.
+
+Every case is diagnosed by `cosim diagnose --brief` in a process that is given its recordings alone. What is done in the
+folder is kept; the same command goes on.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from evaluation.fabrics.score import page, score
+from evaluation.proving.fabric.case import KINDS, write_cases
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the command; returns its exit code."""
+    parser = argparse.ArgumentParser(prog="python -m evaluation.fabrics", description=__doc__)
+    parser.add_argument("--cases", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kind", default="", choices=["", *KINDS], help="this kind alone")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--limit", type=float, default=3600.0, help="longest time of one diagnosis [s]")
+    parser.add_argument("--so-far", action="store_true", help="score what is done")
+    given = parser.parse_args(arguments)
+    names = [f"fabric_{n + 1:03d}" for n in range(given.cases)]
+    if not given.so_far:
+        write_cases(given.out, given.cases, given.seed, given.kind)
+        for number, name in enumerate(names):
+            if not (given.out / "diagnoses" / name / "done.json").is_file():
+                _diagnose(given.out / "cases" / name, given.out / "diagnoses" / name, given.limit)
+                print(f"{number + 1} of {given.cases}", flush=True)
+    scores = [score(given.out, n) for n in names if (given.out / "diagnoses" / n / "done.json").is_file()]
+    text = page(scores, given.seed, given.cases)
+    given.out.mkdir(parents=True, exist_ok=True)
+    (given.out / "page.md").write_text(text, encoding="utf-8")
+    print(text)
+    return 0
+
+
+def _diagnose(case: Path, out: Path, limit: float) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    answer = (out / "answer").resolve()
+    command = [sys.executable, "-m", "cosim.cli", "diagnose", "scenario.yaml", "--brief", "--jobs", "1"]
+    command += ["--recording", "training_1", "--held-out", "held_out_1", "--out", str(answer)]
+    if (answer / "simulations").is_dir():
+        command.append("--resume")
+    begin = time.perf_counter()
+    with (out / "log.txt").open("w", encoding="utf-8") as log:
+        try:
+            code = subprocess.run(
+                command,
+                cwd=case,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                timeout=limit,
+                env={**os.environ, "PYTHONPATH": os.getcwd()},
+                check=False,
+            ).returncode
+        except subprocess.TimeoutExpired:
+            code = -1
+    told = {"code": code, "seconds": time.perf_counter() - begin}
+    (out / "done.json").write_text(json.dumps(told), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+"""Answers about small fabrics beside the truth: false claims first."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+#: Units of findings that are no physics.
+MEASURED = ("measurement", "input")
+
+
+def score(folder: Path, name: str) -> dict[str, Any]:
+    """One case: what was said, and what of it is false.
+
+    A claim is an accepted finding of physics with a name. It is false where nothing of that name acts, unless it says
+    itself that it cannot tell its effect from the true one. Of nothing, any accepted finding is false.
+
+    Args:
+        folder: Of the draw.
+        name: Of the case.
+    """
+    truth = json.loads((folder / "answers" / f"{name}.json").read_text(encoding="utf-8"))
+    out = folder / "diagnoses" / name
+    done = json.loads((out / "done.json").read_text(encoding="utf-8"))
+    found = {**truth, "seconds": done["seconds"], "failed": True}
+    file = out / "answer" / "diagnosis.json"
+    if done["code"] or not file.is_file():
+        return found
+    answer = json.loads(file.read_text(encoding="utf-8"))
+    physics = [f for f in answer["findings"] if f["is_accepted"] and f["unit"] not in MEASURED]
+    named = [f for f in physics if f["standing"] == "named"]
+    false = physics if truth["kind"] == "null" else [f for f in named if truth["effect"] not in _meant(f)]
+    chi = (answer["adequacy"] or {}).get("chi_square", {})
+    return found | {
+        "failed": False,
+        "verdict": answer["verdict"],
+        "said": [_said(f) for f in physics],
+        "false": [f["effect"] for f in false],
+        "is_named": any(f["effect"] == truth["effect"] for f in named),
+        "is_in_class": any(truth["effect"] in _meant(f) for f in physics),
+        "chi": [chi.get(k) for k in ("before", "recalibrated", "after")],
+    }
+
+
+def _meant(finding: Mapping[str, Any]) -> set[str]:
+    return {finding["effect"], *finding["ambiguous_with"]}
+
+
+def _said(finding: Mapping[str, Any]) -> str:
+    strength = ", ".join(f"{p['value']:.3g} {p['unit']}" for p in finding["parameters"])
+    others = f", or {', '.join(finding['ambiguous_with'])}" if finding["ambiguous_with"] else ""
+    return f"{finding['effect']} {strength} ({finding['standing']}{others})"
+
+
+def page(scores: Sequence[Mapping[str, Any]], seed: int, cases: int) -> str:
+    """Markdown: false claims, then every case."""
+    whole = [s for s in scores if not s["failed"]]
+    nulls = [s for s in whole if s["kind"] == "null"]
+    known = [s for s in whole if s["kind"] == "global"]
+    lines = [
+        f"{date.today().isoformat()}, seed {seed}: {len(scores)} of {cases} cases, {len(scores) - len(whole)} of them "
+        "without an answer.",
+        "",
+        "| | |",
+        "|---|---|",
+        f"| false claims | {sum(bool(s['false']) for s in whole)} of {len(whole)} |",
+        f"| of them where nothing acts | {sum(bool(s['false']) for s in nulls)} of {len(nulls)} |",
+        f"| effects of all links named | {sum(s['is_named'] for s in known)} of {len(known)} |",
+        f"| the same, within the class named | {sum(s['is_in_class'] for s in known)} of {len(known)} |",
+        "",
+        "| case | truth | verdict | said | false | held-out chi-square: before, recalibrated, after | wall time [s] |",
+        "|---" * 7 + "|",
+    ]
+    for s in scores:
+        truth = f"{s['effect']} {s['strength']:.3g}" if s["effect"] else "nothing"
+        if s["failed"]:
+            lines.append(f"| {s['case']} | {truth} | no answer | | | | {s['seconds']:.0f} |")
+            continue
+        chi = ", ".join("-" if c is None else f"{c:.2f}" for c in s["chi"])
+        said, false = "; ".join(s["said"]) or "-", ", ".join(s["false"]) or "-"
+        lines.append(f"| {s['case']} | {truth} | {s['verdict']} | {said} | {false} | {chi} | {s['seconds']:.0f} |")
+    return "\n".join(lines) + "\n"

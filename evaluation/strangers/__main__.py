@@ -1,0 +1,107 @@
+"""`python -m evaluation.strangers --set first --seed S --out DIR`: recordings of foreign rigs, diagnosed and scored.
+
+Every case is diagnosed by `cosim diagnose --brief` in a process that is given its recordings alone. What is done in the
+folder is kept; the same command goes on. Scored is what a table can hold: the verdict, and whether a law has a name
+that is not the truth's. Sentences are for a person to read; `log.txt` has them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import zlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from evaluation.strangers import first_set, second_set
+from evaluation.strangers.first_set import Rng
+from evaluation.strangers.truth import OPEN, Truth
+
+SETS = {"first": first_set.CASES, "second": second_set.CASES}
+#: Units of findings that are no physics.
+MEASURED = ("measurement", "input")
+
+
+def main() -> int:
+    """Returns the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m evaluation.strangers", description=__doc__)
+    parser.add_argument("--set", choices=sorted(SETS), default="first")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--only", nargs="*", default=[], help="names of cases")
+    parser.add_argument("--limit", type=float, default=1200.0, help="longest time of one diagnosis [s]")
+    given = parser.parse_args()
+    rows = []
+    for case in SETS[given.set]:
+        name = case.__name__
+        if given.only and name not in given.only:
+            continue
+        folder = (given.out / name).resolve()
+        if not (folder / "answer.json").is_file():
+            make(case, folder, given.seed)
+        if not (folder / "log.txt").is_file():
+            diagnose(folder, given.limit)
+        rows.append(score(folder))
+        print(" | ".join(rows[-1]), flush=True)
+    return 0
+
+
+def make(case: Callable[[Path, Rng], Truth], folder: Path, seed: int) -> None:
+    """Write a case into `task`, its truth into `answer.json`; cases are drawn independently of each other."""
+    truth = case(folder / "task", np.random.default_rng([seed, zlib.crc32(case.__name__.encode())]))
+    (folder / "answer.json").write_text(json.dumps(truth.__dict__, indent=1), encoding="utf-8")
+
+
+def diagnose(folder: Path, limit: float) -> None:
+    """Ask for a diagnosis; a logger's table with decimal commas is converted first, as a user would."""
+    truth, task = json.loads((folder / "answer.json").read_text(encoding="utf-8")), folder / "task"
+    for name in (*truth["training"], *truth["held_out"]):
+        table = task / name / "data.csv"
+        if ";" in table.read_text(encoding="utf-8")[:200]:
+            new = task / f"new_{name}"
+            _cosim(
+                task, ["recording", "new", f"{name}/data.csv", "--scenario", "scenario.yaml", "--out", str(new)], limit
+            )
+            table.write_text((new / "data.csv").read_text(encoding="utf-8"), encoding="utf-8")
+    asked = ["diagnose", "scenario.yaml", "--brief", "--out", "../diagnosis"]
+    for key, names in (("--recording", truth["training"]), ("--held-out", truth["held_out"])):
+        for name in names:
+            asked += [key, name]
+    (folder / "log.txt").write_text(_cosim(task, asked, limit), encoding="utf-8")
+
+
+def _cosim(folder: Path, command: list[str], limit: float) -> str:
+    own = {**os.environ, "PYTHONPATH": os.getcwd()}
+    try:
+        done = subprocess.run([sys.executable, "-m", "cosim.cli", *command], cwd=folder, env=own, capture_output=True,
+                              text=True, timeout=limit, check=False)  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return f"no answer within {limit:g} s\n"
+    return done.stdout + done.stderr
+
+
+def score(folder: Path) -> tuple[str, ...]:
+    """Case, what is concealed, verdict, named physics, whether both are true."""
+    truth = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
+    file = folder / "diagnosis" / "diagnosis.json"
+    if not file.is_file():
+        first = (folder / "log.txt").read_text(encoding="utf-8").strip().split("\n")[0]
+        return folder.name, truth["concealed"], first, "", "refused"
+    answer = json.loads(file.read_text(encoding="utf-8"))
+    named = [f["effect"] for f in answer["findings"] if _is_named(f)]
+    is_true = answer["verdict"] in (*truth["right"], *OPEN) and set(named) <= set(truth["names"])
+    return folder.name, truth["concealed"], answer["verdict"], ", ".join(named), "true" if is_true else "false"
+
+
+def _is_named(finding: Mapping[str, Any]) -> bool:
+    return bool(finding["is_accepted"] and finding["standing"] == "named" and finding["unit"] not in MEASURED)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

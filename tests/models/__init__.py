@@ -1,0 +1,1 @@
+"""Contract of all models of the diagnosis."""
