@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cosim.assemble import Assembly
 from cosim.components import CircuitComponent, FabricComponent, nanoseconds
-from cosim.observers.trace import recorded_channels
+from cosim.observers.channels import recorded_channels
 from cosim.unit.protocol import NANOSECONDS
 
 #: Seconds of a micro-step for a link: in Bullet by iteration, at least so much; in MuJoCo (benchmarks/results/engines).
