@@ -243,7 +243,8 @@ class Solver(Strict):
         default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
     )
     friction_anchors: bool = Field(
-        default=False, description="bullet: contacts that stick stay where they are, so that nothing at rest creeps."
+        default=False,
+        description="bullet: what sticks stays; without it a fabric at rest creeps (docs/engines.md).",
     )
     penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
 
