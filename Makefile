@@ -57,7 +57,7 @@ wheel: setup  ## the package, in build/wheel
 docs: $(VENV)/.installed-docs  ## the documents as a searchable site, in build/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
-nightly: setup fmus  ## a fabric of 276 links, heated row by row, to its end (hours), in runs/large_row_by_row
+nightly: setup fmus  ## a fabric of 276 links, heated row by row, to its end (an hour), in runs/large_row_by_row
 	$(BIN)/cosim run large_row_by_row $(if $(wildcard runs/large_row_by_row/scenario.yaml),--resume)
 
 test-slow: dev fmus  ## tests that take minutes each

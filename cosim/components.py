@@ -243,7 +243,8 @@ class Solver(Strict):
         default="force", description="force: springs rattle at their stops; motor: they do not (docs/mechanics.md)."
     )
     friction_anchors: bool = Field(
-        default=False, description="bullet: contacts that stick stay where they are, so that nothing at rest creeps."
+        default=False,
+        description="bullet: what sticks stays; without it a fabric at rest creeps (docs/engines.md).",
     )
     penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
 
@@ -418,6 +419,9 @@ class ControllerComponent(Strict):
     combine: Literal["mean", "max", "min"] = "mean"
     setpoint: AnyQuantity | list[AnyQuantity] = Field(description="Where nothing is connected to `setpoint`.")
     law: Annotated[OnOffLaw | PiLaw | HoldLaw | PythonLaw, Field(discriminator="kind")]
+    fmu: Literal["string_controller"] | None = Field(
+        default=None, description="string_controller: law and supervisor run in this FMU, one per string."
+    )
     supervisor: SupervisorSettings | None = None
     start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
 

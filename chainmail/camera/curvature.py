@@ -15,6 +15,8 @@ from cosim.unit.protocol import AnyArray, Array
 
 #: Pictures over which the place of the largest curvature is chosen.
 _WINDOW = 9
+#: A row is more curved than the one chosen by so many deviations: noise does not explain it.
+_CLEARLY = 4.0
 
 
 @dataclass(frozen=True)
@@ -86,5 +88,11 @@ def largest_curvature(centres: Array, covariance: Array) -> Curvature:
     place = np.argmax(np.abs(mean), axis=1)
     frames = np.arange(len(own))
     sign = np.sign(mean[frames, place])
+    # Where another row is more curved by more than noise, the fabric moves too fast for the pictures around to tell.
+    largest = np.argmax(np.where(known[:, None], np.abs(own), 0.0), axis=1)
+    ahead = np.abs(own[frames, largest]) - sign * own[frames, place]
+    is_fast = known & (ahead > _CLEARLY * np.hypot(deviation[frames, largest], deviation[frames, place]))
+    place = np.where(is_fast, largest, place)
+    sign = np.where(is_fast, np.sign(own[frames, largest]), sign)
     values = np.where(known, sign * own[frames, place], np.nan)
     return Curvature(values, np.where(known, deviation[frames, place], np.nan), np.where(known, place + 2, 0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -173,3 +174,30 @@ def doubt_parts(tracks: Tracks, radius: float) -> Tracks:
         covariance[is_less, marker] += (missing[is_less] * radius)[:, None, None] ** 2 * np.eye(2)
         state[is_less, marker] = PART
     return Tracks(tracks.times, tracks.places, covariance, tracks.share, state, tracks.margin)
+
+
+def doubt_motion(tracks: Tracks, exposure: float, radius: float) -> Tracks:
+    """Larger covariances, or gaps, where a marker moves or turns off its course while a picture is exposed.
+
+    A course with the acceleration a has its mean over an exposure T off its middle by a T^2 / 24. The outline of a
+    marker that moves by b meanwhile is smeared by b. Where the circle goes through what is seen of the outline, because
+    part of it is hidden or seems so, it may be that of the begin or of the end: off by up to half of b, by the faster
+    one of the steps before and after. Smeared by more than half a radius it is no circle any more, and a gap.
+
+    Args:
+        tracks: As followed.
+        exposure: Of a picture [s].
+        radius: Of a marker [m].
+    """
+    if exposure <= 0.0 or len(tracks.times) < 3:
+        return tracks
+    step = np.diff(tracks.places, axis=0) / np.diff(tracks.times)[:, None, None]
+    before, after = np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]])
+    is_faster = np.linalg.norm(np.nan_to_num(after), axis=2) > np.linalg.norm(np.nan_to_num(before), axis=2)
+    smear = np.where(is_faster[..., None], after, before) * exposure / 2.0
+    smear = np.where((tracks.state == PART)[..., None], smear, 0.0)
+    speed = np.gradient(tracks.places, tracks.times, axis=0)
+    bend = np.gradient(speed, tracks.times, axis=0) * exposure**2 / 24.0
+    added = sum(np.nan_to_num(d)[..., :, None] * np.nan_to_num(d)[..., None, :] for d in (bend, smear))
+    is_no_circle = np.linalg.norm(np.nan_to_num(smear), axis=2) > radius / 4.0
+    return replace(tracks, covariance=tracks.covariance + added).without(is_no_circle)

@@ -84,9 +84,17 @@ def smooth_lengths(tracks: Tracks) -> tuple[Array, Array]:
 
 
 def _medians(values: Array, reach: int) -> Array:
-    """Median of the values known within `reach` pictures before and after; not a number where there is none."""
-    padded = np.pad(values, ((reach, reach), (0, 0)), constant_values=np.nan)
-    return _typical(np.moveaxis(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=0), -1, 0))
+    """Median of the values known within `reach` pictures before and after; not a number where there is none.
+
+    Towards both ends of the video fewer pictures count, as many before as after, so that it still follows what only
+    falls or only rises; but never fewer than two pictures on one side.
+    """
+    count = len(values)
+    found = np.full(values.shape, np.nan)
+    for frame in range(count):
+        own = min(reach, max(2, min(frame, count - 1 - frame)))
+        found[frame] = _typical(values[max(0, frame - own) : frame + own + 1])
+    return found
 
 
 def _typical(values: Array) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 
 from chainmail.camera.curvature import Curvature, largest_curvature
 from chainmail.camera.detect import Detector, Spots, outline_error
-from chainmail.camera.follow import doubt_parts, fabric_assigner, follow, point_assigner, without_repeats
+from chainmail.camera.follow import doubt_motion, doubt_parts, fabric_assigner, follow, point_assigner, without_repeats
 from chainmail.camera.frames import Frames, frame_times
 from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
@@ -109,7 +109,7 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     steady = _steady(pictures, sight, radius)
     tracks, factor = with_errors(followed, steady)
     moving = without_repeats(tracks, is_repeated)
-    tracks = doubt_parts(moving, radius)
+    tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"), radius)
     notes = (
         *sight.notes,
         f"time: {said}",

@@ -39,7 +39,8 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
     title = "Maximum curvature" + (" (Figure 3 of the paper; words: its section 3)" if is_paper else "")
     named = label_of(runs[0]) if len(runs) == 1 else ""
     with figure(path, height=4.2, title=title, run=named) as (axes,):
-        colours, shown_labels = _colours(runs), []
+        colours = _colours(runs)
+        shown_labels: list[str] = []
         for run, colour in zip(runs, colours, strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0

@@ -17,8 +17,9 @@ from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.clock_shift import asked, order, thinned
 from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener
+from diagnosis.check.explain import explained, explains
 from diagnosis.check.quantiles import poisson_log
-from diagnosis.check.timing import critical, driver, listed, resolution
+from diagnosis.check.timing import critical, driver, listed, percent, resolution
 from diagnosis.judge.diagnosis import Doubt
 
 #: Most edges of a channel; a programme with more switches is not asked for its instants.
@@ -86,9 +87,23 @@ def edge_doubts(compared: Compared) -> list[Doubt]:
         f"was run, against this one with contacts, draughts and other events"
     )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
+    share = float(np.median([explained(b, b).share for b in asked(compared)]))
+    is_followed = explains(0.0, share)
+    if not is_followed:  # behind any lags, of any size: what a rig does of itself comes beside its programme
+        text += f"; the programme explains {percent(share)} of these readings"
     z = float(np.sqrt(2.0 * np.log(found.odds)))
     over = compared.begin, compared.end, z
-    return [Doubt(compared.recording.title, driver(compared), "programme", text, remedy, found.odds >= SERIOUS, *over)]
+    return [
+        Doubt(
+            compared.recording.title,
+            driver(compared),
+            "programme",
+            text,
+            remedy,
+            found.odds >= SERIOUS or not is_followed,
+            *over,
+        )
+    ]
 
 
 def edges(compared: Compared) -> Edges | None:

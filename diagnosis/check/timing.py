@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.components import nanoseconds
 from cosim.unit.protocol import Array
-from diagnosis.check.beside import Beside, Compared, direct
+from diagnosis.check.beside import DISCREPANCY, Beside, Compared, direct
 from diagnosis.check.explain import LEVEL, Fit, design, explained, explains, fit, gain
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
@@ -21,6 +21,8 @@ from diagnosis.recording.series import sample
 MOST_CHANNELS = 6
 #: Shifts each way and factors on time each way that are tried.
 SHIFTS, FACTORS = 24, 16
+#: Shifts between the neighbours of the best one that are tried.
+FINER = 9
 #: Greatest factor on time that is called a drifting clock; beyond it the unit of time is asked for.
 FASTEST = 0.3
 #: Bends of a sensor's characteristic that are tried, at quantiles of what it should read.
@@ -209,19 +211,23 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     sizes = np.geomspace(1.5 * bound, 0.5 * span, SHIFTS)
     slowest = max(b.channel.lag_bound for b in leads)
     price = 2.0 * np.log(2.0 * SHIFTS)
-    best: tuple[float, float, list[Fit]] | None = None
-    for shift in (*-sizes[::-1], *sizes[sizes > slowest + bound]):
+
+    def moved(shift: float) -> tuple[float, float, list[Fit]]:
         fits = [explained(b, b, b.times - shift) for b in leads]
-        found = together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price
-        if best is None or found > best[0]:
-            best = found, float(shift), fits
-    assert best is not None
+        return together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price, shift, fits
+
+    tried = [moved(float(s)) for s in (*-sizes[::-1], *sizes[sizes > slowest + bound])]
+    best = max(tried, key=lambda one: one[0])
+    if best[0] > critical(4.0):  # it will be told: more exactly than on the grid
+        near = best[1] * (sizes[1] / sizes[0]) ** np.linspace(-1.0, 1.0, FINER)
+        best = max([best, *map(moved, near.tolist())], key=lambda one: one[0])
     gained, shift, fits = best
     if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
         return []
     ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
     way = "later" if shift > 0 else "earlier"
-    if abs(shift) < np.min(np.diff(ends)):
+    # moved beyond its shortest part a programme may be another one, but not where it explains what a model explains
+    if abs(shift) < np.min(np.diff(ends)) or _shares(fits) > 1.0 - DISCREPANCY**2:
         stated = max(b.channel.offset_bound for b in leads)
         text = (
             f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s "

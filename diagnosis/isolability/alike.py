@@ -131,7 +131,7 @@ def _effect(
     left = max(float(gram[best, best]), 0.0)
     visibility = float(np.sqrt(left / sizes[best])) if sizes[best] > 0.0 else 0.0
     shares = absorbing[best] * across[best]
-    strongest = int(np.argmax(shares)) if sizes[best] > 0.0 else -1
+    strongest = int(np.argmax(shares)) if sizes[best] > 0.0 and len(shares) else -1  # no number may be free
     strength = _middle(term)
     return Effect(term, strength, strength**2 * left, visibility, names[strongest] if strongest >= 0 else "")
 

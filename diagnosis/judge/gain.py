@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit.protocol import Array
+from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.search.posterior import HUBER
 
@@ -24,6 +24,10 @@ LEAST = 6.0
 ERRORS = 2.0
 #: Stretches of time from which the scatter of a gain between them is known.
 FEWEST = 8
+#: Scatter by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
+ALONE = 5.0
+#: Median size of the difference of two independent normal numbers.
+MEDIAN = 0.954
 #: Rise of a channel's root mean square from which it counts as worse: less is no matter for a user.
 WORSE = 1.05
 
@@ -87,21 +91,44 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
 
     With residuals r0, r1 that differ by delta, the sum of loss(r0) - loss(r1) is about sum(delta^2) + 2 sum(delta r1).
     If the second model is right, the last sum has expectation 0, and its variance is taken from sums over blocks.
+    What the second model misses by single readings is evidence for neither: one that was taken while an input switched
+    is missed by more or less according to the size of the switch, which any law of that input changes.
 
     Args:
         without: What the first leaves.
         with_it: What the second leaves.
         readings: What the residuals belong to.
     """
-    found = _summed(without.residuals, with_it.residuals, readings.block)
+    kept = ~stands_alone(with_it.residuals, readings)
+    first, second = np.where(kept, without.residuals, 0.0), np.where(kept, with_it.residuals, 0.0)
+    found = _summed(first, second, readings.block)
     total = found[0] + without.prior - with_it.prior
     delta = (without.residuals - with_it.residuals) ** 2
     count = np.maximum(np.bincount(readings.channel, minlength=len(readings.channels)), 1)
     shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
-    reverse = _summed(with_it.residuals, without.residuals, readings.block)
-    scatter = _scatter(loss(without.residuals) - loss(with_it.residuals), readings)
+    reverse = _summed(second, first, readings.block)
+    scatter = _scatter(loss(first) - loss(second), readings)
     worse = worse_channels(without.residuals, with_it.residuals, readings)
     return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse)
+
+
+def stands_alone(residuals: Array, readings: Readings) -> AnyArray:
+    """Residuals that stand out from both neighbours of their channel to one side, shape (readings,).
+
+    By `ALONE` of the scatter between neighbours, the median of which a few such readings do not move, or of the noise.
+    """
+    found = np.zeros(len(residuals), dtype=bool)
+    for n in range(len(readings.channels)):
+        places = np.flatnonzero(readings.channel == n)
+        own = residuals[places]
+        if len(own) < 3:
+            continue
+        steps = np.diff(own)
+        scatter = max(1.0, float(np.median(np.abs(steps))) / MEDIAN)
+        before, after = steps[:-1], -steps[1:]
+        is_out = (np.minimum(np.abs(before), np.abs(after)) > ALONE * scatter) & (before * after > 0.0)
+        found[places[1:-1]] = is_out
+    return found
 
 
 def is_better(first: Predicted, second: Predicted, readings: Readings) -> bool:

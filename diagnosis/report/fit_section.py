@@ -37,6 +37,11 @@ def fit_section(
         "over a window of time. A row of several channels gives the root mean square of their RMSE, the mean of their "
         "chi-square and the largest whiteness."
     )
+    if all(len({f.chi_square.get(s) for s in STAGES}) == 1 for f in fits):
+        note = (
+            "Nothing was fitted: all figures are of the model as the scenario has it. "
+            + note.partition("findings. ")[2]
+        )
     judged = any(f.is_held_out for f in fits)
     warning = "" if judged else element("p", "No recording was held out: a fit that judges itself proves little.")
     return element(

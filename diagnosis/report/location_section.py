@@ -24,7 +24,7 @@ def location_section(locations: Sequence[Location], units: Units = IN_SI) -> Htm
     more = len(locations) - _LINES
     if any(one.is_whole for one in locations):
         title, driven = (
-            "Where it departs",
+            "Where most is left" if all(one.is_noise for one in locations) else "Where it departs",
             "No unit could be driven alone: these are residuals of the whole simulation.",
         )
     else:
@@ -33,7 +33,7 @@ def location_section(locations: Sequence[Location], units: Units = IN_SI) -> Htm
     rest = element("p", f"And {more} more in diagnosis.json.", class_="note") if more > 0 else ""
     note = (
         f"{driven} z is the largest standardised sum of residuals; noise alone stays below the limit in 99 of 100 "
-        "recordings."
+        "recordings." + (" None exceeds it." if all(one.is_noise for one in locations) else "")
     )
     return element("section", element("h2", title), table(head, rows), rest, element("p", note, class_="note"))
 

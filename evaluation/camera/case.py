@@ -45,9 +45,9 @@ EFFECTS: dict[str, tuple[str, str, float, float, bool]] = {
 KINDS = (*EFFECTS, "nothing")
 #: The picture holds the whole fabric; 29 frames.
 CAMERA = {
-    "width": 640,
-    "height": 480,
-    "scale": "0.25 mm",
+    "width": 480,
+    "height": 360,
+    "scale": "0.33 mm",
     "centre": ["52 mm", "-2 mm"],
     "rate": "100 Hz",
     "exposure": "4 ms",

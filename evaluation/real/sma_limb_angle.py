@@ -25,6 +25,8 @@ _COILS = {
     "c2": ("test_c2_only.csv", "pwm_duty_limb0_fwd", "MCPtemp_1", -1.0),
 }
 _TAGS = range(101, 110)
+#: The tags of c1 stand still from 206.9 s on, to the last digit, while the limb moves: the tracker had stopped [s].
+_TRACKED = 206.8
 _CLOCK = "Timestamp (millisec since midnight today)"
 MODEL = OdeModel(
     "limb",
@@ -104,7 +106,10 @@ def sma_limb_angle(raw: Path, out: Path) -> DataSet:
         keep = np.concatenate([[True], np.diff(columns["time"]) > 0])
         columns = {name: values[keep] for name, values in columns.items()}
         cold = float(np.mean(columns["temperature"][columns["duty"].cumsum() == 0]))
-        for pulse, window in (("first", {"end": f"{BETWEEN:g} s"}), ("second", {"begin": f"{BETWEEN:g} s"})):
+        for pulse, window in (
+            ("first", {"end": f"{BETWEEN:g} s"}),
+            ("second", {"begin": f"{BETWEEN:g} s", "end": f"{_TRACKED:g} s"}),
+        ):
             title = f"soft limb bent by SMA coil {coil}, {pulse} pulse"
             parts.append(Part(f"{coil}_{pulse}", title, columns, _sidecar(cold, window)))
     folder = out / "sma_limb_angle"

@@ -383,6 +383,7 @@ REACTOR = OdeModel(
     {"feed": ""},
     {"a": ("", "0.4", "dilution*(feed - a) - k*a"), "b": ("", "0.1", "yield_*k*a - dilution*b")},
     {"A": ("", "a"), "B": ("", "b")},
+    1.0,
 )
 
 
@@ -459,6 +460,7 @@ WALL = OdeModel(
     {"heat": "W", "coolant": "K"},
     {"T": ("K", "300.0", "(heat - UB*(T - coolant))/C")},
     {"wall": ("K", "T")},
+    0.05,
 )
 
 

@@ -21,6 +21,7 @@ CELL = OdeModel(
     {"load": "A"},
     {"s": ("", "0.9", "-load/Q"), "v": ("V", "0.0", "(R1*load - v)/tau")},
     {"y": ("V", "3.4 + slope*s - v - R0*load")},
+    2.0,
 )
 
 
@@ -215,6 +216,7 @@ RADIATOR = OdeModel(
         "T_z": ("K", "291.15", "(U*(T_r - T_z) - V*(T_z - 278.15))/C_z"),
     },
     {"surface": ("K", "T_r"), "room": ("K", "T_z")},
+    5.0,
 )
 
 

@@ -98,6 +98,14 @@ def test_largest_curvature_of_a_nearly_flat_fabric_has_no_bias():
     assert abs(np.mean(found.values) - 0.5) < 0.35 * deviation
 
 
+def test_largest_curvature_of_a_fabric_that_snaps_is_that_of_the_picture_and_never_negative():
+    """The mean over nine pictures still bends to the other side."""
+    bent = np.array([2.0] * 10 + [-2.0, -6.0, -9.0] + [-9.0] * 10)
+    centres = np.array([(markers(c)[0::2] + markers(c)[1::2]) / 2.0 for c in bent])
+    found = largest_curvature(centres, np.broadcast_to(1e-10 * np.eye(2), (len(bent), 6, 2, 2)))
+    assert found.values == pytest.approx(np.max(np.abs(curvatures(centres)), axis=1), rel=1e-12)
+
+
 def test_a_row_that_is_not_known_is_a_gap():
     centres = np.broadcast_to((markers(5.0)[0::2] + markers(5.0)[1::2]) / 2.0, (20, 6, 2)).copy()
     centres[7, 2] = np.nan

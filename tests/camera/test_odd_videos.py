@@ -7,13 +7,14 @@ import pytest
 import yaml
 
 from chainmail.camera.camera_file import CameraFile
+from chainmail.camera.follow import doubt_motion
 from chainmail.camera.frames import Frames
 from chainmail.camera.links import fit_links
 from chainmail.camera.measure import measure
 from chainmail.camera.opencv import opencv
 from chainmail.camera.rendered import motion_of_table, write_video
 from chainmail.camera.rig import load_rig
-from chainmail.camera.tracks import GAP, SEEN, Tracks
+from chainmail.camera.tracks import GAP, PART, SEEN, Tracks
 from cosim.unit.errors import InputError
 from tests.camera.fabrics import markers, swaying
 from tests.camera.test_track import SMALL
@@ -196,3 +197,18 @@ def test_a_link_that_contracts_within_a_few_pictures_is_neither_a_gap_nor_bent_t
         assert gaps.sum() <= (8 + 16 if is_wrong else 0)
         assert not np.delete(gaps, [4, 5], axis=1).any()
         assert np.nanmax(np.abs(found.places - true)) < 5.0 * noise  # 1440 readings
+
+
+def test_a_marker_that_turns_off_its_course_within_an_exposure_is_known_less_well():
+    """x = a t^2 / 2 has its mean over T a T^2 / 24 off its middle; a smeared outline is off by up to v T / 2."""
+    times, rate, exposure = 0.01 * np.arange(9), 40.0, 5e-3
+    places = np.zeros((9, 2, 2))
+    places[..., 1] = (rate * times**2 / 2.0)[:, None]
+    state = np.full((9, 2), SEEN)
+    state[:, 1] = PART
+    tracks = Tracks(times, places, np.zeros((9, 2, 2, 2)), np.ones((9, 2)), state, np.zeros(9))
+    bend, smear = rate * exposure**2 / 24.0, rate * (times[4] + times[5]) / 2.0 * exposure / 2.0
+    found = doubt_motion(tracks, exposure, 4.1 * smear).deviation
+    assert found[4] == pytest.approx(np.array([[0.0, bend], [0.0, np.hypot(bend, smear)]]), abs=1e-12)
+    assert (doubt_motion(tracks, exposure, 3.9 * smear).state[4] == [SEEN, GAP]).all()
+    assert (doubt_motion(tracks, 0.0, 1.0).deviation == 0.0).all()

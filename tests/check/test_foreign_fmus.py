@@ -13,6 +13,8 @@ from cosim.cli import app
 from cosim.loading import load_scenario
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
+from diagnosis.check.clock_shift import shift_doubts
+from diagnosis.check.edges import Edges, edge_doubts
 from diagnosis.check.input_doubts import how
 from diagnosis.check.inputs import compare_inputs
 from diagnosis.check.tables import row
@@ -52,12 +54,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return found
 
 
-def voltages(turned: float = 1.0, start: float = 0.0) -> np.ndarray:
+#: Instants and levels of the scenario's programme [s, V].
+LEVELS = ((0.0, 1.0), (20.0, -1.0), (40.0, 2.0))
+
+
+def voltages(turned: float = 1.0, start: float = 0.0, levels: tuple[tuple[float, float], ...] = LEVELS) -> np.ndarray:
     """The closed form, with noise of 10 mV [mV]."""
     value, found = start, []
     for t in TIMES:
         found.append(value)
-        u = 1.0 if t < 20.0 else -1.0 if t < 40.0 else 2.0
+        u = next(level for begin, level in reversed(levels) if t >= begin - 1e-9)
         value = u + (value - u) * np.exp(-0.5 / 2.0)
     return turned * 1e3 * np.array(found) + 10.0 * np.random.default_rng(1).standard_normal(len(TIMES))
 
@@ -156,3 +162,30 @@ def test_a_voltage_that_begins_elsewhere_and_is_met_later_has_another_start(fold
     assert "mV on average, where " in found.statement
     offset = write(folder, "offset", values=voltages() + 1500.0)
     assert not [d for d in doubts(folder, offset) if d.kind == "start"]
+
+
+def test_a_clock_that_is_off_by_more_than_a_short_pulse_is_no_other_programme(folder: Path) -> None:
+    """Moved by 3 s the programme explains all, though one of its parts lasts for 1 s only."""
+    levels = ((0.0, 1.0), (12.0, -1.0), (24.0, 2.0), (25.0, -2.0), (37.0, 1.5), (48.0, 0.0))
+    points = [[f"{t} s", f"{v} V"] for t, v in levels]
+    overrides = {"components": {"source": {"outputs": {"u": {"points": points}}}}}
+    out = write(folder, "early", values=voltages(levels=levels), overrides=overrides, time={"column": "t", "zero": 3.0})
+    (found,) = [d for d in doubts(folder, out) if d.is_serious]
+    assert found.kind == "dead time"
+    assert found.statement.startswith("the response comes 3")
+
+
+def test_odds_against_a_programme_that_explains_nothing_are_serious(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Odds of 200 to 1 alone are a note; a lag or shift that explains nothing either is none at all."""
+    levels = ((0.0, -1.0), (9.0, 1.5), (14.0, -2.0), (29.0, 2.0), (33.0, -1.5), (52.0, 1.0))
+    scenario = load_scenario(folder / "scenario.yaml")
+    other = compare(scenario, load_recording(write(folder, "other", values=voltages(levels=levels))))
+    own = compare(scenario, load_recording(write(folder, "own")))
+    odds = Edges((), (20.0, 40.0), (9.0, 14.0, 29.0), 200.0)
+    monkeypatch.setattr("diagnosis.check.edges.edges", lambda compared: odds)
+    (serious,), (note,) = edge_doubts(other), edge_doubts(own)
+    assert (serious.is_serious, note.is_serious) == (True, False)
+    assert "the programme explains" in serious.statement
+    assert shift_doubts(other) == []

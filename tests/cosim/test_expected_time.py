@@ -13,7 +13,7 @@ def test_the_time_goes_with_free_links_micro_steps_and_starts():
     small = expected_time(load_scenario("passive_drape"))
     # 8 x 2 links less two rows held; 5 rows of 4 columns less two rows held.
     wide = expected_time(load_scenario("passive_drape", ["fabric.rows=5", "fabric.columns=4"]))
-    assert wide / small == pytest.approx(3 * 7 / (6 * 3))
+    assert wide / small == pytest.approx((3 * 7 / (6 * 3)) ** 1.2)
     assert expected_time(load_scenario("passive_drape"), 12) == pytest.approx(12 * small)
     fine = expected_time(load_scenario("passive_drape", ["fabric.solver.micro_step=0.25 ms"]))
     assert fine == pytest.approx(2 * small)
@@ -30,7 +30,7 @@ def test_only_what_takes_minutes_is_announced_with_what_would_be_faster():
     assert "--set fabric.engine=mujoco" in said
     large = announcement(load_scenario("large_row_by_row"))
     assert large.startswith("276 links: about ")
-    assert "engine=mujoco" not in large
+    assert "engine=mujoco" not in large  # there it is no faster
 
 
 def test_a_large_run_is_announced_before_it_begins(tmp_path, monkeypatch, capsys):

@@ -14,7 +14,7 @@ from mechanics.solver import SolverSettings
 from mechanics.unit import FabricUnit
 
 COLD, HOT, REST = 157.1, 356.0, 0.0094
-#: The shipped defaults.
+#: The shipped defaults, without friction anchors: links as Bullet itself has them.
 SOLVER = SolverSettings(micro_step=5e-4, iterations=200, penetration_limit=1e-3)
 STEP = 10_000_000
 

@@ -10,7 +10,7 @@ import numpy as np
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
-from diagnosis.search.problem import Point, Term
+from diagnosis.search.problem import Own, Point, Term
 from tests.search.line_model import TERMS, TIME, LineModel
 
 #: Noise of the line's readings.
@@ -90,5 +90,5 @@ class Lines(LineModel):
 
 def renamed(model: Lines, name: str) -> Lines:
     """The same whose offset belongs to its day alone."""
-    model.parameters[0] = replace(model.parameters[0], name=name)
+    model.parameters[0] = replace(model.parameters[0], name=name, own=Own(model.parameters[0].name, 0))
     return model

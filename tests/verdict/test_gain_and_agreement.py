@@ -10,7 +10,7 @@ from scipy.special import chdtr
 
 from cosim.unit.protocol import Array
 from diagnosis.judge.agreement import LEVEL, agreement
-from diagnosis.judge.gain import ERRORS, LEAST, gain
+from diagnosis.judge.gain import ERRORS, LEAST, gain, loss, stands_alone
 from diagnosis.judge.unfitted import Predicted, Readings, readings_of, wild_readings
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
@@ -133,3 +133,24 @@ def test_readings_are_those_that_a_model_uses():
     made = readings_of(Lines(np.zeros(400)).runs, ["line"])
     assert len(made) == 400
     assert len(set(made.block.tolist())) == 10
+
+
+def predicted(residuals: Array) -> Predicted:
+    return Predicted(residuals, residuals)
+
+
+def test_readings_that_were_taken_while_an_input_switched_are_evidence_for_no_law():
+    """Ten single readings missed by 40 deviations, by a tenth less with the law: nothing is gained by it."""
+    own, noise, jumps = readings(), np.random.default_rng(5).standard_normal(COUNT), np.zeros(COUNT)
+    jumps[20::40] = 40.0
+    without, with_it = (predicted(noise + f * jumps) for f in (1.0, 0.9))
+    assert np.array_equal(np.flatnonzero(stands_alone(with_it.residuals, own)), np.arange(20, 400, 40))
+    found = gain(without, with_it, own)
+    assert found.total == pytest.approx(0.0, abs=1e-9)
+    assert not found.is_gain
+    lasting = predicted(
+        noise + 2.0 * np.sin(np.linspace(0.0, 25.0, COUNT))
+    )  # what lasts for several readings counts whole
+    assert gain(lasting, predicted(noise), own).total == pytest.approx(
+        float(np.sum(loss(lasting.residuals) - loss(noise)))
+    )
