@@ -40,6 +40,7 @@ from cosim.components import (
     nanoseconds,
 )
 from cosim.connection import Connection, ConnectionFault, Element
+from cosim.control.string_controllers import StringControllers
 from cosim.control_assembly import build_control
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
@@ -130,7 +131,8 @@ def _build_all(scenario: Scenario, source: Path, units: dict[str, Unit], paramet
 
 def _versions(units: Mapping[str, Unit]) -> dict[str, str]:
     found = {}
-    for name, unit in units.items():
+    for name, part in units.items():
+        unit = part.strings[0] if isinstance(part, StringControllers) else part
         if isinstance(unit, CircuitUnit):
             found["ngspice"] = str(ngspice().version)
         elif isinstance(unit, FmuUnit | IsolatedUnit) and unit.archive is not None:

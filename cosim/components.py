@@ -419,6 +419,9 @@ class ControllerComponent(Strict):
     combine: Literal["mean", "max", "min"] = "mean"
     setpoint: AnyQuantity | list[AnyQuantity] = Field(description="Where nothing is connected to `setpoint`.")
     law: Annotated[OnOffLaw | PiLaw | HoldLaw | PythonLaw, Field(discriminator="kind")]
+    fmu: Literal["string_controller"] | None = Field(
+        default=None, description="string_controller: law and supervisor run in this FMU, one per string."
+    )
     supervisor: SupervisorSettings | None = None
     start: dict[str, AnyQuantity] = Field(default={}, description="First values of inputs that close a loop.")
 

@@ -21,10 +21,12 @@ from cosim.components import (
     nanoseconds,
 )
 from cosim.control.controller import ControllerDesign, ControllerUnit, check_limits
-from cosim.control.laws import Hold, Law, OnOff, Pi
+from cosim.control.laws import Hold, OnOff, Pi
 from cosim.control.sensor import Fault, SensorDesign, SensorUnit
+from cosim.control.string_controllers import StringControllers
 from cosim.control.supervisor import Supervisor
 from cosim.control.user_law import UserLaw
+from cosim.control_fmu import build_controller_fmu
 from cosim.unit.protocol import Unit
 from cosim.unit.quantity import PhysicalValue, conversion
 
@@ -80,8 +82,8 @@ def build_sensor(name: str, component: SensorComponent) -> SensorUnit:
     )
 
 
-def build_controller(name: str, component: ControllerComponent, source: Path) -> ControllerUnit:
-    """A controller; raises ValueError for a number that does not fit.
+def build_controller(name: str, component: ControllerComponent, source: Path) -> ControllerUnit | StringControllers:
+    """A controller; raises ValueError for a number that does not fit, InputError where its FMU cannot be built.
 
     Args:
         name: Name of the component.
@@ -110,10 +112,16 @@ def build_controller(name: str, component: ControllerComponent, source: Path) ->
     )
     law = _law(component.law, unit, demand, source)
     supervisor = None if component.supervisor is None else _supervisor(component.supervisor, unit)
-    return ControllerUnit(name, design, law, supervisor)
+    if component.fmu is None:
+        return ControllerUnit(name, design, law, supervisor)
+    if isinstance(law, UserLaw):
+        raise ValueError("fmu: a law of kind `python` runs in this program alone; leave `fmu` out")
+    return build_controller_fmu(name, component, design, law, supervisor, source)
 
 
-def _law(given: OnOffLaw | PiLaw | HoldLaw | PythonLaw, unit: str, demand: str, source: Path) -> Law:
+def _law(
+    given: OnOffLaw | PiLaw | HoldLaw | PythonLaw, unit: str, demand: str, source: Path
+) -> OnOff | Pi | Hold | UserLaw:
     if isinstance(given, PythonLaw):
         return UserLaw((source.parent / given.file).resolve(), {n: v.number for n, v in given.parameters.items()})
     if isinstance(given, HoldLaw):

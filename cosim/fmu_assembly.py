@@ -19,7 +19,7 @@ from cosim.isolation.limits import Limits
 from cosim.isolation.unit import IsolatedUnit
 from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
-from cosim.shipped import fmu_folder, shipped_actuators
+from cosim.shipped import fmu_folder, shipped_fmus
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Unit
 
@@ -82,7 +82,7 @@ def find_fmu(component: FmuComponent, source: Path) -> Path:
     path = shipped_fmu(component.fmu, component.fmi, coils)
     if path is not None:
         return path
-    known = shipped_actuators()
+    known = shipped_fmus()
     if component.fmu not in known:
         hint = did_you_mean(component.fmu, known)
         raise InputError(

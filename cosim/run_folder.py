@@ -294,7 +294,7 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
         update: dict[str, Any] = {}
         if parameters[name].values:
             update = {"parameters": dict(parameters[name].values), "parameter_set": None}
-        fmu = getattr(component, "fmu", "")
+        fmu = getattr(component, "fmu", None) or ""
         if fmu.endswith(".fmu") and scenario.path is not None:
             beside = scenario.path.parent / fmu
             update["fmu"] = str((beside if os.path.isfile(beside) else Path(fmu)).resolve())

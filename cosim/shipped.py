@@ -31,6 +31,11 @@ def shipped_actuators() -> dict[str, Path]:
     return {file.parent.name: file.parent for file in sorted(FMUS.glob("*/model.c"))}
 
 
+def shipped_fmus() -> dict[str, Path]:
+    """Name to source folder of every shipped FMU: actuators and controllers."""
+    return {**shipped_actuators(), **{file.parent.name: file.parent for file in sorted(FMUS.glob("control/*/model.c"))}}
+
+
 def shipped_examples() -> dict[str, Path]:
     """Name to folder of every shipped example that holds a scenario and recordings."""
     return {file.parent.name: file.parent for file in sorted(EXAMPLES.glob("*/scenario.yaml"))}

@@ -17,6 +17,7 @@ from cosim.components import (
     ProgrammeOutput,
     nanoseconds,
 )
+from cosim.mechanics_assembly import FABRIC_UNITS
 from cosim.parameters import resolve
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
@@ -59,49 +60,99 @@ class Rig:
 
 
 @dataclass(frozen=True)
-class Candidate:
-    """Heated rows with one programme: heated from `begin` to `end`, off until `held`, then held until the deadline.
+class Pulse:
+    """One row: heated from `begin` to `end`, off until `held`, then held until the deadline.
 
-    A coil that has transformed keeps its stiffness while it cools down to `hold`, so nothing is spent until then.
+    A coil that has transformed keeps its stiffness while it cools down to the hold, so nothing is spent until then.
 
     Args:
-        rows: Heated rows, counted from 1.
+        row: Counted from 1.
         voltage: While heated [V].
         hot: Temperature at the end of heating [K].
-        hold: Temperature of the hold [K].
         begin: [s], on the grid of macro-steps.
         end: [s], the same.
         held: [s], the same; later than the deadline where the coils are still warm then.
-        deadline: [s].
     """
 
-    rows: tuple[int, ...]
+    row: int
     voltage: float
     hot: float
-    hold: float
     begin: float
     end: float
     held: float
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Heated rows, each with its own pulse.
+
+    Args:
+        pulses: In the order of their rows.
+        hold: Temperature of the hold [K].
+        begin: First switch [s]; without a pulse the time at which it would be.
+        deadline: [s].
+        geometry: Parameters of the fabric that are changed, name and value in SI.
+    """
+
+    pulses: tuple[Pulse, ...]
+    hold: float
+    begin: float
     deadline: float
+    geometry: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def rows(self) -> tuple[int, ...]:
+        """Heated rows."""
+        return tuple(p.row for p in self.pulses)
+
+    @property
+    def hottest(self) -> float:
+        """Highest temperature at the end of heating [K]."""
+        return max((p.hot for p in self.pulses), default=0.0)
+
+    def power(self, rig: Rig) -> float:
+        """Largest power of heating rows at one time [W]; holding ones are added where they overlap."""
+        return max((self._power_at(p.begin, rig) for p in self.pulses), default=0.0)
+
+    def _power_at(self, time: float, rig: Rig) -> float:
+        heating = sum(rig.rows[p.row - 1].power(p.voltage) for p in self.pulses if p.begin <= time < p.end)
+        holding = sum(holding_power(rig, p.row, self.hold) for p in self.pulses if p.held <= time)
+        return heating + holding
 
     def energy(self, rig: Rig) -> float:
         """Electrical energy until the deadline [J], by the closed form."""
         return sum(
-            rig.rows[r - 1].power(self.voltage) * (self.end - self.begin)
-            + rig.rows[r - 1].power(rig.rows[r - 1].holding_voltage(self.hold)) * max(self.deadline - self.held, 0.0)
-            for r in self.rows
+            rig.rows[p.row - 1].power(p.voltage) * (p.end - p.begin)
+            + holding_power(rig, p.row, self.hold) * max(self.deadline - p.held, 0.0)
+            for p in self.pulses
         )
 
     def text(self) -> str:
         """For people."""
-        rows = ", ".join(map(str, self.rows))
-        if not self.rows:
-            return "no row heated"
-        held = f", held at {self.hold - 273.15:.3g} degC from {self.held:g} s" if self.held < self.deadline else ""
+        return "; ".join([*self._programmes(), *(f"{n} {v:.4g}" for n, v in self.geometry)])
+
+    def _programmes(self) -> list[str]:
+        """Rows with the same programme are told together."""
+        if not self.pulses:
+            return ["no row heated"]
+        groups: dict[tuple[float, float, float, float, float], list[int]] = {}
+        for p in self.pulses:
+            groups.setdefault((p.voltage, p.begin, p.end, p.hot, p.held), []).append(p.row)
+        return [self._programme(rows, *given) for given, rows in groups.items()]
+
+    def _programme(self, rows: list[int], voltage: float, begin: float, end: float, hot: float, held: float) -> str:
+        kept = f", held at {self.hold - 273.15:.3g} degC from {held:g} s" if held < self.deadline else ""
+        name = "rows" if len(rows) > 1 else "row"
         return (
-            f"rows {rows}: {self.voltage:.3g} V from {self.begin:g} s to {self.end:g} s "
-            f"({self.hot - 273.15:.3g} degC){held}"
+            f"{name} {', '.join(map(str, rows))}: {voltage:.3g} V from {begin:g} s to {end:g} s "
+            f"({hot - 273.15:.3g} degC){kept}"
         )
+
+
+def holding_power(rig: Rig, row: int, temperature: float) -> float:
+    """Power that holds a row at a temperature [W]."""
+    own = rig.rows[row - 1]
+    return own.power(own.holding_voltage(temperature))
 
 
 def rig_of(scenario: Scenario, source: Path) -> Rig:
@@ -199,31 +250,40 @@ def on_grid(time: float, rig: Rig, up: bool = True) -> float:
     return round((math.ceil(count - 1e-9) if up else math.floor(count + 1e-9)) * rig.step, 9)
 
 
-def scenario_for(
-    candidate: Candidate, rig: Rig, solver: Mapping[str, object] | None = None, start: int = 0
-) -> Scenario:
+@dataclass(frozen=True)
+class Settings:
+    """An engine of the fabric and changes of its settings."""
+
+    engine: str
+    solver: Mapping[str, object]
+
+
+def _voltages(candidate: Candidate, rig: Rig, time: float) -> list[float]:
+    """Of every string from a switch on [V]."""
+    found = [0.0] * len(rig.rows)
+    for p in candidate.pulses:
+        if p.begin <= time < p.end:
+            found[p.row - 1] = p.voltage
+        elif time >= p.held:
+            found[p.row - 1] = rig.rows[p.row - 1].holding_voltage(candidate.hold)
+    return found
+
+
+def scenario_for(candidate: Candidate, rig: Rig, settings: Settings | None = None, start: int = 0) -> Scenario:
     """The scenario that carries a candidate out; it begins one drape before the first switch, and ends at the deadline.
 
     Args:
         candidate: The design.
         rig: Scenario of the task.
-        solver: Other settings of Bullet; None: those of the scenario.
+        settings: Another engine and other settings; None: those of the scenario.
         start: Number of the random start; 0: the scenario's own.
     """
     base = rig.scenario
     stop, grain = candidate.deadline, seconds(nanoseconds(base.time.output_step))
     # The run ends at the deadline exactly; its length must be a whole number of output steps.
     begin = round(stop - math.ceil((stop - candidate.begin + DRAPE) / grain - 1e-9) * grain, 9)
-    numbers = range(1, len(rig.rows) + 1)
-    held = [rig.rows[r - 1].holding_voltage(candidate.hold) if r in candidate.rows else 0.0 for r in numbers]
-    heated = [candidate.voltage if r in candidate.rows else 0.0 for r in numbers]
-    points = [(begin, [0.0] * len(rig.rows))]
-    if candidate.rows:
-        points.append((candidate.begin, heated))
-    if candidate.rows and candidate.end < stop:
-        points.append((candidate.end, [0.0] * len(rig.rows)))
-    if candidate.held < stop:
-        points.append((candidate.held, held))
+    moments = sorted({begin, *(m for p in candidate.pulses for m in (p.begin, p.end, p.held) if begin < m < stop)})
+    points = [(m, _voltages(candidate, rig, m)) for m in moments]
     supply, fabric = base.components[rig.supply[0]], base.components[rig.fabric]
     assert isinstance(supply, ProgrammeComponent)
     assert isinstance(fabric, FabricComponent)
@@ -233,9 +293,11 @@ def scenario_for(
         points=[(PhysicalValue(t, "s"), [PhysicalValue(float(f"{v:.9g}"), "V") for v in volts]) for t, volts in points],
     )
     own = {"start_number": PhysicalValue(float(start), ""), "start_speed": PhysicalValue(1.0, "mm/s")} if start else {}
-    changed: dict[str, object] = {"parameters": {**fabric.parameters, **own}}
-    if solver is not None:
-        changed["solver"] = fabric.solver.model_copy(update=dict(solver))
+    varied = {name: PhysicalValue(value, FABRIC_UNITS[name]) for name, value in candidate.geometry}
+    changed: dict[str, object] = {"parameters": {**fabric.parameters, **varied, **own}}
+    if settings is not None:
+        changed["engine"] = settings.engine
+        changed["solver"] = fabric.solver.model_copy(update=dict(settings.solver))
     components = {
         **base.components,
         rig.supply[0]: supply.model_copy(update={"outputs": {**supply.outputs, rig.supply[1]: output}}),

@@ -7,6 +7,7 @@ T = T_room + p / G (1 - exp(-G t / C)) with G = h A and C = rho V c_p.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 
@@ -68,9 +69,38 @@ class Row:
         return self.power(voltage) * self.heating_time(voltage, temperature)
 
 
-def greatest_voltage(row: Row, rows: int, voltage: float, power: float) -> float:
-    """Greatest voltage of so many equal rows at once, within the voltage and the power that are allowed [V]."""
-    return min(voltage, math.sqrt(power / rows * row.coils * row.resistance)) if math.isfinite(power) else voltage
+def heated_together(
+    rows: Sequence[Row], temperatures: Sequence[float], voltage: float, power: float, longest: float
+) -> tuple[float, ...] | None:
+    """Voltages that bring rows to temperatures of their own in one time, the shortest that the limits allow [V].
+
+    Heating energy falls with the voltage, so the shortest time is the cheapest.
+
+    Args:
+        rows: Heated rows.
+        temperatures: Of each at the end [K].
+        voltage: Greatest of a row [V].
+        power: Greatest of all rows together [W]; may be infinite.
+        longest: Time that there is [s].
+
+    Returns:
+        A voltage per row; None where even the longest time is too short.
+    """
+
+    def needed(time: float) -> list[float]:
+        return [r.voltage_for(t, time) for r, t in zip(rows, temperatures)]
+
+    def is_allowed(time: float) -> bool:
+        volts = needed(time)
+        return max(volts) <= voltage and sum(r.power(v) for r, v in zip(rows, volts)) <= power
+
+    if longest <= 0.0 or not is_allowed(longest):
+        return None
+    low, high = 0.0, longest
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if middle > 0.0 and is_allowed(middle) else (middle, high)
+    return tuple(needed(high))
 
 
 def nearest_power(row: Row, temperature: float, time: float) -> float:

@@ -6,17 +6,22 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from chainmail.design.candidate import rig_of
+from chainmail.design.candidate import rig_of, scenario_for
+from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import Ledger
 from chainmail.design.report import front, impossible, report, winning_scenario
-from chainmail.design.search import Impossible, Search
+from chainmail.design.search import Search
+from chainmail.design.shape import with_requirements
 from chainmail.design.task import load_task
+from chainmail.play.notebook import play
 from cosim.alone import alone
 from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Place
 from cosim.compute.progress import Progress
+from cosim.run import RunStopped, run
 from cosim.run_folder import write_atomically, writing
+from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 
 #: Exit code where no design was accepted.
@@ -24,7 +29,13 @@ NOT_FOUND = 1
 
 
 def design(
-    path: Path, out: Path, place: Place, resume: bool, tell: Callable[[str], None], progress: Progress | None = None
+    path: Path,
+    out: Path,
+    place: Place,
+    resume: bool,
+    tell: Callable[[str], None],
+    progress: Progress | None = None,
+    with_page: bool = False,
 ) -> int:
     """Find a design and write its folder.
 
@@ -35,6 +46,7 @@ def design(
         resume: Use the runs that an earlier search left in the folder.
         tell: Told what is done.
         progress: Told of every run.
+        with_page: Run the winner once more and write `play.html`, which shows it move.
 
     Returns:
         Exit code: 0 where a design was accepted, 1 where none was, or the request is impossible (report.md says which).
@@ -46,6 +58,7 @@ def design(
     task, scenario = load_task(path)
     rig = rig_of(scenario, path)
     _check_rows(task.vary.rows_heated, rig.free, path)
+    task = with_requirements(task, rig)
     with alone(out, "design"):
         is_begun = (out / "report.md").exists() or (out / "runs").exists()
         if is_begun and not resume:
@@ -73,15 +86,34 @@ def design(
         if outcome.winner is not None:
             files["scenario.yaml"] = winning_scenario(outcome.winner, rig, task.title)
         _write(out, files)
+        if outcome.winner is not None and with_page:
+            files["play.html"] = ""
+            tell("the page that shows the design move")
+            write_page(scenario_for(outcome.winner, rig), out)
     print((out / "report.md").read_text(encoding="utf-8"))
     for name in files:
         print(f"{name}: {out / name}")
     return 0 if outcome.winner is not None else NOT_FOUND
 
 
+def write_page(scenario: Scenario, out: Path) -> None:
+    """The design as `cosim play` shows it, from a run of its own in `winner/`."""
+    try:
+        run(scenario, out / "winner", overwrite=(out / "winner").exists())
+    except RunStopped as stop:
+        if stop.is_interrupt:
+            raise KeyboardInterrupt from stop
+        print(f"no page: {stop.reason}", file=sys.stderr)
+        return
+    play(out / "winner").save(out / "play.html")
+
+
 def _check_rows(given: object, free: tuple[int, ...], path: Path) -> None:
     if not isinstance(given, list):
         return
+    twice = [r for p in given for r in p if p.count(r) > 1]
+    if twice:
+        raise InputError(path, "vary.rows_heated", f"row {twice[0]} stands twice in a pattern", "name each row once")
     wrong = sorted({r for pattern in given for r in pattern} - set(free))
     if wrong or not given:
         problem = f"row {wrong[0]} is no free row of the fabric" if wrong else "there is no pattern"

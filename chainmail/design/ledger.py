@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import csv
+import importlib.util
 import io
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
-from chainmail.design.candidate import Candidate, Rig, scenario_for
+import numpy as np
+
+from chainmail.design.candidate import Candidate, Rig, Settings, scenario_for
 from chainmail.design.task import Task
+from cosim.components import FabricComponent
 from cosim.compute.batch import Batches
 from cosim.compute.package import Packer
 from cosim.compute.result import Task as Job
@@ -17,13 +21,21 @@ from cosim.sweep.one_run import Shared, simulate
 from cosim.sweep.travel import packed_text, run_key
 from cosim.unit.quantity import PhysicalValue
 
-#: Coarse settings of Bullet. Fewer iterations and not longer steps: at 1 ms the links of 2 x 8 rows with 20 g
-#: overlapped by 3.4 and 4.4 mm in the first two runs. They stop at no overlap; `GATE` judges it.
-COARSE = {"micro_step": PhysicalValue(0.5, "ms"), "iterations": 30, "penetration_limit": PhysicalValue(8.0, "mm")}
+#: Coarse settings. MuJoCo where it is installed: it needs two thirds of the time of Bullet and its links do not
+#: overlap. Else Bullet with fewer iterations and not longer steps: at 1 ms the links of 2 x 8 rows with 20 g overlapped
+#: by 3.4 and 4.4 mm in the first two runs. They stop at no overlap; `GATE` judges it.
+MUJOCO = Settings("mujoco", {"micro_step": PhysicalValue(0.25, "ms")})
+BULLET = Settings(
+    "bullet",
+    {"micro_step": PhysicalValue(0.5, "ms"), "iterations": 30, "penetration_limit": PhysicalValue(8.0, "mm")},
+)
 #: A coarse run in which links overlap by more is worth nothing, and is made again with fine settings [m].
 GATE = 1.5e-3
-#: Quantities of a fabric that coarse settings keep. Curvature is decided by single links, which they let slip.
+#: Quantities of a fabric that coarse settings keep, but for a difference that is measured (`Ledger.difference`).
+#: Curvature is decided by single links, which they let slip.
 KEPT_COARSE = ("tip_sag", "fabric_length", "row_centre", "position")
+#: Designs that are run coarse and fine before a coarse run may decide.
+LEAST_PAIRS = 2
 OVERLAP, SPENT = "overlap", "energy"
 
 
@@ -36,7 +48,7 @@ class Entry:
     """One run.
 
     Args:
-        fidelity: `coarse`, `fine` (a coarse run that overlapped, made again) or `full` (a fresh start).
+        fidelity: `coarse`, `fine` (the scenario's own settings, within the search) or `full` (the same, a fresh start).
         candidate: What was run.
         start: Number of the start.
         values: Of every requirement, in the unit of its quantity; empty where the run failed.
@@ -78,41 +90,91 @@ class Ledger:
     batches: Batches
     entries: list[Entry] = field(default_factory=list)
     units: tuple[str, ...] = ()
+    _decided: dict[Candidate, Entry] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        fabric = self.rig.scenario.components[self.rig.fabric]
+        assert isinstance(fabric, FabricComponent)
+        has_mujoco = importlib.util.find_spec("mujoco") is not None and fabric.solver.springs == "force"
+        self.coarse_settings = MUJOCO if has_mujoco else BULLET
+        self._is_own = fabric.engine == self.coarse_settings.engine == "mujoco"
 
     def can_be_coarse(self) -> bool:
-        """Whether coarse runs may judge everything that is wanted."""
+        """Whether coarse runs may judge everything that is wanted, and are another thing than the scenario's own."""
         fabric = f"{self.rig.fabric}."
         asked = [w.quantity.removeprefix(fabric) for w in self.task.wanted if w.quantity.startswith(fabric)]
-        return all(name in KEPT_COARSE for name in asked)
+        return self.task.runs.coarse > 0 and not self._is_own and all(name in KEPT_COARSE for name in asked)
 
     def count(self, fidelity: str) -> int:
-        """Runs of a fidelity; a coarse run that was made again counts as both."""
+        """Runs of a fidelity."""
         return sum(e.fidelity == fidelity for e in self.entries)
 
-    def coarse(self, candidate: Candidate, starts: Sequence[int]) -> list[Entry]:
-        """Coarse runs of a design; one in which links overlap is made again with fine settings, which count.
+    def judged(self, candidate: Candidate, start: int = 1) -> Entry:
+        """`decision`, kept."""
+        if candidate not in self._decided:
+            self._decided[candidate] = self._decision(candidate, start)
+        return self._decided[candidate]
+
+    def _decision(self, candidate: Candidate, start: int) -> Entry:
+        """The run that decides about a design within the search.
+
+        A coarse run decides where, corrected by what coarse and fine runs differed by so far, it is farther from every
+        bound than they scatter; else, and in the first two designs, a fine run of the same start.
 
         Raises:
             BudgetSpent: No coarse or full run is left.
         """
         if not self.can_be_coarse():
-            return self.full_batch(candidate, starts, "fine")
-        if self.count("coarse") + len(starts) > self.task.runs.coarse:
-            raise BudgetSpent(f"all {self.task.runs.coarse} coarse runs are spent")
-        made = self._made([candidate] * len(starts), starts, "coarse", COARSE)
-        again = [e.start for e in made if e.failure or e.overlap > GATE]
-        fine = {e.start: e for e in (self.full_batch(candidate, again, "fine") if again else [])}
-        return [fine.get(e.start, e) for e in made]
+            return self._full([candidate], [start], "fine")[0]
+        self._check(1, 0)
+        if len(self.pairs()) < LEAST_PAIRS:
+            self._check(1, 1)
+            return self._made([candidate] * 2, [start] * 2, ["coarse", "fine"])[1]
+        entry = self._made([candidate], [start], ["coarse"])[0]
+        if (
+            entry.failure
+            or entry.overlap > GATE
+            or any(abs(d - shift) <= scatter for d, (shift, scatter) in zip(entry.distances, self.difference()))
+        ):
+            return self._full([candidate], [start], "fine")[0]
+        moved = tuple(d - shift for d, (shift, _) in zip(entry.distances, self.difference()))
+        return replace(entry, distances=moved)
 
-    def full_batch(self, candidate: Candidate, starts: Sequence[int], fidelity: str = "full") -> list[Entry]:
-        """Runs with the scenario's own settings; raises BudgetSpent where too few are left."""
-        if self.count("full") + self.count("fine") + len(starts) > self.task.runs.full:
-            raise BudgetSpent(f"all {self.task.runs.full} full runs are spent")
-        return self._made([candidate] * len(starts), starts, fidelity, None)
+    def decided(self) -> dict[Candidate, Entry]:
+        """Designs of the search and the run that decided about each."""
+        return dict(self._decided)
 
-    def _made(
-        self, candidates: Sequence[Candidate], starts: Sequence[int], fidelity: str, solver: Mapping[str, object] | None
-    ) -> list[Entry]:
+    def pairs(self) -> list[tuple[Entry, Entry]]:
+        """Coarse and fine runs of the same design and start, both complete and without overlap."""
+        fine = {(e.candidate, e.start): e for e in self.entries if e.fidelity == "fine" and not e.failure}
+        coarse = [e for e in self.entries if e.fidelity == "coarse" and not e.failure and e.overlap <= GATE]
+        return [(c, fine[c.candidate, c.start]) for c in coarse if (c.candidate, c.start) in fine]
+
+    def difference(self) -> list[tuple[float, float]]:
+        """Per requirement: by how much coarse runs read too far on the right side, and how much that scatters."""
+        found = []
+        for number in range(len(self.task.wanted)):
+            errors = np.array([c.distances[number] - f.distances[number] for c, f in self.pairs()])
+            shift = float(np.median(errors))
+            found.append((shift, float(np.abs(errors - shift).max())))
+        return found
+
+    def full_batch(self, candidate: Candidate, starts: Sequence[int]) -> list[Entry]:
+        """Runs on fresh starts with the scenario's own settings; raises BudgetSpent where too few are left."""
+        return self._full([candidate] * len(starts), starts, "full")
+
+    def _full(self, candidates: Sequence[Candidate], starts: Sequence[int], fidelity: str) -> list[Entry]:
+        self._check(0, len(starts))
+        return self._made(candidates, starts, [fidelity] * len(starts))
+
+    def _check(self, coarse: int, full: int) -> None:
+        most = self.task.runs
+        if self.count("coarse") + coarse > most.coarse:
+            raise BudgetSpent(f"all {most.coarse} coarse runs are spent")
+        if self.count("full") + self.count("fine") + full > most.full:
+            raise BudgetSpent(f"all {most.full} full runs are spent")
+
+    def _made(self, candidates: Sequence[Candidate], starts: Sequence[int], fidelities: Sequence[str]) -> list[Entry]:
         outputs = {f"wanted{i}": w.output() for i, w in enumerate(self.task.wanted)}
         # From the first switch on: while it falls into its drape, every coarse fabric overlaps for a moment.
         since = str(PhysicalValue(min(c.begin for c in candidates), "s"))
@@ -121,11 +183,12 @@ class Ledger:
         )
         outputs[SPENT] = Output(quantity="energy")
         packer = Packer()
-        texts = [packed_text(scenario_for(c, self.rig, solver, s), packer) for c, s in zip(candidates, starts)]
+        given = [self.coarse_settings if f == "coarse" else None for f in fidelities]
+        texts = [packed_text(scenario_for(c, self.rig, g, s), packer) for c, g, s in zip(candidates, given, starts)]
         shared = Shared(packer.files(), outputs, {})
         results = self.batches.results(simulate, shared, [Job(run_key(shared, t), t) for t in texts])
         made = []
-        for candidate, start, result in zip(candidates, starts, results):
+        for candidate, start, fidelity, result in zip(candidates, starts, fidelities, results):
             numbers = result.arrays[0] if result.is_complete else ()
             wanted = tuple(float(v) for v in numbers[: len(self.task.wanted)])
             if result.is_complete:

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from chainmail.design.candidate import Candidate, Rig, scenario_for
+from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import Entry, Ledger
-from chainmail.design.search import APART, ERROR, Impossible, Outcome, Search
+from chainmail.design.search import APART, ERROR, Outcome, Search
 from chainmail.design.sequential import Verdict, share_interval
 
 #: A limit is active where the design comes this near to it.
@@ -131,16 +132,19 @@ def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> li
     measured = [e.energy for e in outcome.checks if not e.failure]
     if measured:
         lines.append(f"- co-simulation: {np.median(measured):.1f} J")
-    reference = outcome.reference
-    if reference is not None and len(reference.rows) > len(winner.rows):
+    reference = search.candidate(rig.free)
+    if reference is not None and 0 < len(winner.rows) < len(rig.free):
         spent = reference.energy(rig)
         lines.append(
-            f"- {len(reference.rows)} rows with a programme of the same kind: {spent:.1f} J; this is "
+            f"- all {len(reference.rows)} free rows heated to {search.coolest - 273.15:.3g} degC instead: "
+            f"{spent:.1f} J; this is "
             f"{100 * winner.energy(rig) / spent:.0f} % of it"
         )
-    steady = sum(r.power(r.holding_voltage(winner.hot)) * winner.deadline for r in rig.rows)
+    if not winner.rows:
+        return lines
+    steady = sum(r.power(r.holding_voltage(winner.hottest)) * winner.deadline for r in rig.rows)
     share = 100 * winner.energy(rig) / steady
-    settled = f"{winner.hot - 273.15:.3g} degC"
+    settled = f"{winner.hottest - 273.15:.3g} degC"
     lines.append(
         f"- all {len(rig.rows)} rows from 0 s on, at the voltage that settles at {settled}: {steady:.1f} J; "
         f"this is {share:.0f} % of it"
@@ -153,32 +157,44 @@ def _limits(search: Search, winner: Candidate) -> list[str]:
     rig = search.ledger.rig
     if not winner.rows:
         return ["none: nothing is heated"]
-    row = rig.rows[winner.rows[0] - 1]
     lines = []
-    power = len(winner.rows) * row.power(winner.voltage)
-    spent = len(winner.rows) * row.heating_energy(winner.voltage, winner.hot)
-    limits = (("voltage", "V", winner.voltage, search.voltage, 1.0), ("power", "W", power, search.power, 0.5))
-    for name, unit, value, limit, exponent in limits:
+    voltage, power = max(p.voltage for p in winner.pulses), winner.power(rig)
+    for name, unit, value, limit in (("voltage", "V", voltage, search.voltage), ("power", "W", power, search.power)):
         if value > (1.0 - NEAR) * limit:
-            more = len(winner.rows) * row.heating_energy(winner.voltage * 1.1**exponent, winner.hot)
+            wider = search.candidate(winner.rows, [p.hot for p in winner.pulses], **{name: 1.1 * limit})
+            saved = winner.energy(rig) - wider.energy(rig) if wider is not None else 0.0
             lines.append(
-                f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {spent - more:.2g} J "
-                f"of {spent:.3g} J of heating"
+                f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {saved:.2g} J "
+                f"of {winner.energy(rig):.3g} J"
             )
     return lines or ["no limit of voltage or power is active"]
 
 
 def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:
     lines = ["| fidelity | runs | wall time |", "|---|---|---|"]
-    for fidelity, what in (("coarse", "coarse"), ("fine", "coarse, made again with fine settings"), ("full", "full")):
+    for fidelity, what in (
+        ("coarse", "coarse"),
+        ("fine", "of the scenario's own settings, in the search"),
+        ("full", "the same, fresh starts"),
+    ):
         own = [e for e in ledger.entries if e.fidelity == fidelity]
         lines.append(f"| {what} | {len(own)} | {sum(e.seconds for e in own):.0f} s |")
     if outcome.chain is not None:
         chain = outcome.chain
         lines += [
             "",
-            f"Row model for screening: a joint turns by {math.degrees(chain.flexible):.1f} degrees, by "
-            f"{math.degrees(chain.stiff):.1f} degrees where it is jammed.",
+            f"Row model for screening, fitted to the cold run: a cold row bends by "
+            f"{math.degrees(chain.flexible):.1f} degrees.",
+        ]
+    if ledger.can_be_coarse() and ledger.pairs():
+        told = [
+            f"{w.text()}: {shift:+.3g} {u} (scatter {scatter:.2g} {u})"
+            for w, u, (shift, scatter) in zip(ledger.task.wanted, ledger.units, ledger.difference())
+        ]
+        lines += [
+            "",
+            f"Coarse runs ({ledger.coarse_settings.engine}) read farther on the right side than fine ones of "
+            f"the same start, over {len(ledger.pairs())} pairs: {'; '.join(told)}.",
         ]
     return lines
 

@@ -1,7 +1,7 @@
-"""A homogenised row model for screening: a chain of rows whose joints bend as far as their weave lets them.
+"""A homogenised row model for screening: a chain of rows that bends at every row as far as its weave lets it.
 
-A joint between two rows turns by the smaller angle `stiff` where both rows are hot (jammed), by `flexible` where one is
-cold, each as measured on two runs of the fabric itself. Gravity turns every joint downwards until the row is vertical.
+A hot row is straight but for the angle `stiff`; a cold one bends by `flexible`. Gravity bends every row downwards
+until the next one hangs vertically. A cold 2 x 8 fabric bends by 12 to 14 degrees at every free row (docs/design.md).
 Arithmetic only: it ranks patterns of rows, and judges none.
 """
 
@@ -20,8 +20,8 @@ class Chain:
         rows: Number of rows, the tethered ones included.
         held: Tethered rows.
         pitch: Distance between two rows [m].
-        flexible: Angle of a joint that is not jammed [rad].
-        stiff: Angle of a jammed joint [rad].
+        flexible: Bend of a cold row [rad].
+        stiff: Bend of a hot row [rad].
     """
 
     rows: int
@@ -30,21 +30,24 @@ class Chain:
     flexible: float
     stiff: float
 
-    def sag(self, hot: Collection[int]) -> float:
-        """Sag of the last row below the tethered ones [m].
+    def angles(self, hot: Collection[int]) -> list[float]:
+        """Slope of every row's way to the next one, from the last tethered row on [rad].
 
         Args:
             hot: Heated rows, counted from 1.
+        """
+        found = [0.0]
+        for row in range(self.held + 1, self.rows):
+            found.append(min(found[-1] + (self.stiff if row in hot else self.flexible), 0.5 * math.pi))
+        return found
 
-        >>> round(Chain(8, 2, 0.0214, 0.25, 0.0).sag(range(3, 9)), 6)
+    def sag(self, hot: Collection[int]) -> float:
+        """Sag of the last row below the tethered ones [m].
+
+        >>> round(Chain(8, 2, 0.026, 0.25, 0.0).sag(range(3, 9)), 6)
         0.0
         """
-        angle = sag = 0.0
-        for row in range(self.held + 1, self.rows + 1):
-            is_jammed = row in hot and (row - 1 <= self.held or row - 1 in hot)
-            angle = min(angle + (self.stiff if is_jammed else self.flexible), 0.5 * math.pi)
-            sag += self.pitch * math.sin(angle)
-        return sag
+        return self.pitch * sum(map(math.sin, self.angles(hot)))
 
 
 def fitted(rows: int, held: int, pitch: float, cold_sag: float, hot_sag: float) -> Chain:

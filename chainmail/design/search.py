@@ -1,42 +1,40 @@
-"""The structured search: from all rows hot to fewer, later and cooler, each step judged by runs."""
+"""The structured search: from all rows hot to fewer and hotter ones, each step judged by runs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
+from pathlib import Path
 
-from chainmail.design.candidate import Candidate, on_grid
-from chainmail.design.closed_form import greatest_voltage, nearest_power
+import numpy as np
+
+from chainmail.design.candidate import Candidate, Pulse, Rig, on_grid
+from chainmail.design.closed_form import heated_together, nearest_power
+from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import BudgetSpent, Entry, Ledger
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
+from chainmail.design.shape import fewest_rows, scheduled
+from chainmail.design.task import Schedule, Shape
+from cosim.components import FabricComponent
+from cosim.mechanics_assembly import build_fabric
+from cosim.parameters import resolve
 from cosim.unit.quantity import PhysicalValue
 
-#: Temperatures at the end of heating [K], and of the hold on the cooling branch [K].
-HOT, COOLER, HOLD = 335.15, (331.15,), 319.15
-#: Times between the end of heating and the deadline [s]: links need seconds to close against friction.
-LEADS = (4.0, 2.0, 1.0)
-#: Patterns of one size that the row model may send to Bullet beside the rows at the root.
-SCREENED = 1
+#: Temperature of the hold on the cooling branch [K].
+HOLD = 319.15
+#: Levels of the temperature at the end of heating, between the ends that the task gives.
+LEVELS = 4
+#: Time between the end of heating and the deadline [s]. Links close while their coils become stiff; from then on coils
+#: cool, and a loaded fabric sinks again: by 5 mm in the first second in the only run that was looked at.
+LEAD = 0.2
+#: A pattern is not run where this share of the row model's sag is too much already.
+SURE = 0.8
 #: Share that a sequential test tells from the wanted one: 0.3 below it, as far as ten runs can tell.
 APART, ERROR = 0.3, 0.1
 #: Fresh starts are numbered from here; the search itself uses lower ones.
 FRESH = 1001
-
-
-class Impossible(Exception):
-    """No design meets the request.
-
-    Args:
-        limit: The limit that forbids it.
-        nearest: The nearest that is possible.
-    """
-
-    def __init__(self, limit: str, nearest: str) -> None:
-        super().__init__(f"{limit}; {nearest}")
-        self.limit, self.nearest = limit, nearest
 
 
 @dataclass
@@ -47,7 +45,6 @@ class Outcome:
         winner: The design that the last check accepted; None: none was accepted.
         checks: Full runs of it, on fresh starts.
         verdict: Of the sequential test.
-        reference: All free rows hot, with the same kind of programme.
         chain: The row model that screened.
         notes: What a reader must know of how the search ended.
     """
@@ -55,7 +52,6 @@ class Outcome:
     winner: Candidate | None = None
     checks: list[Entry] = field(default_factory=list)
     verdict: Verdict = Verdict.OPEN
-    reference: Candidate | None = None
     chain: Chain | None = None
     notes: list[str] = field(default_factory=list)
 
@@ -78,25 +74,52 @@ class Search:
         self.deadline = max(moments) if moments else self._rig.scenario.time.stop.to("s")
         limits = [w.below.to("W") for w in task.wanted if w.quantity == f"{self._rig.circuit}.supply_power" and w.below]
         self.power = min(limits, default=math.inf)
-        self.voltage = task.vary.voltage.high.to("V")
+        self.lowest, self.voltage = task.vary.voltage.low.to("V"), task.vary.voltage.high.to("V")
+        low, high = task.vary.temperature.low.to("K"), task.vary.temperature.high.to("K")
+        self.levels = tuple(float(t) for t in np.linspace(low, high, LEVELS))
 
-    def candidate(self, rows: tuple[int, ...], hot: float = HOT, lead: float = LEADS[0]) -> Candidate | None:
+    @property
+    def coolest(self) -> float:
+        """Lowest temperature at the end of heating [K]."""
+        return self.levels[0]
+
+    def candidate(
+        self,
+        rows: tuple[int, ...],
+        hot: float | Sequence[float] | None = None,
+        *,
+        voltage: float | None = None,
+        power: float | None = None,
+    ) -> Candidate | None:
         """The cheapest programme of a pattern by the closed forms; None where voltage, power or time forbid it.
 
-        Energy to reach a temperature falls with the voltage, so it is the greatest that is allowed.
+        All rows are heated in one time, the shortest that the limits allow, each to its own temperature.
+
+        Args:
+            rows: Heated rows.
+            hot: Temperature at the end of heating, one for all or one per row [K]; None: the lowest.
+            voltage: Another limit than the task's [V].
+            power: The same [W].
         """
-        end = on_grid(self.deadline - lead, self._rig, up=False)
+        end = on_grid(self.deadline - LEAD, self._rig, up=False)
         if not rows:
-            return Candidate((), 0.0, hot, HOLD, end, end, self.deadline + 1.0, self.deadline)
-        row = self._rig.rows[rows[0] - 1]
-        # Rounded downwards: at the limit itself, rounding would decide whether it is kept.
-        voltage = math.floor(1e4 * greatest_voltage(row, len(rows), self.voltage, self.power) * (1.0 - 1e-9)) / 1e4
-        heating = row.heating_time(voltage, hot)
-        if not math.isfinite(heating):
+            return Candidate((), HOLD, end, self.deadline)
+        hots = list(hot) if isinstance(hot, Sequence) else [self.coolest if hot is None else hot] * len(rows)
+        own = [self._rig.rows[r - 1] for r in rows]
+        # Less than is allowed by a part in a thousand million: at the limit, rounding would decide whether it is kept.
+        most = self.voltage if voltage is None else voltage, self.power if power is None else power
+        exact = heated_together(own, hots, most[0] * (1 - 1e-9), most[1] * (1 - 1e-9), end)
+        if exact is None:
             return None
-        begin = on_grid(end - heating, self._rig, up=False)
-        held = on_grid(end + row.coasting_time(hot, HOLD), self._rig, up=False)
-        return Candidate(rows, voltage, hot, HOLD, begin, end, held, self.deadline) if begin >= 0.0 else None
+        volts = [math.floor(1e4 * v) / 1e4 for v in exact]
+        if min(volts) < self.lowest:
+            return None
+        begin = on_grid(end - max(r.heating_time(v, t) for r, v, t in zip(own, volts, hots)), self._rig, up=False)
+        if begin < 0.0:
+            return None
+        helds = [on_grid(end + r.coasting_time(t, HOLD), self._rig, up=False) for r, t in zip(own, hots)]
+        pulses = tuple(Pulse(n, v, t, begin, end, h) for n, v, t, h in zip(rows, volts, hots, helds))
+        return Candidate(pulses, HOLD, begin, self.deadline)
 
     def run(self) -> Outcome:
         """Search, then check on fresh starts.
@@ -106,132 +129,173 @@ class Search:
         """
         outcome = Outcome()
         self._check_heat()
-        found: list[Candidate] = []
         try:
-            found = list(self._feasible(outcome))
+            task = self.ledger.task
+            if task.schedule is not None:
+                self._on_schedule(task.schedule)
+            elif task.shape is not None:
+                self._in_shape(task.shape, outcome)
+            else:
+                self._feasible(outcome)
         except BudgetSpent as spent:
             outcome.notes.append(f"the search ended early: {spent}")
-        found = sorted(self._accepted(), key=lambda c: c.energy(self._rig))
-        if not found and not any(e.is_met for e in self.ledger.entries):
+        found = self._accepted()
+        if not found:
             raise self._unmet()
         self._last_check(found, outcome)
         return outcome
 
     def _check_heat(self) -> None:
         """Raise Impossible where not even one row can be heated in time."""
-        if any(self.candidate((r,), lead=min(LEADS)) is not None for r in self._rig.free):
+        if any(self.candidate((r,)) is not None for r in self._rig.free):
             return
-        row, time = self._rig.rows[self._rig.held], self.deadline - min(LEADS)
-        needed = row.voltage_for(HOT, time)
-        power = nearest_power(row, HOT, time)
-        hot = f"{HOT - 273.15:.3g} degC"
-        if needed > self.voltage:
+        row, time = self._rig.rows[self._rig.held], self.deadline - LEAD
+        hot = f"{self.coolest - 273.15:.3g} degC"
+        if time <= 0.0:
             raise Impossible(
-                f"the voltage: at {self.voltage:.4g} V a row settles at {row.limit(self.voltage) - 273.15:.3g} degC "
-                f"and does not reach {hot} by {time:g} s",
-                f"a row reaches it by then from {_upwards(needed)} V on",
+                f"the time: a row must be hot {LEAD:g} s before {self.deadline:g} s, heated from 0 s on",
+                f"a deadline after {LEAD:g} s",
+            )
+        needed = row.voltage_for(self.coolest, time)
+        power = nearest_power(row, self.coolest, time)
+        if needed > self.voltage:
+            limit = row.limit(self.voltage)
+            soonest = row.heating_time(self.voltage, self.coolest)
+            nearest = f"a row reaches it by then from {_upwards(needed)} V on"
+            if math.isfinite(soonest):
+                raise Impossible(
+                    f"voltage and time: at {self.voltage:.4g} V a row needs {_upwards(soonest)} s to {hot} and has "
+                    f"{time:.4g} s",
+                    f"{nearest}, or at {self.voltage:.4g} V by a deadline of {_upwards(soonest + LEAD)} s",
+                )
+            raise Impossible(
+                f"the voltage: at {self.voltage:.4g} V a row settles at {limit - 273.15:.3g} degC and does not reach "
+                f"{hot} by {time:.4g} s",
+                nearest,
             )
         raise Impossible(
-            f"the power: one row needs {_upwards(power)} W to reach {hot} by {time:g} s, more than {self.power:.3g} W",
+            f"the power: a row needs {_upwards(power)} W to reach {hot} by {time:.4g} s, more than {self.power:.3g} W",
             f"from {_upwards(power)} W on one row can be heated in time",
         )
 
-    def _feasible(self, outcome: Outcome) -> Iterator[Candidate]:
-        rig, free = self._rig, self._rig.free
+    def _feasible(self, outcome: Outcome) -> None:
+        """Down the stairs of rows and temperatures: fewer rows while the request is met, hotter where it is not."""
         self.tell("all rows cold")
-        (cold,) = self.ledger.coarse(self._need(()), (1,))
-        if cold.is_met and self.ledger.coarse(cold.candidate, (2,))[0].is_met:
-            yield cold.candidate
+        cold = self.ledger.judged(self._need(()))
+        if cold.is_met:
             return
         patterns = self._patterns()
-        tried = (self.candidate(p, lead=lead) for lead in LEADS for p in patterns)
+        tried = (self.candidate(p) for p in patterns)
         first = next((c for c in tried if c is not None), None)
         if first is None:
             raise Impossible(
                 "voltage, power and time together: no pattern of `rows_heated` can be heated, all its rows at once, by "
-                f"{self.deadline - min(LEADS):g} s",
+                f"{self.deadline - LEAD:g} s",
                 "give patterns with fewer rows; one row alone can be heated in time",
             )
-        outcome.reference = first
-        self.tell(f"{len(first.rows)} rows hot")
-        (hot,) = self.ledger.coarse(first, (1,))
-        if not hot.is_met:
-            (hot,) = self.ledger.coarse(first, (2,))
-        if not hot.is_met:
-            return
-        yield first
-        best = first
-        sags = [self._sag(e) for e in (cold, hot)]
-        if self.ledger.task.vary.rows_heated == "any" and None not in sags and len(first.rows) == len(free):
-            outcome.chain = fitted(len(rig.rows), rig.held, self._pitch(), float(sags[0] or 0), float(sags[1] or 0))
-        for pattern in self._fewer(patterns, first, outcome.chain):
-            made = self.candidate(pattern)
-            if made is None or made.energy(rig) >= best.energy(rig):
+        patterns = [p for p in patterns if len(p) <= len(first.rows)]
+        self._screen(cold, outcome)
+        best: Candidate | None = None
+        level, is_nested = 0, self.ledger.task.vary.rows_heated == "any"
+        for pattern in patterns:
+            if outcome.chain is not None and self._is_hopeless(pattern, outcome.chain):
+                outcome.notes.append(
+                    f"not run: heated rows {', '.join(map(str, pattern))}; with these rows straight "
+                    "the cold ones alone sag too much, by the row model"
+                )
                 continue
-            self.tell(f"rows {', '.join(map(str, pattern))} hot")
-            if self._holds(made):
-                best = made
-                yield made
-        yield from self._later_and_cooler(best)
-
-    def _later_and_cooler(self, best: Candidate) -> Iterator[Candidate]:
-        lead = LEADS[0]
-        for shorter in LEADS[1:]:
-            made = self.candidate(best.rows, HOT, shorter)
-            if made is None or made.energy(self._rig) >= best.energy(self._rig):
-                continue
-            self.tell(f"{shorter:g} s between heating and deadline")
-            if not self._holds(made):
-                break
-            lead, best = shorter, made
-            yield made
-        for cooler in COOLER:
-            made = self.candidate(best.rows, cooler, lead)
-            if made is not None:
-                self.tell(f"heated to {cooler - 273.15:.3g} degC")
-                if not self._holds(made):
+            level = level if is_nested else 0
+            while level < len(self.levels):
+                made = self.candidate(pattern, self.levels[level])
+                if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
+                    break  # hotter costs more
+                self.tell(made.text())
+                if self.ledger.judged(made).is_met:
+                    best = made
                     break
-                yield made
+                level += 1
+            if level == len(self.levels) and is_nested:
+                break  # fewer rows sag more
+        if best is not None:
+            self._cooler_rows(best)
 
-    def _holds(self, candidate: Candidate) -> bool:
-        """On two starts."""
-        return all(e.is_met for e in self.ledger.coarse(candidate, (1, 2)))
+    def _on_schedule(self, schedule: Schedule) -> None:
+        """Rows one after another, hotter where what is wanted is not met."""
+        for hot in self.levels:
+            try:
+                made = scheduled(schedule, self._rig, hot, HOLD, (self.lowest, self.voltage), self.power)
+            except Impossible:
+                if hot == self.coolest:
+                    raise
+                return  # hotter needs more
+            self.tell(made.text())
+            if self.ledger.judged(made).is_met:
+                return
+
+    def _in_shape(self, shape: Shape, outcome: Outcome) -> None:
+        """Patterns that have the shape by the row model, fewest rows first; hotter where what is wanted is not met."""
+        rig = self._rig
+        patterns, total = fewest_rows(shape, rig), 2 ** len(rig.free)
+        if not patterns:
+            raise Impossible(
+                f"the shape: by the row model none of {total} patterns of heated rows has it",
+                "another bound of the bends: a cold row bends by about 12 degrees, a hot one by few",
+            )
+        rows = ", ".join(map(str, patterns[0])) or "none"
+        outcome.notes.append(
+            f"row model: {len(patterns)} of {total} patterns have the shape, the fewest rows are {rows}"
+        )
+        for pattern in patterns:
+            for hot in self.levels:
+                candidate = self.candidate(pattern, hot)
+                if candidate is None:
+                    break
+                self.tell(candidate.text())
+                if self.ledger.judged(candidate).is_met:
+                    return
+
+    def _cooler_rows(self, best: Candidate) -> None:
+        """Each row as cool as it may be, from the tip to the root: the load falls towards the tip."""
+        for place in reversed(range(len(best.pulses))):
+            hots = [p.hot for p in best.pulses]
+            if hots[place] <= self.coolest:
+                continue
+            hots[place] = self.coolest
+            made = self.candidate(best.rows, hots)
+            if made is None:
+                continue
+            self.tell(made.text())
+            if not self.ledger.judged(made).is_met:
+                return
+            best = made
+
+    def _screen(self, cold: Entry, outcome: Outcome) -> None:
+        """Fit the row model to the cold run: rows that are hot at best straight."""
+        sag = self._sag(cold)
+        if sag is not None and sag > 0.0:
+            outcome.chain = fitted(len(self._rig.rows), self._rig.held, taut_pitch(self._rig), sag, 0.0)
+
+    def _is_hopeless(self, rows: tuple[int, ...], chain: Chain) -> bool:
+        """Whether the cold rows alone sag more than is wanted, by a margin for the model."""
+        most = [
+            w.below.to("m") for w in self.ledger.task.wanted if w.quantity == f"{self._rig.fabric}.tip_sag" and w.below
+        ]
+        return bool(most) and SURE * chain.sag(rows) > min(most)
 
     def _patterns(self) -> list[tuple[int, ...]]:
         """Patterns with most rows first; those at the root before others."""
         given = self.ledger.task.vary.rows_heated
         if given != "any":
-            return sorted((tuple(sorted(set(p))) for p in given), key=lambda p: (-len(p), p))
+            return sorted({tuple(sorted(set(p))) for p in given}, key=lambda p: (-len(p), p))
         free = self._rig.free
         return [free[:count] for count in range(len(free), 0, -1)]
 
-    def _fewer(
-        self, patterns: list[tuple[int, ...]], first: Candidate, chain: Chain | None
-    ) -> Iterator[tuple[int, ...]]:
-        """Patterns with fewer rows: those at the root, and where the row model expects less sag, that pattern too."""
-        for pattern in patterns:
-            if len(pattern) >= len(first.rows):
-                continue
-            yield pattern
-            if chain is not None and self.ledger.task.vary.rows_heated == "any":
-                ranked = sorted(combinations(self._rig.free, len(pattern)), key=chain.sag)
-                yield from (p for p in ranked[:SCREENED] if p != pattern and chain.sag(p) < 0.9 * chain.sag(pattern))
-
     def _accepted(self) -> list[Candidate]:
-        """Candidates all of whose runs met the request; a coarse run that was made again does not count."""
-        runs: dict[Candidate, list[Entry]] = {}
-        for entry in self.ledger.entries:
-            runs.setdefault(entry.candidate, []).append(entry)
-        good = []
-        for candidate, own in runs.items():
-            judged = [e for e in own if not (e.fidelity == "coarse" and self._was_repeated(e, own))]
-            if judged and all(e.is_met for e in judged):
-                good.append(candidate)
-        return good
-
-    @staticmethod
-    def _was_repeated(entry: Entry, others: list[Entry]) -> bool:
-        return any(o.fidelity == "fine" and o.start == entry.start for o in others)
+        """Designs that met the request, by the run that decided; cheapest first."""
+        good = [c for c, e in self.ledger.decided().items() if e.is_met]
+        if self.ledger.task.least == "rows_heated":
+            return sorted(good, key=lambda c: (len(c.rows), c.energy(self._rig)))
+        return sorted(good, key=lambda c: c.energy(self._rig))
 
     def _last_check(self, found: list[Candidate], outcome: Outcome) -> None:
         wanted = self.ledger.task.wanted
@@ -289,18 +353,15 @@ class Search:
                 return value
         return None
 
-    def _pitch(self) -> float:
-        """Pitch of two rows, from the bar diameter: 2.49 d in the jam (docs/mechanics.md) [m]."""
-        from pathlib import Path
 
-        from cosim.components import FabricComponent
-        from cosim.parameters import resolve
-
-        fabric = self._rig.scenario.components[self._rig.fabric]
-        assert isinstance(fabric, FabricComponent)
-        values = resolve(fabric.parameter_set, fabric.parameters, self._rig.scenario.path or Path("scenario")).values
-        bar = values.get("bar_diameter")
-        return 2.49 * (bar.to("m") if isinstance(bar, PhysicalValue) else 8.35e-3)
+def taut_pitch(rig: Rig) -> float:
+    """Pitch of the taut, cold weave of a fabric [m]."""
+    fabric = rig.scenario.components[rig.fabric]
+    assert isinstance(fabric, FabricComponent)
+    source = rig.scenario.path or Path("scenario")
+    return build_fabric(
+        rig.fabric, fabric, resolve(fabric.parameter_set, fabric.parameters, source)
+    ).design.cold_weave.pitch
 
 
 def _upwards(value: float) -> str:

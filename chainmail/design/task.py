@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, StrictInt, StrictStr, model_validator
 
-from cosim.components import AnyQuantity, Count, Strict
+from cosim.components import AnyQuantity, Count, Strict, Time
 from cosim.scenario import Scenario, find_scenario, scenario_of_data
 from cosim.sweep.file import Output
 from cosim.unit.errors import InputError
@@ -38,6 +38,20 @@ class _Voltages(Strict):
         return self
 
 
+class _Temperatures(Strict):
+    low: Annotated[PhysicalValue, In("K", minimum=0.0, is_exclusive=True)]
+    high: Annotated[PhysicalValue, In("K", minimum=0.0, is_exclusive=True)]
+
+    @model_validator(mode="after")
+    def _check(self) -> _Temperatures:
+        if self.low.to("K") >= self.high.to("K"):
+            raise ValueError(f"the range from {self.low} to {self.high} is empty")
+        return self
+
+
+_TEMPERATURES = _Temperatures(low=PhysicalValue(62.0, "degC"), high=PhysicalValue(80.0, "degC"))
+
+
 class Vary(Strict):
     """What a design may choose."""
 
@@ -45,6 +59,9 @@ class Vary(Strict):
         default="any", description="Patterns of heated rows, counted from the tether; any: every pattern of free rows."
     )
     voltage: Annotated[_Voltages, BeforeValidator(_ends)] = Field(description="Of a string while it is heated.")
+    temperature: Annotated[_Temperatures, BeforeValidator(_ends)] = Field(
+        default=_TEMPERATURES, description="Of a row at the end of heating."
+    )
 
 
 class Wanted(Output):
@@ -84,13 +101,62 @@ class Wanted(Output):
         """For people."""
         relation = f"below {self.below}" if self.below is not None else f"above {self.above}"
         when = f" at {self.at}" if self.at is not None else f" ({self.over})"
-        return f"{self.quantity}{when} {relation}"
+        element = f"[{self.of}]" if isinstance(self.of, int) else ""
+        return f"{self.quantity}{element}{when} {relation}"
+
+
+_ANGLE = In("rad", minimum=0.0, is_exclusive=True)
+
+
+class _Bends(Strict):
+    """What counts as rigid and as flexible."""
+
+    straight: Annotated[PhysicalValue, _ANGLE] = Field(
+        default=PhysicalValue(8.0, "deg"), description="A rigid row bends by less."
+    )
+    bent: Annotated[PhysicalValue, _ANGLE] = Field(
+        default=PhysicalValue(8.0, "deg"), description="A flexible row bends by more."
+    )
+    share: float = Field(default=0.9, gt=0.0, lt=1.0)
+    confidence: float = Field(default=0.9, gt=0.5, lt=1.0)
+
+
+class Shape(_Bends):
+    """Rows that are to be rigid and rows that are to be flexible at one time."""
+
+    rigid: list[Count] = []
+    flexible: list[Count] = []
+    at: Time
+
+    @model_validator(mode="after")
+    def _check(self) -> Shape:
+        both = sorted(set(self.rigid) & set(self.flexible))
+        if both:
+            raise ValueError(f"row {both[0]} is wanted rigid and flexible")
+        if not self.rigid and not self.flexible:
+            raise ValueError("name rows under `rigid` or `flexible`")
+        return self
+
+
+class Schedule(_Bends):
+    """Rows that become rigid one after another: flexible before their time, rigid from then on."""
+
+    rows: dict[Count, Time] = Field(min_length=1, description="Row to the time by which it is heated.")
+    settle: Time = Field(default=PhysicalValue(1.0, "s"), description="From that time until its bend is looked at.")
+
+    @model_validator(mode="after")
+    def _check(self) -> Schedule:
+        if min(t.to("s") for t in self.rows.values()) <= 0.0 or self.settle.to("s") < 0.0:
+            raise ValueError("times of a schedule are after 0 s, and `settle` is not negative")
+        return self
 
 
 class Effort(Strict):
     """Most runs of each fidelity."""
 
-    coarse: Annotated[StrictInt, Field(ge=1)] = 40
+    coarse: Annotated[
+        StrictInt, Field(ge=0, description="0: the scenario's own settings decide about every design.")
+    ] = 40
     full: Annotated[StrictInt, Field(ge=1)] = 20
 
 
@@ -101,10 +167,22 @@ class Task(Strict):
     description: str = ""
     scenario: StrictStr = Field(description="A fabric with a supply per string, beside the task, or a shipped one.")
     vary: Vary
-    wanted: list[Wanted] = Field(min_length=1)
-    least: Literal["energy"] = "energy"
+    wanted: list[Wanted] = []
+    shape: Shape | None = None
+    schedule: Schedule | None = None
+    least: Literal["energy", "rows_heated"] = "energy"
     runs: Effort = Effort()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _check(self) -> Task:
+        if not self.wanted and self.shape is None and self.schedule is None:
+            raise ValueError("nothing is wanted: give `wanted`, `shape` or `schedule`")
+        if self.shape is not None and self.schedule is not None:
+            raise ValueError("give either `shape` or `schedule`")
+        if (self.shape or self.schedule) and self.vary.rows_heated != "any":
+            raise ValueError("`shape` and `schedule` say which rows are heated; leave `vary.rows_heated` out")
+        return self
 
 
 def load_task(path: Path) -> tuple[Task, Scenario]:

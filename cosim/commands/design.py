@@ -19,6 +19,7 @@ def design(
     cluster: Annotated[
         str | None, typer.Option(help="Address of a Dask scheduler that makes them; default: this machine.")
     ] = None,
+    page: Annotated[bool, typer.Option(help="Run the design once more and write play.html, which shows it.")] = True,
     resume: Annotated[bool, typer.Option("--resume", help="Use the runs that are in the folder already.")] = False,
 ) -> None:
     """Find heated rows, voltages and instants that meet what is wanted with the least energy, and say how surely.
@@ -34,7 +35,8 @@ def design(
     display = Display(Console(stderr=True))
     try:
         with display.drawn():
-            code = find(task, out, choose_place(jobs, cluster, goes_on=True), resume, display.stage, display.progress)
+            place = choose_place(jobs, cluster, goes_on=True)
+            code = find(task, out, place, resume, display.stage, display.progress, page)
     except KeyboardInterrupt as error:
         print(
             "interrupted; finished runs are kept, go on with: "

@@ -57,6 +57,23 @@ class ControllerDesign:
     is_common: bool = False
 
 
+def controller_variables(design: ControllerDesign) -> dict[str, Variable]:
+    """Ports of a controller, by name."""
+    count, elements = len(design.groups), sum(design.groups)
+    shape, dims = ((), ()) if design.is_common else ((count,), ("string",))
+    given, found = Causality.INPUT, Causality.OUTPUT
+    demand_unit = f"({design.command_unit})^2" if design.is_squared else design.command_unit
+    first = float(design.setpoint[0]) if design.is_common else design.setpoint
+    listed = (
+        Variable("measured", given, (elements,), design.measured_unit, ("coil",), "what the sensor reads"),
+        Variable("setpoint", given, shape, design.measured_unit, dims, "what is asked for", start=first),
+        Variable("command", found, shape, design.command_unit, dims, "what drives"),
+        Variable("demand", found, shape, demand_unit, dims, "what the law asks for, before limits"),
+        Variable("alarm", found, shape, "1", dims, "0 none, 1 limited, 2 out of range, 3 frozen, 4 no response"),
+    )
+    return {v.name: v for v in listed}
+
+
 class ControllerUnit(Unit):
     """Samples its input `measured` and holds its output `command` until the next sample.
 
@@ -75,19 +92,7 @@ class ControllerUnit(Unit):
 
     def __init__(self, name: str, design: ControllerDesign, law: Law, supervisor: Supervisor | None = None) -> None:
         self.name, self.design, self.law, self.supervisor = name, design, law, supervisor
-        count, elements = len(design.groups), sum(design.groups)
-        shape, dims = ((), ()) if design.is_common else ((count,), ("string",))
-        given, found = Causality.INPUT, Causality.OUTPUT
-        demand_unit = f"({design.command_unit})^2" if design.is_squared else design.command_unit
-        first = float(design.setpoint[0]) if design.is_common else design.setpoint
-        listed = (
-            Variable("measured", given, (elements,), design.measured_unit, ("coil",), "what the sensor reads"),
-            Variable("setpoint", given, shape, design.measured_unit, dims, "what is asked for", start=first),
-            Variable("command", found, shape, design.command_unit, dims, "what drives"),
-            Variable("demand", found, shape, demand_unit, dims, "what the law asks for, before limits"),
-            Variable("alarm", found, shape, "1", dims, "0 none, 1 limited, 2 out of range, 3 frozen, 4 no response"),
-        )
-        self.variables: Mapping[str, Variable] = {v.name: v for v in listed}
+        self.variables: Mapping[str, Variable] = controller_variables(design)
         self.coordinates: Mapping[str, Coordinate] = {}
         self._store = ArrayStore(name, self.variables)
         self._ends = np.cumsum([0, *design.groups])

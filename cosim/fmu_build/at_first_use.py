@@ -1,4 +1,4 @@
-"""FMUs of the shipped actuators: built where they are asked for and not there yet."""
+"""FMUs of the shipped actuators and controllers: built where they are asked for and not there yet."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from cosim.fmu_build.build_c import build_c
-from cosim.shipped import fmu_folder, given_fmu_folder, shipped_actuators
+from cosim.shipped import fmu_folder, given_fmu_folder, shipped_fmus
 from cosim.unit.errors import InputError
 
 #: The size for which `make fmus` builds, and which file names leave out.
@@ -21,11 +21,11 @@ def file_name(name: str, version: int, coils: int) -> str:
 
 
 def shipped_fmu(name: str, version: int, coils: int) -> Path | None:
-    """File of a shipped actuator's FMU, built now where it was not; None: there is no such actuator, or no such file
+    """A shipped FMU's file, built now where it was not; None: there is no such FMU, or no such file
     in the folder that `COSIM_FMU_PATH` names, in which nothing is built.
 
     Args:
-        name: Of the actuator.
+        name: Of the actuator or controller.
         version: FMI version, 2 or 3.
         coils: Number of coils; an FMI 3.0 FMU takes any, so it is not in the name of its file.
 
@@ -36,7 +36,7 @@ def shipped_fmu(name: str, version: int, coils: int) -> Path | None:
     path = fmu_folder() / file_name(name, version, size)
     if os.path.isfile(path):  # of a name too long it is False
         return path
-    source = shipped_actuators().get(name)
+    source = shipped_fmus().get(name)
     if source is None or given_fmu_folder() is not None:
         return None
     print(f"building {path.name} (once; it is kept in {path.parent})", file=sys.stderr, flush=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +15,7 @@ from scipy.stats import norm, qmc
 from cosim.components import FabricComponent, FmuComponent, PendulumComponent
 from cosim.parameters import Resolved, resolve
 from cosim.scenario import Scenario
+from cosim.sweep.checks import check_keys
 from cosim.sweep.file import MOST_RUNS, Axis, Keyed, Range, Sobol, Spread, Starts, SweepFile
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
@@ -88,22 +90,14 @@ def axes_of(sweep: SweepFile, scenario: Scenario, source: Path) -> list[Points]:
             found.append(_points(name, axis, scenario))
         except ValueError as error:
             raise InputError(source, f"axes.{name}", str(error), "correct this axis") from error
-    keys = [c.key for p in found for c in p.columns]
-    twice = sorted({k for k in keys if keys.count(k) > 1})
-    if twice:
-        raise InputError(
-            source,
-            "axes",
-            f"`{twice[0]}` is set twice, so that one value would never be used",
-            "let one axis set it; keys that change together belong into one `zip`",
-        )
-    runs = int(np.prod([float(p.size) for p in found]))
+    check_keys([c.key for p in found for c in p.columns], scenario, source)
+    runs = math.prod(p.size for p in found)
     if runs > MOST_RUNS:
         sizes = " x ".join(f"{p.size} ({p.name})" for p in found)
         raise InputError(
             source,
             "axes",
-            f"{sizes} are {runs} runs, more than {MOST_RUNS}",
+            f"{sizes} are {runs if runs < 10**15 else 'more than 1e15'} runs, more than {MOST_RUNS}",
             "take fewer values, or draw them with `sobol`",
         )
     return found
@@ -120,7 +114,9 @@ def grid(axes: Sequence[Points]) -> Iterator[tuple[tuple[int, ...], dict[str, An
 
 def _points(name: str, axis: Axis, scenario: Scenario) -> Points:
     if axis.key is not None:
-        return Points(name, "key", (_column(Keyed(key=axis.key, values=axis.values, range=axis.range)),))
+        column = _column(Keyed(key=axis.key, values=axis.values, range=axis.range))
+        _check_once(column)
+        return Points(name, "key", (column,))
     if axis.zip is not None:
         columns = tuple(_column(k) for k in axis.zip)
         sizes = {c.key: len(c.values) for c in columns}
@@ -132,6 +128,16 @@ def _points(name: str, axis: Axis, scenario: Scenario) -> Points:
         return _starts(name, axis.starts, scenario)
     assert axis.sobol is not None
     return _sobol(name, axis.sobol, scenario)
+
+
+def _check_once(column: Column) -> None:
+    """Raise ValueError where a value stands twice: no run could be told from the other by its label."""
+    seen: set[object] = set()
+    for i, value in enumerate(column.values):
+        label: object = repr(value) if column.numbers is None else float(column.numbers[i])
+        if label in seen:
+            raise ValueError(f"the value {value} stands twice; for random repetitions use `starts`")
+        seen.add(label)
 
 
 def _column(given: Keyed) -> Column:

@@ -24,6 +24,7 @@ from cosim.compute.result import Task
 from cosim.run_folder import replacing, versions, write_atomically, writing
 from cosim.scenario import Scenario, scenario_of_data
 from cosim.sweep.axes import Points, axes_of, grid
+from cosim.sweep.checks import check_outputs
 from cosim.sweep.figures import draw, draw_all_indices
 from cosim.sweep.file import SweepFile, base_scenario, load_sweep
 from cosim.sweep.keys import changed
@@ -70,7 +71,9 @@ def plan(path: Path) -> Plan:
         scenario = _scenario(data, source, changes, axes, place, path)
         if first is None:
             first = scenario
-            _assembled(scenario)
+            assembly = assemble(scenario)
+            assembly.system.terminate()
+            check_outputs(sweep, assembly, path)
         elif sweep.series and scenario.time != first.time:
             raise InputError(
                 path,

@@ -31,7 +31,7 @@ def parts_of(key: str, data: Mapping[str, Any]) -> list[str | int]:
     while pieces:
         piece = pieces.pop(0)
         name = _INDEX.sub("", piece)
-        if not name or piece != name + "".join(f"[{i}]" for i in _INDEX.findall(piece)):
+        if not name or "[" in name or "]" in name or piece != name + "".join(f"[{i}]" for i in _INDEX.findall(piece)):
             raise ValueError(f"`{key}` is no path of keys; write for example `fabric.parameters.friction`")
         parts.append(name)
         for index in _INDEX.findall(piece):
@@ -70,10 +70,15 @@ def _assign(data: Any, parts: list[str | int], value: Any, key: str) -> None:
         is_last = number + 1 == len(parts)
         if isinstance(part, int):
             if not isinstance(place, list) or part >= len(place):
-                size = f"it has {len(place)} elements" if isinstance(place, list) else "there is no list"
+                size = (
+                    f"it has {len(place)} elements" if isinstance(place, list) else f"`{parts[number - 1]}` is no list"
+                )
                 raise ValueError(f"`{key}`: there is no element {part + 1}: {size}")
         elif not isinstance(place, dict):
             raise ValueError(f"`{key}`: `{part}` cannot stand below a single value or a list")
+        elif part not in place and not is_last and isinstance(parts[number + 1], int):
+            there = ", ".join(map(str, place)) or "nothing"
+            raise ValueError(f"`{key}`: there is no list `{part}` (there: {there})")
         elif not is_last and part not in place:
             # A scenario may leave out `parameters`, `solver`, ...; what does not exist is refused when it is read.
             place[part] = {}

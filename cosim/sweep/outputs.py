@@ -12,7 +12,7 @@ from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
 
 #: Quantities that are computed here, beside the recorded ones.
-ENERGY, TIP_SAG = "energy", "tip_sag"
+ENERGY, TIP_SAG, ROW_BEND = "energy", "tip_sag", "row_bend"
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,9 @@ def quantity(run: xr.Dataset, name: str) -> xr.DataArray:
     """A recorded variable by its name `component.variable`, or a derived one.
 
     `component.tip_sag` [m]: how far the centre of a fabric's last row lies below the mean of its first two, the
-    tethered rows of a cantilever. `energy` [J]: electrical energy of the whole run (no series).
+    tethered rows of a cantilever. `component.row_bend` [rad]: by how much the way from a row to the next one points
+    further down than that from the row before; 0 at the first and the last row.
+    `energy` [J]: electrical energy of the whole run (no series).
 
     Raises:
         ValueError: The run has no such quantity.
@@ -45,6 +47,13 @@ def quantity(run: xr.Dataset, name: str) -> xr.DataArray:
         height = centre.isel(axis=2)
         sag = height.isel(row=slice(0, 2)).mean("row") - height.isel(row=-1)
         return sag.assign_attrs(units="m", long_name="sag of the tip below the tethered rows")
+    if last == ROW_BEND and centre is not None:
+        way = centre.diff("row", label="lower")
+        slope = xr.apply_ufunc(np.arctan2, -way.isel(axis=2), way.isel(axis=1))
+        # A bend belongs to the row between two ways; the first and the last row have none.
+        bend: xr.DataArray = slope.diff("row", label="upper").reindex(row=centre["row"], fill_value=0.0)
+        ordered: xr.DataArray = bend.transpose("time", "row").rename(name)
+        return ordered.assign_attrs(units="rad", long_name="bend at every row")
     there = ", ".join(sorted(str(n) for n in run.data_vars))
     raise ValueError(f"no run of this scenario has a quantity `{name}`; there are: {there}, energy")
 

@@ -59,7 +59,7 @@ def _shipped(text: str) -> str:
     """Hashes of the shipped FMUs of a scenario: one that was built anew makes other runs."""
     found = []
     for name, given in json.loads(text)["components"].items():
-        if "fmu" in given and not given["fmu"].endswith(".fmu"):
+        if given.get("fmu") and not given["fmu"].endswith(".fmu"):
             component = FmuComponent.model_construct(**{"fmi": 3, "structure": {}, **given})
             file = find_fmu(component, Path(name))
             if str(file) not in _SHIPPED:

@@ -22,7 +22,7 @@ def take_along(scenario: Scenario, data: dict[str, Any], folder: Path) -> None:
     shipped = scenario_folder() / "parameter_sets"
     for name, component in data["components"].items():
         original = scenario.components.get(name)
-        fmu = component.get("fmu", "")
+        fmu = component.get("fmu") or ""
         if fmu.endswith(".fmu") and fmu == getattr(original, "fmu", None):
             beside = scenario.path.parent / fmu
             component["fmu"] = os.path.relpath(beside if beside.is_file() else fmu, folder)

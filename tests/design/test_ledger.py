@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from chainmail.design import ledger as ledger_module
-from chainmail.design.candidate import Candidate, rig_of
+from chainmail.design.candidate import Candidate, Pulse, rig_of, scenario_for
+from chainmail.design.command import write_page
 from chainmail.design.ledger import BudgetSpent, Ledger
 from chainmail.design.task import load_task
 from cosim.compute.batch import Batches
@@ -14,7 +14,7 @@ from cosim.compute.cluster import Here
 from tests.design.test_design import EXAMPLES, TASK
 
 #: Heated for a fifth of a second only: what is looked at here is the record of runs, not what they say.
-SHORT = Candidate((3,), 10.0, 300.0, 296.0, 2.5, 2.7, 9.0, 2.8)
+SHORT = Candidate((Pulse(3, 10.0, 300.0, 2.5, 2.7, 9.0),), 296.0, 2.5, 2.8)
 
 
 def _ledger(folder, coarse=3):
@@ -30,23 +30,31 @@ def _ledger(folder, coarse=3):
 
 
 @pytest.mark.slow
-def test_a_run_is_on_the_record_and_one_that_overlaps_is_made_again(tmp_path, monkeypatch):
+def test_runs_are_on_the_record_and_a_first_design_is_run_coarse_and_fine(tmp_path):
     ledger = _ledger(tmp_path)
-    (first,) = ledger.coarse(SHORT, (1,))
-    assert first.fidelity == "coarse"
-    assert not first.failure
-    # 10 V on six coils of 2.2 ohm for 0.2 s.
-    assert first.energy == pytest.approx(100.0 / 13.2 * 0.2, rel=1e-6)
-    assert first.values[1] == pytest.approx(100.0 / 13.2, rel=1e-9)
-    assert 0.0 < first.overlap < 1.5e-3
-    assert abs(first.values[0]) < 0.03
-    monkeypatch.setattr(ledger_module, "GATE", 0.0)
-    (again,) = ledger.coarse(SHORT, (1,))
-    assert again.fidelity == "fine"
-    assert [e.fidelity for e in ledger.entries] == ["coarse", "coarse", "fine"]
-    assert ledger.batches.made == 2  # the second coarse run came from the disk
-    assert ledger.table().count("\n") == 4
+    first = ledger.judged(SHORT)
+    assert first.fidelity == "fine"
+    assert [e.fidelity for e in ledger.entries] == ["coarse", "fine"]
+    for entry in ledger.entries:
+        assert not entry.failure
+        # 10 V on six coils of 2.2 ohm for 0.2 s.
+        assert entry.energy == pytest.approx(100.0 / 13.2 * 0.2, rel=1e-6)
+        assert entry.values[1] == pytest.approx(100.0 / 13.2, rel=1e-9)
+        assert 0.0 < entry.overlap < 1.5e-3
+        assert abs(entry.values[0]) < 0.03
+    assert len(ledger.pairs()) == 1
+    assert ledger.table().count("\n") == 3
+    assert ledger.batches.made == 2
     with pytest.raises(BudgetSpent, match="1 full runs"):
         ledger.full_batch(SHORT, (1001,))
-    with pytest.raises(BudgetSpent, match="3 coarse runs"):
-        ledger.coarse(SHORT, (1, 2))
+
+
+@pytest.mark.slow
+def test_the_page_shows_the_design_move(tmp_path):
+    ledger = _ledger(tmp_path)
+    out = tmp_path / "out"
+    out.mkdir()
+    write_page(scenario_for(SHORT, ledger.rig), out)
+    text = (out / "play.html").read_text()
+    assert "20 g at the tip" in text or "2 x 8" in text  # the title of the run
+    assert (out / "winner" / "results.nc").is_file()
