@@ -97,7 +97,8 @@ class CircuitUnit(Unit):
         nodes = coil_nodes(network)
         self._nodes = sorted(set(nodes) - {"0"})
         #: Place of every coil's node among `_nodes`; ground comes after the last.
-        self._node_of_coil = np.array([self._nodes.index(n) if n != "0" else len(self._nodes) for n in nodes])
+        number = {n: k for k, n in enumerate(self._nodes)}
+        self._node_of_coil = np.array([number.get(n, len(number)) for n in nodes])
         self._start = 0
         try:
             self._circuit: Circuit | None = Circuit(render(network), self._vectors())

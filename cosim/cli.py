@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -23,6 +24,7 @@ from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.ssp import command as ssp
+from cosim.terminal import in_one_line, printable
 from cosim.unit.errors import InputError
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
@@ -90,8 +92,9 @@ def list_scenarios() -> None:
 
 @app.command()
 def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
-    """Check a scenario, its FMUs and its connections without running it."""
+    """Check a scenario, its FMUs and its connections without running it; guess how long a run takes."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
+    from cosim.estimate import estimate
 
     loaded = load_scenario(scenario, changes or ())
     assembly = assemble(loaded)
@@ -102,6 +105,7 @@ def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
     print(f"{loaded.path}: valid; {parts}; {len(assembly.scenario.connections)} connections")
     for loop in loops:
         print(f"  {loop}")
+    print(f"  {estimate(assembly)}")
 
 
 @app.command()
@@ -153,7 +157,7 @@ def run(
         run_into(loaded, folder, resume, csv)
     if plots:
         _draw(folder, formats)
-    print(f"{folder.path}: {loaded.title}")
+    print(f"{folder.path}: {in_one_line(loaded.title)}")
 
 
 def _announce(scenario: Scenario, starts: int, jobs: int, resume: bool) -> None:
@@ -182,10 +186,10 @@ def _run_starts(
     outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
     if outcome.is_interrupted:
         print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
-        print(f"  go on with: cosim run {folder.path} --resume", file=sys.stderr)
+        print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED)
     for start, reason in sorted(outcome.failures.items()):
-        print(f"stopped: start {start}: {reason}", file=sys.stderr)
+        print(f"stopped: start {start}: {printable(str(reason))}", file=sys.stderr)
     if outcome.failures:
         if outcome.complete:
             if formats:
@@ -222,11 +226,11 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
         with progress_bar(scenario.title) as on_progress:
             record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
     except RunStopped as stopped:
-        print(f"stopped: {stopped.reason}", file=sys.stderr)
+        print(f"stopped: {printable(str(stopped.reason))}", file=sys.stderr)
         if folder.summary.is_file():
             print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:
-            print(f"  go on with: cosim run {folder.path} --resume", file=sys.stderr)
+            print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
 
 
@@ -279,7 +283,7 @@ def main() -> NoReturn:
     try:
         app()
     except InputError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {printable(str(error))}", file=sys.stderr)
         sys.exit(WRONG_INPUT)
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)

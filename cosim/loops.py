@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
-from scipy.optimize import anderson, root
 
 from cosim.connection import Transfer
 from cosim.ordering import in_order
@@ -121,6 +120,8 @@ class AlgebraicLoop:
         return all(_are_same(t.buffer, old) for t, old in zip(self.transfers, before))
 
     def _root(self, unknowns: Array) -> Array:
+        from scipy.optimize import anderson, root  # late: it takes a third of a second, and loops are rare
+
         def residual(u: Array) -> Array:
             return self._follow(np.asarray(u, dtype=np.float64)) - u
 

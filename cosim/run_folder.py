@@ -20,6 +20,7 @@ import itertools
 import json
 import os
 import platform
+import shlex
 import subprocess
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -167,7 +168,8 @@ class RunFolder:
                     "",
                     f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
                     f"in {scenario.path}",
-                    f"resume what it holds with `cosim run {self.path} --resume`, or give another folder with `--out`",
+                    f"resume what it holds with `cosim run {shlex.quote(str(self.path))} --resume`, or give another "
+                    "folder with `--out`",
                 )
 
     def is_complete(self) -> bool:
@@ -259,11 +261,11 @@ def writing(path: Path) -> Iterator[None]:
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
         remedy = _MAKE_ROOM if full else "give a folder that can be written, `--out`"
-        raise InputError(path, "", f"the run cannot be written: {error.strerror or error}", remedy) from error
+        raise InputError(path, "", f"it cannot be written: {error.strerror or error}", remedy) from error
     except RuntimeError as error:  # netCDF4 reports a full disk as "NetCDF: HDF error"
         if "HDF" not in str(error) and "space" not in str(error):
             raise
-        raise InputError(path, "", f"the run cannot be written: {error} (is the disk full?)", _MAKE_ROOM) from error
+        raise InputError(path, "", f"it cannot be written: {error} (is the disk full?)", _MAKE_ROOM) from error
 
 
 @contextmanager

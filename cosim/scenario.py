@@ -57,6 +57,10 @@ def default_checkpoint_step(duration: int, output_step: int) -> int:
     return -(-wanted // output_step) * output_step
 
 
+#: Simulated time [ns] that a signed number of 64 bits no longer holds, about 292 years.
+LATEST = 2**63
+
+
 class TimeSettings(Strict):
     """Start, end and steps of a run."""
 
@@ -76,6 +80,8 @@ class TimeSettings(Strict):
         output, checkpoint = nanoseconds(self.output_step), nanoseconds(self.checkpoint_step)
         if stop <= start:
             raise ValueError(f"stop ({self.stop}) must come after start ({self.start})")
+        if max(abs(start), stop) >= LATEST:
+            raise ValueError(f"simulated time ends at {LATEST / 1e9:.3g} s: it is counted in nanoseconds")
         if "checkpoint_step" not in self.model_fields_set:
             checkpoint = default_checkpoint_step(stop - start, output)
             self.__dict__["checkpoint_step"] = PhysicalValue(checkpoint / 1e9, "s")
@@ -288,6 +294,8 @@ def find_scenario(path: str | Path) -> Path:
     shipped = shipped_scenarios()
     if str(path) in shipped:
         return shipped[str(path)]
+    if os.path.isdir(direct) and str(path):
+        raise InputError(path, "", "this is a folder", "give the scenario file in it, or the name of a shipped one")
     problem = f"there is no such scenario{did_you_mean(str(path), shipped)}"
     raise InputError(path, "", problem, f"give a file, or one of: {', '.join(shipped)}")
 

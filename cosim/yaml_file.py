@@ -14,7 +14,7 @@ from cosim.faults import is_weak, shown, words
 from cosim.unit.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
-_MEMBER = re.compile(r"^(bool|function-plain\[.*|union\[.*|list\[.*|float|int|str)$")
+_MEMBER = re.compile(r"^(bool|constrained-str|function-plain\[.*|union\[.*|list\[.*|float|int|str|\[key\])$")
 _KINDS = (
     "programme",
     "ngspice",
@@ -34,6 +34,7 @@ _KINDS = (
     "drop",
     "source_resistance",
     "current_limit",
+    "ScaledConnection",
 )
 
 
@@ -68,8 +69,11 @@ def read_text(path: Path) -> str:
     """
     try:
         return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(path, "", f"it cannot be read: {error}", "give a YAML file") from error
+    except UnicodeDecodeError as error:
+        what = f"its byte {error.start + 1} is no UTF-8"
+        raise InputError(path, "", what, "give a YAML file, saved as UTF-8") from error
+    except OSError as error:
+        raise InputError(path, "", f"it cannot be read: {error.strerror}", "give a YAML file") from error
 
 
 def parse_yaml(text: str, source: Path) -> Any:
@@ -137,20 +141,22 @@ def input_error(
     for fault in error.errors():
         key = _key(fault["loc"])
         # Of the members of a union the one that reads numbers says most; the others only say what they are not.
-        is_other_member = fault["type"] in ("bool_type", "list_type") and len(fault["loc"]) > 1
+        is_other_member = fault["type"] in ("bool_type", "list_type", "model_type") and len(fault["loc"]) > 1
         if key not in faults or (key in weak and not is_other_member):
             faults[key] = _message(fault, model)
             (weak.add if is_weak(fault) else weak.discard)(key)
-    (key, message), *rest = faults.items()
+    # Where a mapping has a wrong key, that it is none of the other members of a union says nothing.
+    weak = {k for k in weak if any(other.startswith(f"{k}.") for other in faults)}
+    (key, message), *rest = ((k, text) for k, text in faults.items() if k not in weak)
     more = "".join(f"\n  also {other}: {text}" for other, text in rest)
     return InputError(source, key, message + more, remedy)
 
 
 def _key(place: Sequence[int | str]) -> str:
     """Keys of the file that lead to a fault, for example `components.fabric.rows`."""
-    # The third part below a component, and the second below the algorithm, is its kind, which pydantic inserts; no key
-    # of the file stands there.
-    inserted = {"components": 2, "algorithm": 1}.get(str(place[0])) if place else None
+    # The third part below a component or a connection, and the second below the algorithm, is its kind, which pydantic
+    # inserts; no key of the file stands there.
+    inserted = {"components": 2, "algorithm": 1, "connections": 2}.get(str(place[0])) if place else None
     parts = [p for i, p in enumerate(place) if not (i == inserted and p in _KINDS)]
     return ".".join(str(p) for p in parts if not (isinstance(p, str) and _MEMBER.match(p)))
 

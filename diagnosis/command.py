@@ -155,6 +155,10 @@ def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
         (out / ".writable").unlink()
     if is_new:
         out.rmdir()
+    from diagnosis.recording.together import refuse_doubled
+
+    refuse_doubled(recording)
+    refuse_doubled(held_out)
     same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
     if same:
         raise InputError(

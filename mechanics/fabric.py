@@ -217,9 +217,6 @@ def layout(design: FabricDesign) -> Layout:
     back[:, 1], back[:, 2] = y[chain], z[chain]
     tethered = row < design.tether_rows
     cantilever = design.tether_kind == "cantilever"
-    # Each B link (first index) is hooked into the A links beside it, of its own row and of the next.
-    beside, ahead = np.abs(place[:, None] - place) == 1, row - row[:, None]
-    hooked = np.argwhere(is_b[:, None] & ~is_b & beside & ((ahead == 0) | (ahead == 1)))
     return Layout(
         row=row,
         link_in_row=place,
@@ -229,8 +226,18 @@ def layout(design: FabricDesign) -> Layout:
         bar_distance=distance[chain],
         is_fixed=tethered & (cantilever | ~is_b),
         is_locked=tethered & cantilever,
-        hooked=hooked,
+        hooked=_hooked(links, per_row),
     )
+
+
+def _hooked(links: int, per_row: int) -> npt.NDArray[np.int64]:
+    """Each B link (odd places) with the A links beside it, of its own row and of the next; shape (pair, 2)."""
+    own = np.arange(links)[np.arange(links) % per_row % 2 == 1]
+    ahead, aside = np.array([0, 0, 1, 1]), np.array([-1, 1, -1, 1])
+    row, place = own[:, None] // per_row + ahead, own[:, None] % per_row + aside
+    is_there = (place >= 0) & (place < per_row) & (row * per_row < links)
+    pairs = np.stack([np.broadcast_to(own[:, None], row.shape), row * per_row + place], axis=2)
+    return np.asarray(pairs[is_there])
 
 
 def _side_view(design: FabricDesign) -> tuple[Array, Array, Array, Array]:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
+from mechanics.root import root_between
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def taut_weave(bar_distance: float, bar_diameter: float) -> Weave:
     if not 0 < bar_diameter < bar_distance:
         raise ValueError(f"bar_diameter {bar_diameter} m must lie between 0 and the bar distance {bar_distance} m")
     ratio = bar_diameter / bar_distance
-    tilt = float(brentq(lambda t: math.sin(t) ** 3 - ratio * math.cos(t), 1e-6, math.pi / 2 - 1e-6, xtol=1e-14))
+    tilt = root_between(lambda t: math.sin(t) ** 3 - ratio * math.cos(t), 1e-6, math.pi / 2 - 1e-6, 1e-14)
     pitch = 2 * (bar_distance * math.cos(tilt) - bar_diameter / math.sin(tilt))
     if pitch < bar_diameter / math.sin(tilt) + bar_diameter - 1e-12:
         raise ValueError(
@@ -61,7 +61,7 @@ def taut_weave(bar_distance: float, bar_diameter: float) -> Weave:
 
 def taut_jam_ratio() -> float:
     """Smallest L / d of a taut weave whose bars do not overlap: s^3 + 5 s^2 = 2 with s = sin(theta), about 3.76."""
-    s = float(brentq(lambda x: x**3 + 5 * x**2 - 2, 0.0, 1.0, xtol=1e-14))
+    s = root_between(lambda x: x**3 + 5 * x**2 - 2, 0.0, 1.0, 1e-14)
     return math.sqrt(1 - s * s) / s**3
 
 
@@ -78,7 +78,7 @@ def jammed_weave(bar_diameter: float) -> Weave:
     >>> round(jam.bar_distance, 2), round(jam.pitch, 2)
     (3.69, 2.49)
     """
-    tilt = float(brentq(lambda t: math.sin(t) ** 2 * (math.sin(t) + 3) - 3 * math.cos(t) ** 2, 0.1, 1.5, xtol=1e-14))
+    tilt = root_between(lambda t: math.sin(t) ** 2 * (math.sin(t) + 3) - 3 * math.cos(t) ** 2, 0.1, 1.5, 1e-14)
     distance = bar_diameter * (1 + 3 / math.sin(tilt)) / (2 * math.cos(tilt))
     return Weave(distance, tilt, 2 * (distance * math.cos(tilt) - bar_diameter / math.sin(tilt)))
 
@@ -110,5 +110,5 @@ def calibrate(pitch_cold: float, pitch_hot: float, length_cold: float) -> Calibr
     shortest = taut_jam_ratio() * diameter * (1 + 1e-9)
     if taut_weave(shortest, diameter).pitch > pitch_cold:
         raise ValueError(f"cold pitch {pitch_cold} m is too close to the hot pitch {pitch_hot} m for a jammed lattice")
-    distance = float(brentq(lambda L: taut_weave(L, diameter).pitch - pitch_cold, shortest, 10 * diameter, xtol=1e-12))
+    distance = root_between(lambda L: taut_weave(L, diameter).pitch - pitch_cold, shortest, 10 * diameter, 1e-12)
     return Calibration(diameter, distance - length_cold)

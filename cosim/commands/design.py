@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -38,7 +39,8 @@ def design(
             code = find(task, out, place, resume, display.stage, display.progress, page)
     except KeyboardInterrupt as error:
         print(
-            f"interrupted; finished runs are kept, go on with: cosim design {task} --out {out} --resume",
+            "interrupted; finished runs are kept, go on with: "
+            + shlex.join(["cosim", "design", str(task), "--out", str(out), "--resume"]),
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

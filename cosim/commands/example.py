@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
 from pathlib import Path
 from typing import Annotated
@@ -35,18 +36,19 @@ def example(
     target = out or Path(source.name)
     if target.exists():
         raise InputError(target, "", "it exists already", "give another name with `--out`")
+    quoted = shlex.quote(str(target))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         if source.is_dir():
             shutil.copytree(source, target, copy_function=shutil.copyfile)
             print(
                 f"{target}: a scenario and recordings of it; go on with\n"
-                f"  cosim diagnose {target}/scenario.yaml --recording {target}/monday --held-out {target}/tuesday "
+                f"  cosim diagnose {quoted}/scenario.yaml --recording {quoted}/monday --held-out {quoted}/tuesday "
                 f"--out answer"
             )
         else:
             shutil.copyfile(source, target)
-            print(f"{target}: edit it, then\n  cosim run {target}")
+            print(f"{target}: edit it, then\n  cosim run {quoted}")
     except OSError as error:
         raise InputError(
             target, "", f"it cannot be written: {error.strerror or error}", "give another place with `--out`"

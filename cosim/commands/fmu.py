@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -34,8 +35,9 @@ def new(
     from cosim.fmu_tools.new import begin
 
     folder = begin(name, language)
+    quoted = shlex.quote(str(folder))
     source = "config.h and model.c" if language is Language.C else "actuator.py"
-    print(f"{folder}: edit {source}, then\n  cosim fmu build {folder}\n  cosim run {folder}/scenario.yaml")
+    print(f"{folder}: edit {source}, then\n  cosim fmu build {quoted}\n  cosim run {quoted}/scenario.yaml")
 
 
 @app.command()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -39,7 +40,8 @@ def sweep(
             code = make(file, folder, choose_place(jobs, cluster, goes_on=True), resume, display.progress)
     except KeyboardInterrupt as error:
         print(
-            f"interrupted; finished runs are kept, go on with: cosim sweep {file} --out {folder} --resume",
+            "interrupted; finished runs are kept, go on with: "
+            + shlex.join(["cosim", "sweep", str(file), "--out", str(folder), "--resume"]),
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from cosim.native.csv_file import CsvColumn, CsvWriter
-from cosim.observers.trace import Channel, Trace
+from cosim.observers.channels import Channel
+from cosim.observers.trace import Trace
 from cosim.unit.protocol import AnyArray, VariableType
 
 #: Rows that are written before memory is given back.

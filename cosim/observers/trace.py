@@ -3,43 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from cosim.observers.channels import Channel, recorded_channels
 from cosim.observers.storage import Storage
 from cosim.system import System
-from cosim.unit.protocol import AnyArray, Causality, Coordinate, Variable, VariableType, seconds
+from cosim.unit.protocol import AnyArray, Coordinate, Variable, VariableType, seconds
 
 #: Times are converted to seconds in pieces of so many.
 _TIMES_AT_ONCE = 1 << 16
-_RECORDED = {Causality.OUTPUT, Causality.LOCAL}
 #: Bytes as text: NetCDF has no bytes of variable length, and scenarios give them so too.
 _HEXADECIMAL = np.frompyfunc(bytes.hex, 1, 1)
-
-
-@dataclass(frozen=True)
-class Channel:
-    """One recorded variable.
-
-    Args:
-        unit: Component.
-        variable: Its variable.
-        dims: Dimension names in the dataset (a component's name is put before a dimension that others use with
-            another size).
-    """
-
-    unit: str
-    variable: Variable
-    dims: tuple[str, ...]
-
-    @property
-    def name(self) -> str:
-        """Name in the dataset, `component.variable`."""
-        return f"{self.unit}.{self.variable.name}"
 
 
 class Trace:
@@ -58,7 +36,7 @@ class Trace:
     def __init__(self, system: System, times: Sequence[int], folder: Path | None = None) -> None:
         self.system = system
         self.times = times
-        self.channels = _channels(system)
+        self.channels = recorded_channels(system)
         self.count = 0
         #: Name of a channel to its values, shape (output times, ...); the first `count` rows are recorded.
         shapes = [((len(times), *c.variable.shape), c.variable.type.dtype) for c in self.channels]
@@ -156,21 +134,6 @@ def keep(rows: AnyArray, row: int, variable: Variable, value: AnyArray) -> None:
     """
     # without the dots a text would be kept as an array of its own
     rows[row, ...] = _HEXADECIMAL(value) if variable.type is VariableType.BINARY else value
-
-
-def _channels(system: System) -> list[Channel]:
-    sizes: dict[str, int] = {}
-    result = []
-    for name, unit in system.units.items():
-        for variable in unit.variables.values():
-            if variable.causality not in _RECORDED or not variable.recorded:
-                continue
-            dims = []
-            for dim, size in zip(variable.dims, variable.shape, strict=True):
-                shared = dim if sizes.setdefault(dim, size) == size else f"{name}_{dim}"
-                dims.append(shared)
-            result.append(Channel(name, variable, tuple(dims)))
-    return result
 
 
 def _coordinates(system: System, channels: list[Channel]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pint
+import platformdirs
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticSerializationUnexpectedValue, core_schema
@@ -19,8 +20,12 @@ _PATTERN = r"^\s*[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?\s*.*$"
 
 @functools.cache
 def registry() -> pint.UnitRegistry[Any]:
-    """The unit registry, made once."""
-    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    """The unit registry, made once; its definitions, once parsed, are kept in the user's cache."""
+    folder = platformdirs.user_cache_path("active-chainmail", appauthor=False) / "units"
+    try:
+        return pint.UnitRegistry(autoconvert_offset_to_baseunit=True, cache_folder=folder)
+    except Exception:  # no room, no permission, a damaged file: pickle and pint raise many unrelated kinds
+        return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
 @functools.cache

@@ -86,9 +86,11 @@ def check(
     from diagnosis.check.page import write_page
     from diagnosis.check.tables import print_check
     from diagnosis.recording.recording import load_recording
+    from diagnosis.recording.together import refuse_doubled
 
     if out is not None and out.exists():
         raise InputError(out, "", "this file exists already", "give another name with `--out`")
+    refuse_doubled(recordings)
     base = load_scenario(scenario)
     every = [compare(base, load_recording(path)) for path in recordings]
     doubts = doubts_of(every)

@@ -19,6 +19,8 @@ from diagnosis.search.score import Projection, Score, Scoring
 PIECES = 24
 #: Pieces of which a sensor that is stuck is tried to hold.
 STUCK_PIECES = 64
+#: Begins and ends that are tried at once near the best; the number of intervals grows with the square of it.
+MOST_CUTS = 400
 
 Lead = tuple[Term, tuple[float, ...]] | None
 
@@ -87,13 +89,33 @@ def _offset(found: _Collected, projection: Projection, scaled: Scaled, readings:
         return
     found.add(term, best, readings.edges[cuts])
     if len(cuts) <= count and best.gain > term.price:
-        near = [range(cuts[max(e - 1, 0)], cuts[min(e + 1, len(cuts) - 1)] + 1) for e in (best.first, best.last)]
-        finer = np.unique(np.concatenate([[0], *near, [count]]))
-        better = best_interval(_offsets(projection, scaled, readings, finer), FEWEST, bounds)
-        if better is not None and better.gain > best.gain:
+        better, finer = _refined(projection, scaled, readings, cuts, best, bounds)
+        if better.gain > best.gain:
             edges = readings.edges[finer]
             found.scores.pop()
             found.score(term, better.gain, (better.amount, float(edges[better.first]), float(edges[better.last])))
+
+
+def _refined(
+    projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray, best: Best, bounds: tuple[float, float]
+) -> tuple[Best, AnyArray]:
+    """The best interval near another one, down to single samples, with the cuts that it counts in.
+
+    Where there are too many samples to try each begin with each end, every n-th is tried first, and each near the best
+    of them then.
+    """
+    count = len(readings.measured)
+    while True:
+        near = [np.arange(cuts[max(e - 1, 0)], cuts[min(e + 1, len(cuts) - 1)] + 1) for e in (best.first, best.last)]
+        step = -(-sum(len(n) for n in near) // MOST_CUTS)
+        found = cuts[[best.first, best.last]]
+        finer = np.unique(np.concatenate([[0], *(n[::step] for n in near), found, [count]]))
+        better = best_interval(_offsets(projection, scaled, readings, finer).without_nulls(), FEWEST, bounds)
+        if better is None:
+            return best, cuts
+        best, cuts = better, finer
+        if step == 1:
+            return best, cuts
 
 
 def _offsets(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray) -> Pieces:

@@ -309,6 +309,8 @@ class Used:
         begin: Time of its first sample [s].
         end: Time of its last sample [s].
         channels: Names of its channels.
+        readings: Readings of all channels that were compared.
+        thinned: Readings that were not because there were so many, at even distances.
     """
 
     title: str
@@ -317,6 +319,8 @@ class Used:
     begin: float
     end: float
     channels: tuple[str, ...]
+    readings: int = 0
+    thinned: int = 0
 
 
 @dataclass(frozen=True)

@@ -15,4 +15,7 @@ def used(training: Sequence[Recording], held_out: Sequence[Recording]) -> tuple[
 
 def _used(recording: Recording, is_held_out: bool) -> Used:
     begin = min(float(c.times[0]) for c in recording.channels.values())
-    return Used(recording.title, str(recording.path), is_held_out, begin, recording.end, tuple(recording.channels))
+    readings = sum(len(c.times) for c in recording.channels.values())
+    thinned = sum(c.dropped.get("thinned", 0) for c in recording.channels.values())
+    names = tuple(recording.channels)
+    return Used(recording.title, str(recording.path), is_held_out, begin, recording.end, names, readings, thinned)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,10 @@ FEWEST_VALUES = 8
 #: Most values of a channel that are compared. Their mean is known to 0.7 % of one reading's noise, far below what any
 #: model or calibration is right to, and 100 channels with 100 derivatives stay within 1 GB in single precision.
 MOST_VALUES = 20_000
+#: Most values of all channels of a recording together: each is a row of every derivative that a search takes.
+MOST_READINGS = 40_000
+#: However many channels there are, so many values of each are kept.
+LEAST_KEPT = 1_000
 #: Most changes of a recorded input: each becomes a point of the programme in a text that is read several times.
 MOST_CHANGES = 20_000
 
@@ -139,8 +143,8 @@ def load_recording(path: str | Path) -> Recording:
     Args:
         path: Folder with recording.yaml, or that file.
 
-    Of a channel with more than `MOST_VALUES` values that many are kept, spread evenly (`Channel.dropped` says how many
-    were not).
+    Of a channel with more than `MOST_VALUES` values that many are kept, spread evenly, and fewer where all channels
+    have more than `MOST_READINGS` (`Channel.dropped` says how many were not).
 
     Raises:
         InputError: A file or key is missing or wrong, a column does not exist, holds text or infinite values, a value
@@ -188,7 +192,9 @@ class _Reader:
 
     def recording(self) -> Recording:
         sidecar = self.sidecar
-        channels = alike({name: self._channel(name, entry) for name, entry in sidecar.channels.items()})
+        rows = {name: self._rows(name, entry) for name, entry in sidecar.channels.items()}
+        most = fair_share([len(r) for r, _ in rows.values()])
+        channels = alike({n: self._channel(n, entry, *rows[n], most) for n, entry in sidecar.channels.items()})
         inputs = tuple(self._input(name, entry) for name, entry in sidecar.inputs.items())
         end = max(float(c.times[-1]) for c in channels.values())
         beginning = 0.0 if sidecar.beginning is None else sidecar.beginning.to("s")
@@ -279,7 +285,10 @@ class _Reader:
             what = f"its times do not rise: {times[first]:.6g} s, then {times[first + 1]:.6g} s"
             raise InputError(self.file, key, what, "sort the table and remove doubled rows")
 
-    def _channel(self, name: str, entry: ChannelEntry) -> Channel:
+    def _channel(
+        self, name: str, entry: ChannelEntry, counted: AnyArray, dropped: Mapping[str, int], most: int
+    ) -> Channel:
+        """A channel of at most so many of the rows that count."""
         key = f"channels.{name}"
         target = self._target(name, key)
         unit = SI_UNITS.get(target.quantity, entry.unit)
@@ -289,7 +298,9 @@ class _Reader:
         times, clock = self._times(entry.table, entry.time, key)
         raw = self._table(entry.table).column(entry.column, f"{key}.column")
         own = self._own_noise(entry, key)
-        rows, dropped = self._rows(times, raw, own, entry, key)
+        rows = _thinned(counted, len(raw), most)
+        if len(rows) < len(counted):
+            dropped = {**dropped, "thinned": len(counted) - len(rows)}
         times, values = times[rows], factor * (entry.factor * raw[rows]) + offset
         limits = self._limits(entry, unit, key)
         quantum = self._difference(entry.quantum, unit, f"{key}.quantum")
@@ -327,10 +338,13 @@ class _Reader:
             raise InputError(self.file, f"{key}.noise_column", what, "give one for each reading")
         return own
 
-    def _rows(
-        self, times: Array, raw: Array, own: Array | None, entry: ChannelEntry, key: str
-    ) -> tuple[AnyArray, dict[str, int]]:
-        """Numbers of the rows of a column that are its samples, and why the others are none."""
+    def _rows(self, name: str, entry: ChannelEntry) -> tuple[AnyArray, dict[str, int]]:
+        """Numbers of the rows of a column that can be its samples, and why the others cannot."""
+        key = f"channels.{name}"
+        self._target(name, key)
+        times, _ = self._times(entry.table, entry.time, key)
+        raw = self._table(entry.table).column(entry.column, f"{key}.column")
+        own = self._own_noise(entry, key)
         is_invalid = np.isin(raw, entry.invalid)
         filled = self._known(times, np.where(is_invalid, math.nan, raw), key)
         begin = -math.inf if self.sidecar.begin is None else self.sidecar.begin.to("s")
@@ -349,16 +363,14 @@ class _Reader:
                 "leave the channel out, or correct begin, end and invalid",
             )
         self._check_times(times[rows], key)
-        kept = _thinned(rows, len(raw))
         counts = {
             "empty": int(np.count_nonzero(~filled & ~is_invalid)),
             "invalid": int(np.count_nonzero(is_invalid)),
             "before begin": int(np.count_nonzero(early)),
             "after end": int(np.count_nonzero(late)),
             "uncertain": vague,
-            "thinned": len(rows) - len(kept),
         }
-        return kept, {reason: count for reason, count in counts.items() if count}
+        return rows, {reason: count for reason, count in counts.items() if count}
 
     def _target(self, name: str, key: str) -> Target:
         try:
@@ -418,15 +430,32 @@ def _columns(sidecar: Sidecar) -> dict[str, set[str]]:
     return found
 
 
-def _thinned(rows: AnyArray, count: int) -> AnyArray:
-    """At most `MOST_VALUES` of the rows that hold a value: the first of each stretch of the table.
+def fair_share(counts: Sequence[int]) -> int:
+    """Most values that each channel may keep so that all together have no more than `MOST_READINGS`.
+
+    Channels with few values keep them all, and leave more for the others.
+
+    >>> fair_share([500, 500]), fair_share([10**6, 10**6, 600]), fair_share([10**6] * 1000)
+    (20000, 19700, 1000)
+    """
+    left, rest = MOST_READINGS, len(counts)
+    for count in sorted(counts):
+        if count * rest > left:
+            break
+        left, rest = left - count, rest - 1
+    share = left // rest if rest else MOST_VALUES
+    return min(max(share, LEAST_KEPT), MOST_VALUES)
+
+
+def _thinned(rows: AnyArray, count: int, most: int) -> AnyArray:
+    """At most so many of the rows that hold a value: the first of each stretch of the table.
 
     Readings are picked, not averaged: what is kept has the noise that was stated, also where it is not white, is
     rounded and clipped as it was, and belongs to one instant. Channels of one table keep the same rows where they can.
     """
-    if len(rows) <= MOST_VALUES:
+    if len(rows) <= most:
         return rows
-    stretch = rows // math.ceil(count / MOST_VALUES)
+    stretch = rows // math.ceil(count / most)
     return np.asarray(rows[np.concatenate([[True], np.diff(stretch) > 0])])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
@@ -53,7 +54,28 @@ class Table:
         how: dict[str, Any] = {"skiprows": header_lines, "skipinitialspace": True, "comment": None}
         self._names = [str(n) for n in pd.read_csv(self.file, nrows=0, **how).columns]
         columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
+        self._check_widths(header_lines)
         return pd.read_csv(self.file, usecols=columns, **how)
+
+    def _check_widths(self, header_lines: int) -> None:
+        """Refuse rows with more values than there are columns: which are meant, nobody knows.
+
+        pandas takes the first ones, so that `0,5,21,3` with decimal commas under `t,T` was read as 0 and 5.
+
+        Raises:
+            ValueError: There is such a row.
+        """
+        width = len(self._names)
+        with self.file.open(encoding="utf-8", newline="") as lines:
+            for number, line in enumerate(lines):
+                if number <= header_lines or line.count(",") < width:
+                    continue
+                fields = next(csv.reader([line]))
+                if any(field.strip() for field in fields[width:]):
+                    raise ValueError(
+                        f"line {number + 1} has {len(fields)} values under {width} column names; is a comma the "
+                        "decimal mark? `cosim recording new` reads such tables"
+                    )
 
     def column(self, name: str, key: str) -> Array:
         """Values of a column, shape (rows,); what is empty is not a number.

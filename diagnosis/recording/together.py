@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from pathlib import Path
 
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
@@ -33,6 +34,14 @@ def prepared(
     check_order(both)
     found = distinct(fitting(scenario, both))
     return found[: len(training)], found[len(training) :]
+
+
+def refuse_doubled(recordings: Sequence[Path]) -> None:
+    """Refuse a recording that is given twice: it would count as two, and everything would seem surer than it is."""
+    folders = [p.resolve() for p in recordings]
+    doubled = [given for given, folder in zip(recordings, folders) if folders.count(folder) > 1]
+    if doubled:
+        raise InputError(doubled[0], "", "this recording is given twice", "give each recording once")
 
 
 def check_order(recordings: Sequence[Recording]) -> None:

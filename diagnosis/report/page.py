@@ -25,9 +25,11 @@ from diagnosis.report.sentences import (
     effort,
     improvement,
     moved_text,
+    readings_text,
     searched,
     structure,
     sureness,
+    thinning,
     what,
     when,
     where,
@@ -273,12 +275,16 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
             "held out" if r.is_held_out else "training",
             units.span(r.begin, r.end),
             str(len(r.channels)),
+            readings_text(r),
             clean(r.path),
         )
         for r in diagnosis.recordings
     ]
-    told = table(("recording", "part", "time", "channels", "folder"), rows)
-    return _section("What it rests on", element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told)
+    told = table(("recording", "part", "time", "channels", "readings", "folder"), rows)
+    parts = [element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told]
+    if thinning(diagnosis):
+        parts.append(element("p", thinning(diagnosis), class_="note"))
+    return _section("What it rests on", *parts)
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Verdict
+from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Used, Verdict
 from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, user_unit, words
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
@@ -152,6 +152,24 @@ def structure(diagnosis: Diagnosis) -> str:
 def effort(diagnosis: Diagnosis) -> str:
     """Time, simulations and seed."""
     return f"{duration(diagnosis.seconds)}, {diagnosis.simulations} simulations, seed {diagnosis.seed}"
+
+
+def readings_text(recording: Used) -> str:
+    """How many readings were compared: `40000 of 6000000` where some were left out because there were so many."""
+    return (
+        f"{recording.readings} of {recording.readings + recording.thinned}"
+        if recording.thinned
+        else str(recording.readings)
+    )
+
+
+def thinning(diagnosis: Diagnosis) -> str:
+    """That readings were left out because there were so many; empty where none were."""
+    thinned = [r for r in diagnosis.recordings if r.thinned]
+    if not thinned:
+        return ""
+    told = listed([f"{readings_text(r)} in {clean(r.title)}" for r in thinned], 3)
+    return f"Of very many readings a part was used, at even distances and as they are: {told}."
 
 
 def moved_text(moved: Moved, units: Units = IN_SI) -> str:

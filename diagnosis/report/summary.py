@@ -22,6 +22,7 @@ from diagnosis.report.sentences import (
     searched,
     structure,
     sureness,
+    thinning,
     what,
     when,
     where,
@@ -55,6 +56,8 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
     top.stylize(_STYLES[diagnosis.verdict], 0, len(head))
     lines = [top, *map(Text, others)]
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
+    if thinning(diagnosis):
+        foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
     if diagnosis.next_experiment is not None:
         foot += map(Text, _wrapped("next     ", _next(diagnosis.next_experiment), width, 6))
     if diagnosis.amended_model:

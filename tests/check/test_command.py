@@ -63,3 +63,13 @@ def test_page_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "page.html").write_text("mine")
     with pytest.raises(InputError, match="this file exists already"):
         check(str(tmp_path), "--scenario", "tclab", "--out", str(tmp_path / "page.html"))
+
+
+def test_a_recording_that_is_given_twice_is_refused(tmp_path: Path) -> None:
+    """It would count as two, and every finding would seem surer than it is."""
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
+    with pytest.raises(InputError, match="given twice"):
+        check(str(a), str(a.parent / "." / "a"), "--scenario", "tclab")
+    arguments = ["diagnose", "tclab", "--recording", str(a), "--recording", f"{a}/", "--out", str(tmp_path / "out")]
+    with pytest.raises(InputError, match="given twice"):
+        CliRunner().invoke(app, arguments, catch_exceptions=False)

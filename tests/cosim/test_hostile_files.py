@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 from cosim.assemble import assemble
+from cosim.cli import app
 from cosim.scenario import find_scenario, load_scenario
 from cosim.unit.errors import InputError
 from cosim.yaml_file import DEEPEST
@@ -33,6 +37,12 @@ HOSTILE = {
     "a negative step": (("macro_step: 0.1 s", "macro_step: -1 s"), "time.macro_step", ""),
     "an FMU's name of 300 letters": (("x.fmu", "y" * 300 + ".fmu"), "", "there is no such FMU"),
     "an actuator's name of 300 letters": (("x.fmu", "y" * 300), "components.u.fmu", "there is no shipped FMU"),
+    "a stop beyond 292 years": (
+        ("stop: 1 s, macro_step: 0.1 s, output_step: 0.1 s", "stop: 1e30 s, macro_step: 0.5 s, output_step: 0.5 s"),
+        "time",
+        "ends at 9.22e+09 s",
+    ),
+    "a name with a slash": (("  u: {", "  a/b: {"), "components.a/b", "`a/b` is not a name"),
     "an FMU that is a folder": (("x.fmu", "/.fmu"), "", "there is no such FMU"),
 }
 
@@ -85,3 +95,54 @@ components:
 def test_a_scenario_s_name_of_300_letters_is_unknown() -> None:
     with pytest.raises(InputError, match="there is no such scenario"):
         find_scenario("y" * 300)
+
+
+def test_a_folder_is_no_scenario(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="this is a folder"):
+        find_scenario(tmp_path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "latin-1"])
+def test_text_that_is_not_utf_8_is_refused_with_what_to_do(tmp_path: Path, encoding: str) -> None:
+    path = tmp_path / "scenario.yaml"
+    path.write_bytes(BASE.replace("title: t", "title: Wärme").encode(encoding))
+    with pytest.raises(InputError, match=r"its byte \d+ is no UTF-8\n  remedy: give a YAML file, saved as UTF-8"):
+        load_scenario(path)
+
+
+@pytest.mark.parametrize(
+    ("connection", "key", "what"),
+    [
+        ("a.b => c.d", "connections.0", "`a.b => c.d` is no connection"),
+        ("{connect: a.b -> c.d, factr: 2.0}", "connections.0.factr", "did you mean `factor`?"),
+        ("5", "connections.0", "`5`"),
+    ],
+)
+def test_a_wrong_connection_has_one_message_in_our_words(tmp_path: Path, connection: str, key: str, what: str) -> None:
+    path = tmp_path / "scenario.yaml"
+    path.write_text(f"{BASE}connections: [{connection}]\n")
+    with pytest.raises(InputError) as refused:
+        load_scenario(path)
+    assert refused.value.key == key
+    assert what in refused.value.problem
+    assert "also" not in refused.value.problem
+    assert "constrained" not in str(refused.value)
+    assert "ScaledConnection" not in str(refused.value)
+
+
+def test_foreign_text_does_not_steer_the_terminal(tmp_path: Path) -> None:
+    path = tmp_path / "wrong.yaml"
+    path.write_text(BASE.replace("fmi: 2", '"\\e[31mred": 2'))
+    done = subprocess.run([sys.executable, "-m", "cosim.cli", "validate", str(path)], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert " [31mred: there is no such key here" in done.stderr
+    assert "\x1b" not in done.stderr
+
+
+def test_commands_that_are_suggested_can_be_pasted(tmp_path: Path) -> None:
+    folder = tmp_path / "my rig [1]"
+    assert (
+        CliRunner()
+        .invoke(app, ["example", "passive_drape", "--out", str(folder)])
+        .output.endswith(f"  cosim run '{folder}'\n")
+    )

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from cosim.algorithms import gauss_seidel, jacobi
 from cosim.connection import Connection
@@ -218,3 +220,20 @@ def test_order_of_rings_and_chains():
     assert sorted(map(sorted, in_order(5, [(0, 1), (1, 0), (1, 2), (3, 4), (4, 3), (4, 0)]))) == [[0, 1], [2], [3, 4]]
     order = in_order(5, [(0, 1), (1, 0), (1, 2), (3, 4), (4, 3), (4, 0)])
     assert [sorted(group) for group in order] == [[3, 4], [0, 1], [2]]
+
+
+def test_rings_of_any_graph_are_those_that_scipy_finds():
+    random = np.random.default_rng(4)
+    for _ in range(300):
+        count = int(random.integers(1, 12))
+        edges = random.integers(0, count, (int(random.integers(0, 2 * count)), 2)).tolist()
+        graph = coo_array((np.ones(len(edges)), np.reshape(edges, (-1, 2)).T), shape=(count, count))
+        labels = connected_components(graph, directed=True, connection="strong")[1]
+        order = in_order(count, [(a, b) for a, b in edges])
+        assert {frozenset(g) for g in order} == {frozenset(np.flatnonzero(labels == n).tolist()) for n in set(labels)}
+        place = {node: n for n, group in enumerate(order) for node in group}
+        assert all(place[a] <= place[b] for a, b in edges)
+
+
+def test_a_chain_of_thousands_needs_no_deep_recursion():
+    assert in_order(5000, [(i, i + 1) for i in range(4999)]) == [[i] for i in range(5000)]

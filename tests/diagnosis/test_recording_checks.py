@@ -78,6 +78,34 @@ def test_a_long_table_is_thinned_to_readings_as_they_are(tmp_path, monkeypatch):
     assert "thinned" not in sparse.dropped
 
 
+@pytest.mark.parametrize(
+    ("row", "is_read"), [("3,0,21,5", False), ('3,"21"', True), ("3,21,", True), ("3,21, ,", True), ("3,21,,x", False)]
+)
+def test_a_row_with_more_values_than_columns_is_refused(tmp_path, row, is_read):
+    """With decimal commas `0,5,21,3` under `time,T` was read as 0 s and 5 degC."""
+    path = folder(tmp_path, {"time": np.arange(40.0), "T": np.arange(40.0)})
+    table = path / "data.csv"
+    lines = table.read_text().splitlines()
+    table.write_text("\n".join([*lines[:4], row, *lines[5:]]) + "\n")
+    if is_read:
+        assert len(load_recording(path).channels["coil[1].temperature"].times) == 40
+    else:
+        with pytest.raises(InputError, match=r"line 5 has 4 values under 2 column names; is a comma the decimal mark"):
+            load_recording(path)
+
+
+def test_channels_of_a_recording_share_the_readings_that_are_compared(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "MOST_READINGS", 250)
+    monkeypatch.setattr(module, "LEAST_KEPT", 10)
+    times = np.arange(0.0, 100.0, 0.1)
+    rare = np.where(np.arange(1000) % 20 == 7, times, math.nan)
+    channels = channel() | {f"coil[{n}].temperature": {"column": "T", "unit": "degC"} for n in (2, 3)}
+    channels |= {"coil[4].temperature": {"column": "rare", "unit": "degC"}}
+    found = load_recording(folder(tmp_path, {"time": times, "T": times, "rare": rare}, channels=channels)).channels
+    assert [len(c.times) for c in found.values()] == [63, 63, 63, 50]  # every 16th row; the last has no more
+    assert [c.dropped.get("thinned", 0) for c in found.values()] == [937, 937, 937, 0]
+
+
 def test_an_input_that_changes_in_every_row_is_refused_and_one_that_stays_is_not(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "MOST_CHANGES", 20)
     entry = {"inputs": {"drive.power_1": {"column": "P", "unit": "W"}}}

@@ -190,6 +190,20 @@ def test_the_page_says_where_units_depart_what_is_left_and_what_would_decide(tmp
         assert part in text, part
 
 
+def test_page_and_summary_say_that_a_long_recording_was_thinned(tmp_path: Path) -> None:
+    told = diagnosis(Verdict.MISSING_PHYSICS)
+    sentence = "Of very many readings a part was used, at even distances and as they are: 20000 of 1000000 in monday."
+    for thinned, is_said in ((980_000, True), (0, False)):
+        used = replace(told.recordings[0], title="monday", readings=20_000, thinned=thinned)
+        console = Console(file=io.StringIO(), width=100)
+        print_summary(replace(told, recordings=(used,)), console)
+        stream = console.file
+        assert isinstance(stream, io.StringIO)
+        assert (sentence in " ".join(stream.getvalue().split())) is is_said
+        write_html(replace(told, recordings=(used,)), [], tmp_path / "report.html")
+        assert (sentence in (tmp_path / "report.html").read_text(encoding="utf-8")) is is_said
+
+
 def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
     console = Console(file=io.StringIO(), width=100)
     print_summary(replace(diagnosis(Verdict.MISSING_PHYSICS), findings=()), console)

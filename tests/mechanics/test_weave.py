@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from mechanics.bullet import rotation
 from mechanics.curvature import max_curvature
@@ -12,6 +12,7 @@ from mechanics.fabric import CLEARANCE, layout
 from mechanics.half import half
 from mechanics.lattice import calibrate, jammed_weave, taut_jam_ratio, taut_weave
 from mechanics.linking import is_hooked
+from mechanics.root import root_between
 from mechanics.springs import SteelSpring, coil_tension, spring_energy
 
 from .designs import prototype, woven_unit
@@ -192,3 +193,23 @@ def test_a_coil_pulls_and_does_not_push_and_energies_are_those_of_springs():
     steel = SteelSpring(200.0, 0.05)
     energy = spring_energy(np.array([100.0]), np.array([0.02]), np.array([0.03]), steel)
     assert energy == pytest.approx(0.5 * 100 * 0.02**2 + 0.5 * 200 * 0.02**2, rel=1e-12)
+
+
+def test_roots_are_those_of_scipy_to_the_last_bit():
+    """Fabrics are chaotic: another last bit of the tilt is another course of contacts."""
+    random = np.random.default_rng(5)
+    for ratio, constant in random.uniform((0.05, -3.0), (0.9, 3.0), (500, 2)):
+        for function, lower, upper in (
+            (lambda t, r=ratio: math.sin(t) ** 3 - r * math.cos(t), 1e-6, math.pi / 2 - 1e-6),
+            (lambda x, c=constant: math.exp(x) - 3.0 * x**3 + c, 1.0, 30.0),
+            (lambda x, c=constant: x**5 - 7.0 * x + c, -0.5, 1.1),
+        ):
+            if function(lower) * function(upper) < 0.0:
+                assert root_between(function, lower, upper, 1e-14) == brentq(function, lower, upper, xtol=1e-14)
+
+
+def test_a_function_without_a_change_of_sign_has_no_root_to_find():
+    with pytest.raises(ValueError, match="same sign at 1 and at 2"):
+        root_between(lambda x: x, 1.0, 2.0, 1e-14)
+    assert root_between(lambda x: x - 1.0, 1.0, 2.0, 1e-14) == 1.0
+    assert root_between(lambda x: x - 2.0, 1.0, 2.0, 1e-14) == 2.0

@@ -1,7 +1,7 @@
 """Recordings as other methods need them: states, what the equations leave, and a free run with what was learnt.
 
-States that are not measured come from readings that a Gaussian kernel K smooths: the derivative of K * x is K * x'. So
-K * x'' - K * f is what the equations f leave, smoothed, also where an input jumps.
+States that are not measured come from readings that a Gaussian kernel K smooths: the derivative of K * x is K * x'. For
+linear equations f, K * x' - f(K * x, K * u) is then what they leave, smoothed, also where an input u jumps.
 """
 
 from __future__ import annotations
@@ -78,9 +78,9 @@ def read(rig: Rig, folder: Path, window: float) -> Data:
         states[:, state], rates[:, state] = course[0], course[1]
         if rig.targets.get(state + 1) == "velocity":
             states[:, state + 1], rates[:, state + 1] = course[1], course[2]
-    model = np.array([rig.rates(rig.numbers, x, u) for x, u in zip(states, inputs)])
-    residuals = (rates - gaussian_filter1d(model, window, axis=0))[:, list(rig.targets)]
     driven = gaussian_filter1d(inputs, window, axis=0)
+    model = np.array([rig.rates(rig.numbers, x, u) for x, u in zip(states, driven)])
+    residuals = (rates - model)[:, list(rig.targets)]
     return Data(inputs, readings, np.array([n.number for n in noise]), states, driven, residuals)
 
 
