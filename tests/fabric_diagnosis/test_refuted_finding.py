@@ -90,7 +90,7 @@ def test_what_held_out_readings_reject_is_suggested_and_not_accepted_and_so_when
     found = answer(out)
     assert [f["effect"] for f in found["findings"]] == ["tilt"]
     assert not found["findings"][0]["is_accepted"]
-    assert "worse" in " ".join(found["findings"][0]["doubts"])
+    assert "-2 log likelihood rises" in " ".join(found["findings"][0]["doubts"])
     made = Cache(out / "simulations").count()
     assert made > 10
     again = tmp_path / "again"
