@@ -324,7 +324,9 @@ def _bent(beside: Beside) -> Fit:
     """The best fit by a sensor whose characteristic bends: one that clips changes only when the programme does."""
     assert beside.simulated is not None
     own = sample(beside.simulated, beside.times)
-    knots = np.unique(np.quantile(own, np.linspace(0.0, 1.0, KNOTS + 2)[1:-1]))
+    # a sensor that clips bends where so many readings as it has at its ends lie beyond
+    shares = [np.mean(beside.measured <= beside.measured.min()), np.mean(beside.measured < beside.measured.max())]
+    knots = np.unique(np.quantile(own, [*np.linspace(0.0, 1.0, KNOTS + 2)[1:-1], *shares]))
     bends = np.maximum(own[:, None] - knots, 0.0)
     return fit(beside.measured, design(beside, beside.times), beside.tolerance, bends)
 
