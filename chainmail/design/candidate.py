@@ -132,7 +132,7 @@ class Candidate:
         return "; ".join([*self._programmes(), *(f"{n} {v:.4g}" for n, v in self.geometry)])
 
     def _programmes(self) -> list[str]:
-        """Rows with the same programme are told together."""
+        """Rows with the same programme are listed together."""
         if not self.pulses:
             return ["no row heated"]
         groups: dict[tuple[float, float, float, float, float], list[int]] = {}

@@ -365,7 +365,7 @@ def taut_pitch(rig: Rig) -> float:
 
 
 def _upwards(value: float) -> str:
-    """Three digits, rounded upwards: what is told to suffice must suffice.
+    """Three digits, rounded upwards: a value that is said to suffice must suffice.
 
     >>> _upwards(5.391), _upwards(2.2)
     ('5.4', '2.2')

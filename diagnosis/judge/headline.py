@@ -10,7 +10,7 @@ from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of
 from diagnosis.report.display import clean, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
 
-#: Faults seen by the check that are told in one sentence.
+#: Faults seen by the check that are listed in one sentence.
 SEEN = 2
 #: Findings that are named in one sentence.
 TOLD = 3
@@ -54,7 +54,7 @@ def headline(
     physics = _listed(of_the_rig if is_told else [])
     measured = _listed([f for f in at_fault if accuses(f)])
     unsure = [f for f in at_fault if not accuses(f)]
-    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is told, and not as something else
+    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is named, and nothing else
         unsure = [f for f in unsure if not any(is_explained(d, f) for d in faults(doubts)[:SEEN])]
     described = _listed([*([] if is_told else of_the_rig), *unsure])
     suggested = _listed([f for f in found if not f.is_accepted])

@@ -14,13 +14,13 @@ import json
 import sys
 from pathlib import Path
 
-import diagnosis.models.fabric.search as fabric_search
 from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.search import Effort, search_fabric
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.together import prepared
 from diagnosis.report.json_file import write_json
@@ -28,9 +28,9 @@ from diagnosis.search.search import Settings
 from evaluation.camera.case import RECORDINGS, SCENARIO, SOURCES, kinds_of, make
 from evaluation.camera.score import DIAGNOSIS, SEARCH, page
 
-#: Sizes of a search without simulations where effects were fitted: starts of the ensemble and of each effect, as
-#: `cosim diagnose` takes for large fabrics, and of the explanation found.
-SHARED = ((float("inf"), 6, 1, 2),)
+#: A search on shared simulations, without any where effects were fitted; ensemble and starts of effects are those
+#: that `cosim diagnose` takes for large fabrics.
+SHARED = Effort(6, 1, 2, hopeful=0)
 
 
 def main() -> int:
@@ -53,22 +53,19 @@ def main() -> int:
 
 
 def _all(out: Path, folders: list[Path], seed: int, whole: int, kept: Cache) -> None:
-    sizes, hopeful = fabric_search.EFFORTS, fabric_search.HOPEFUL
     for is_whole, count in ((False, len(folders)), (True, min(whole, len(folders)))):
-        fabric_search.EFFORTS, fabric_search.HOPEFUL = (sizes, hopeful) if is_whole else (SHARED, 0)
         for number, (folder, kind) in enumerate(zip(folders[:count], kinds_of(count))):
             make(folder, seed, number, RECORDINGS if is_whole else RECORDINGS[:1])
             for source in SOURCES:
                 if not (folder / source / (DIAGNOSIS if is_whole else SEARCH)).is_file():
                     (_diagnose if is_whole else _search)(folder / source, kept)
             print(f"{number + 1} of {count}: {kind}", flush=True)
-    fabric_search.EFFORTS, fabric_search.HOPEFUL = sizes, hopeful
 
 
 def _search(folder: Path, kept: Cache) -> None:
     with Batches(cache=kept) as batches:
         model = FabricModel(load_scenario(SCENARIO), [load_recording(folder / RECORDINGS[0])], catalogue(), batches)
-        best = fabric_search.search_fabric(model, Settings()).best
+        best = search_fabric(model, Settings(), effort=SHARED).best
     terms = sorted(best.terms, key=lambda t: -best.gains.get(t, 0.0))
     found = [
         {

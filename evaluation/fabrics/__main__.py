@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import time
 from pathlib import Path
 
+from evaluation.command import run_logged
 from evaluation.fabrics.score import page, score
 from evaluation.proving.fabric.case import KINDS, write_cases
 
@@ -46,24 +45,12 @@ def main(arguments: list[str] | None = None) -> int:
 def _diagnose(case: Path, out: Path, limit: float) -> None:
     out.mkdir(parents=True, exist_ok=True)
     answer = (out / "answer").resolve()
-    command = [sys.executable, "-m", "cosim.cli", "diagnose", "scenario.yaml", "--brief", "--jobs", "1"]
+    command = ["diagnose", "scenario.yaml", "--brief", "--jobs", "1"]
     command += ["--recording", "training_1", "--held-out", "held_out_1", "--out", str(answer)]
     if (answer / "simulations").is_dir():
         command.append("--resume")
     begin = time.perf_counter()
-    with (out / "log.txt").open("w", encoding="utf-8") as log:
-        try:
-            code = subprocess.run(
-                command,
-                cwd=case,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                timeout=limit,
-                env={**os.environ, "PYTHONPATH": os.getcwd()},
-                check=False,
-            ).returncode
-        except subprocess.TimeoutExpired:
-            code = -1
+    code = run_logged(command, case, limit, out / "log.txt")
     told = {"code": code, "seconds": time.perf_counter() - begin}
     (out / "done.json").write_text(json.dumps(told), encoding="utf-8")
 

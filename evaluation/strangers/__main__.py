@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import zlib
 from collections.abc import Callable, Mapping
@@ -19,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from evaluation.command import run_cosim
 from evaluation.strangers import first_set, second_set
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -77,11 +76,8 @@ def diagnose(folder: Path, limit: float) -> None:
 
 
 def _cosim(folder: Path, command: list[str], limit: float) -> str:
-    own = {**os.environ, "PYTHONPATH": os.getcwd()}
-    try:
-        done = subprocess.run([sys.executable, "-m", "cosim.cli", *command], cwd=folder, env=own, capture_output=True,
-                              text=True, timeout=limit, check=False)  # fmt: skip
-    except subprocess.TimeoutExpired:
+    done = run_cosim(command, folder, limit, capture_output=True)
+    if done is None:
         return f"no answer within {limit:g} s\n"
     return done.stdout + done.stderr
 

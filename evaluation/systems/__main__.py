@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -17,11 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
+from evaluation.command import run_logged
 from evaluation.systems.case import KINDS, RECORDINGS, make
 from evaluation.systems.score import page
-
-#: Code of a diagnosis that took longer than its limit.
-TOO_LONG = -1
 
 
 def main() -> int:
@@ -98,25 +95,13 @@ def _git(*arguments: str) -> str:
 def _diagnose(folder: Path, limit: float) -> None:
     task = folder / "task"
     without = json.loads((folder / "answer.json").read_text(encoding="utf-8"))["without"]
-    command = [sys.executable, "-m", "cosim.cli", "diagnose", "scenario.yaml", "--brief", "--out", "../diagnosis"]
+    command = ["diagnose", "scenario.yaml", "--brief", "--out", "../diagnosis"]
     for name in RECORDINGS[:-1]:
         command += ["--recording", name]
     command += ["--held-out", RECORDINGS[-1]]
     for name in without:
         command += ["--without", name]
-    with (folder / "log.txt").open("w", encoding="utf-8") as log:
-        try:
-            code = subprocess.run(
-                command,
-                cwd=task,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                timeout=limit,
-                env={**os.environ, "PYTHONPATH": os.getcwd()},
-                check=False,
-            ).returncode
-        except subprocess.TimeoutExpired:
-            code = TOO_LONG
+    code = run_logged(command, task, limit, folder / "log.txt")
     (folder / "done").write_text(str(code), encoding="utf-8")
 
 

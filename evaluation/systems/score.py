@@ -91,7 +91,7 @@ def _rows(scores: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, list[bool
         ("within the class", "95 %", [s["class"][0] for s in visible]),
         ("both of two within their classes", "70 %", [all(s["class"]) for s in both]),
         ("false alarms on nulls", "at most 5 %", [s["physics"] for s in done if s["kind"] == "null"]),
-        ("a fault of a sensor or an input is told", "no aim", [_is_told(s) for s in faulty]),
+        ("a fault of a sensor or an input is identified", "no aim", [_is_identified(s) for s in faulty]),
         ("physics named where there was a fault alone", "at most 2 %", [bool(s["named"]) for s in faulty]),
         ("wrong name on laws outside the library", "at most 5 %", [s["misnamed"] for s in outside]),
         (
@@ -107,7 +107,7 @@ def _rows(scores: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, list[bool
     ]
 
 
-def _is_told(s: Mapping[str, Any]) -> bool:
+def _is_identified(s: Mapping[str, Any]) -> bool:
     """Whether a fault is found; of single wild readings nothing has to be said."""
     if s["fault"] == "wild readings":
         return not s["physics"]
@@ -132,7 +132,7 @@ def _short(s: Mapping[str, Any]) -> str:
         wrong.append("within the class" if s["class"][0] else "not within the class")
     if kind == "two" and not all(s["class"]):
         wrong.append("not both within their classes")
-    if kind == "fault" and not _is_told(s):
+    if kind == "fault" and not _is_identified(s):
         wrong.append("fault not told")
     if kind in OUTSIDE and visible and s["gain"] < 0.8:
         wrong.append("less than 80 % of the possible gain")

@@ -117,7 +117,7 @@ def test_an_experiment_that_was_designed_takes_the_place_of_a_repeat(tmp_path: P
     text = page_of(replace(unexplained(), next_experiment=EXPERIMENT), [], tmp_path)
     assert "Staircase for 60 s would decide." in text
     assert "Repeat that recording" not in text
-    # What the held-out recordings reject is not among the rivals of an experiment: both are told.
+    # What the held-out recordings reject is not among the rivals of an experiment: both are reported.
     assert "Record a training programme" in page_of(replace(rejected(), next_experiment=EXPERIMENT), [], tmp_path)
 
 

@@ -47,7 +47,7 @@ def test_a_coil_that_opens_in_the_third_recording_and_stays_open(tmp_path: Path)
     assert held_out(found) < 1.5
 
 
-def test_a_draught_of_the_second_recording_is_not_foretold_for_another_day(tmp_path: Path) -> None:
+def test_a_draught_of_the_second_recording_is_not_predicted_for_another_day(tmp_path: Path) -> None:
     found = diagnosed(tmp_path, [[], [network.draught(SETUP, 0.4, 30.0)], [], []])
     ((term, values),) = found.points["after"].terms.items()
     assert term.identifier == "draught"

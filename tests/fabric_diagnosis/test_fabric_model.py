@@ -36,8 +36,8 @@ def found(short):
 
 def test_a_scenario_with_a_fabric_is_diagnosed_by_network_and_bullet(found):
     assert isinstance(found, FabricModel)
-    assert found.networked > 20
-    assert [p.name for p in found.parameters[found.networked :]] == [
+    assert found.first_own > 20
+    assert [p.name for p in found.parameters[found.first_own :]] == [
         "fabric.link_mass",
         "fabric.friction",
         "fabric.steel_stiffness",
@@ -73,7 +73,7 @@ def test_what_was_found_is_a_scenario_that_runs(found, tmp_path):
     laws = {t.identifier: t for t in found.laws()}
     tilt, slide = laws["tilt"], laws["slide_friction"]
     base = np.zeros(len(found.parameters))
-    base[found.networked + 1] = 2.0  # friction, by two deviations of 5 %
+    base[found.first_own + 1] = 2.0  # friction, by two deviations of 5 %
     base[[p.name for p in found.parameters].index("conductance")] = 1.0
     path = amend_fabric(small(), found, Point(base, {tilt: (0.06,), slide: (0.3,)}), tmp_path / "amended")
     amended = load_scenario(path)

@@ -57,7 +57,7 @@ def model(measured: np.ndarray, ensemble: np.ndarray) -> MechanicalModel:
     return MechanicalModel(parameters, surface, measured, BINS, ensemble, [f"marker[{i}].z" for i in range(CHANNELS)])
 
 
-def test_one_more_fabric_is_foretold_within_the_covariance_of_eight():
+def test_one_more_fabric_is_predicted_within_the_covariance_of_eight():
     squares = []
     for seed in range(20):
         drawn = members(9, seed)

@@ -75,7 +75,7 @@ def test_a_fit_that_starts_where_nothing_can_be_simulated_says_that_it_is_bad():
     assert found.cost > 1e6
 
 
-def test_explanations_that_run_away_in_a_stretch_foretell_badly_and_finitely():
+def test_explanations_that_run_away_in_a_stretch_predict_badly_and_finitely():
     validation = Validation(MODEL, lambda seen: MODEL)
     base = recalibrate(MODEL)
     best = search(MODEL, TERMS, Settings()).best

@@ -58,8 +58,13 @@ def test_methods_learn_a_damper_from_what_the_equations_leave(recordings: tuple[
 
 
 def test_the_table_has_medians_of_nulls_and_of_others() -> None:
-    one = {"kind": "null", "rig": "a rig", "case": "case_1", "as it is": {"chi": 4.0, "terms": 0, "seconds": 0.0},
-           "sparse": {"chi": float("inf"), "terms": 7, "seconds": 2.0}}  # fmt: skip
+    one = {
+        "kind": "null",
+        "rig": "a rig",
+        "case": "case_1",
+        "as it is": {"chi": 4.0, "terms": 0, "seconds": 0.0},
+        "sparse": {"chi": float("inf"), "terms": 7, "seconds": 2.0},
+    }
     lines = page([one]).splitlines()
     assert lines[2] == "| case_1 | a rig | null | 4; 0; 0 s |  | ran away; 7; 2 s |  |  |  |  |"
     assert lines[3].startswith("| median of nulls | | | 4; 0; 0 s |")

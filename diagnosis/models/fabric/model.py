@@ -102,8 +102,8 @@ class FabricModel:
         return self.network.timeline if self.network else None
 
     @property
-    def networked(self) -> int:
-        """Number of parameters that belong to the coil network; they come first."""
+    def first_own(self) -> int:
+        """Index of the first parameter of the fabric: those of the coil network come before."""
         return len(self.network.parameters) if self.network else 0
 
     @property
@@ -142,24 +142,24 @@ class FabricModel:
         found = []
         for number, recording in enumerate(self.mechanical_recordings):
             given = self.network.runs[number].series if self.network else ()
-            networked = tuple(ComparedSeries(s.channel, s.samples, s.used) for s in given)
+            electrical = tuple(ComparedSeries(s.channel, s.samples, s.used) for s in given)
             own = []
             for c in recording.channels.values():
                 both = replace(c, deviation=float(np.hypot(c.deviation, self._scatter.get(c.name, 0.0))))
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
-            found.append(ComparedRun((*networked, *own)))
+            found.append(ComparedRun((*electrical, *own)))
         return found
 
     @property
     def residual_of_reading(self) -> AnyArray:
         """Residual of the search that each reading is part of, run by run, channel by channel."""
         found: list[AnyArray] = []
-        networked, channel = 0, 0
+        begin, channel = 0, 0
         first = len(self.network.layout.time) if self.network else 0
         for number, recording in enumerate(self.mechanical_recordings):
             for series in self.network.runs[number].series if self.network else ():
-                found.append(networked + np.arange(len(series.samples)))
-                networked += len(series.samples)
+                found.append(begin + np.arange(len(series.samples)))
+                begin += len(series.samples)
             for _ in recording.channels:
                 found.append(first + self.binning.bin_of(channel))
                 channel += 1
@@ -172,11 +172,11 @@ class FabricModel:
 
     def network_point(self, point: Point) -> Point:
         """What of a point belongs to the coil network."""
-        return Point(point.base[: self.networked], {t: v for t, v in point.terms.items() if t not in self._laws})
+        return Point(point.base[: self.first_own], {t: v for t, v in point.terms.items() if t not in self._laws})
 
     def own_point(self, point: Point) -> Point:
         """What of a point belongs to the fabric."""
-        return Point(point.base[self.networked :], {t: v for t, v in point.terms.items() if t in self._laws})
+        return Point(point.base[self.first_own :], {t: v for t, v in point.terms.items() if t in self._laws})
 
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,20 +16,42 @@ from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
 
-#: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth: random
-#: starts of the ensemble at the nominal point, from which scatter is known; starts of every effect; starts at the
-#: point found. An effort of 10,000 takes about a second of one core. It stands for the time, so that a result does
-#: not depend on the machine.
-EFFORTS: tuple[tuple[float, int, int, int], ...] = ((45e3, 8, 3, 6), (110e3, 6, 2, 5), (float("inf"), 6, 1, 4))
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 4, 40.0
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How many simulations a search makes for each recording.
+
+    Args:
+        ensemble: Random starts at the nominal point, from which scatter is known.
+        repeats: Starts of every effect.
+        confirmed: Starts at the point found.
+        hopeful: Effects that are simulated again where they were fitted.
+    """
+
+    ensemble: int
+    repeats: int
+    confirmed: int
+    hopeful: int = HOPEFUL
+
+
+#: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth. An effort
+#: of 10,000 takes about a second of one core. It stands for the time, so that a result does not depend on the machine.
+EFFORTS = ((45e3, Effort(8, 3, 6)), (110e3, Effort(6, 2, 5)), (float("inf"), Effort(6, 1, 4)))
 #: A strength this close to one that was simulated needs no other simulation.
 NEAR = 0.15
 
 OnProgress = Callable[[str], None]
 
 
-def search_fabric(model: FabricModel, settings: Settings, on_progress: OnProgress = lambda text: None) -> Outcome:
+def search_fabric(
+    model: FabricModel,
+    settings: Settings,
+    on_progress: OnProgress = lambda text: None,
+    effort: Effort | None = None,
+) -> Outcome:
     """Find what a model of a fabric lacks.
 
     1. Circuit and coils are recalibrated by the coil network. 2. Random starts tell the contacts' scatter.
@@ -41,11 +63,13 @@ def search_fabric(model: FabricModel, settings: Settings, on_progress: OnProgres
         model: Model and training recordings; its mechanical part is made here.
         settings: Of the search.
         on_progress: Told what is being done.
+        effort: How many simulations are made; default: by `EFFORTS`.
 
     Raises:
         InputError: Bullet cannot simulate the scenario.
     """
-    plan = _Plan(model, settings, on_progress)
+    effort = effort or next(own for most, own in EFFORTS if model.effort <= most)
+    plan = _Plan(model, settings, effort, on_progress)
     plan.anchor()
     plan.answers()
     margin = plan.margin()
@@ -62,14 +86,15 @@ def search_fabric(model: FabricModel, settings: Settings, on_progress: OnProgres
 class _Plan:
     """Steps of a search, in order."""
 
-    def __init__(self, model: FabricModel, settings: Settings, on_progress: OnProgress) -> None:
+    def __init__(self, model: FabricModel, settings: Settings, effort: Effort, on_progress: OnProgress) -> None:
         self.model, self.settings, self._tell = model, settings, on_progress
         self._count = len(model.mechanical_recordings)
-        self._network_point = Point(np.zeros(model.networked))
-        _, self._size, self._repeats, self._confirmed = next(e for e in EFFORTS if model.effort <= e[0])
+        self._network_point = Point(np.zeros(model.first_own))
+        self._size, self._repeats, self._confirmed = effort.ensemble, effort.repeats, effort.confirmed
+        self._hopeful = effort.hopeful
         effects = len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
         self._sharpened = self._confirmed if self._repeats > 1 else 1
-        once = self._size + self._repeats * effects + HOPEFUL * self._sharpened + self._confirmed
+        once = self._size + self._repeats * effects + self._hopeful * self._sharpened + self._confirmed
         self._left = self._count * once
 
     def _enter(self, stage: str, simulations: int) -> None:
@@ -161,9 +186,9 @@ class _Plan:
         wanted: dict[Term, tuple[Point, float]] = {}
         for explanation in [outcome.best, *near]:
             for term in explanation.terms:
-                if term in laws and self._is_far(term, explanation) and len(wanted) < HOPEFUL:
+                if term in laws and self._is_far(term, explanation) and len(wanted) < self._hopeful:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
-        self._enter("hopeful effects where they were fitted", HOPEFUL * self._sharpened)
+        self._enter("hopeful effects where they were fitted", self._hopeful * self._sharpened)
         points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
         found = self._means(points, self._sharpened)
         for bins, (term, (point, strength)) in zip(found, wanted.items()):

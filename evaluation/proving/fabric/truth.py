@@ -13,8 +13,8 @@ import numpy as np
 from evaluation.proving.fabric.weave import Link, Measures, weave
 from evaluation.proving.rig import GRAVITY, Array
 
-#: Micro-step [s], iterations of the contact solver in it, and time in which contacts and stops are mended [s].
-STEP, ITERATIONS, MENDING, STOP_MENDING = 2.5e-4, 200, 2.5e-3, 25e-3
+#: Micro-step [s], iterations of the contact solver in it, and times in which contacts and stops correct errors [s].
+STEP, ITERATIONS, CORRECTION, STOP_CORRECTION = 2.5e-4, 200, 2.5e-3, 25e-3
 #: Length units of Bullet in a metre.
 _CM = 100.0
 #: Extent of the fabric of a draw.
@@ -88,9 +88,9 @@ class _Bench:
             solverResidualThreshold=0,
             deterministicOverlappingPairs=1,
             enableConeFriction=1,
-            erp=STEP / STOP_MENDING,
-            contactERP=STEP / MENDING,
-            frictionERP=STEP / MENDING,
+            erp=STEP / STOP_CORRECTION,
+            contactERP=STEP / CORRECTION,
+            frictionERP=STEP / CORRECTION,
             physicsClientId=client,
         )
         self._weight = _leaning(specimen.of("tilt"), specimen.of("roll"))
