@@ -189,3 +189,61 @@ def test_odds_against_a_programme_that_explains_nothing_are_serious(
     assert (serious.is_serious, note.is_serious) == (True, False)
     assert "the programme explains" in serious.statement
     assert shift_doubts(other) == []
+
+
+#: A batch that grows: its course bends by itself, where no feed is switched.
+BATCH = OdeModel(
+    "batch",
+    {"mu": (0.06, "1/(kg*s)"), "yield_": (0.5, "1")},
+    {"feed": "kg/s"},
+    {"X": ("kg", "0.2", "mu*X*S"), "S": ("kg", "1.0", "feed - mu*X*S/yield_")},
+    {"biomass": ("kg", "X"), "substrate": ("kg", "S")},
+)
+GROWTH = """
+title: A batch
+time: {stop: 60 s, macro_step: 100 ms, output_step: 500 ms}
+components:
+  pump:
+    kind: programme
+    outputs:
+      feed: {unit: kg/s, points: [[0 s, 0.02 kg/s], [15 s, 0.1 kg/s], [30 s, 0.05 kg/s], [44 s, 0.01 kg/s]]}
+  tank: {kind: fmu, fmu: batch.fmu, integrator: cvode}
+connections: [pump.feed -> tank.feed]
+"""
+
+
+def growth(saturation: float) -> np.ndarray:
+    """Biomass and substrate [kg] of the batch with Monod's constant [kg]; 0: the model's own law. Classical RK4."""
+
+    def rate(x: np.ndarray, feed: float) -> np.ndarray:
+        grown = 0.06 * x[0] * x[1] / (1.0 + saturation * x[1])
+        return np.array([grown, feed - grown / 0.5])
+
+    x, h, found = np.array([0.2, 1.0]), 0.01, []
+    for n in range(6000):
+        if n % 50 == 0:
+            found.append(x)
+        feed = np.select([n < 1500, n < 3000, n < 4400], [0.02, 0.1, 0.05], 0.01)
+        a = rate(x, feed)
+        b = rate(x + 0.5 * h * a, feed)
+        c = rate(x + 0.5 * h * b, feed)
+        x = x + h / 6.0 * (a + 2.0 * (b + c) + rate(x + h * c, feed))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("saturation", [0.0, 0.8, 3.0])
+def test_a_course_that_bends_by_itself_is_no_other_programme(tmp_path: Path, saturation: float) -> None:
+    """Steps at free instants draw a growth curve better than a model of other kinetics; its programme is right."""
+    BATCH.build(tmp_path)
+    (tmp_path / "scenario.yaml").write_text(GROWTH)
+    values = growth(saturation) + 0.005 * np.random.default_rng(3).standard_normal((120, 2))
+    record = tmp_path / "run"
+    record.mkdir()
+    table = np.column_stack([TIMES, values])
+    np.savetxt(record / "data.csv", table, delimiter=",", header="t,X,S", comments="", fmt="%.6g")
+    channel = {"unit": "kg", "noise": "0.005 kg"}
+    channels = {"tank.biomass": {"column": "X", **channel}, "tank.substrate": {"column": "S", **channel}}
+    about = {"title": "run", "table": "data.csv", "time": {"column": "t", "unit": "s"}, "channels": channels}
+    (record / "recording.yaml").write_text(yaml.safe_dump({**about, "source": "computed"}))
+    found = doubts(tmp_path, record)
+    assert not [d for d in found if d.is_serious and d.kind == "programme"]
