@@ -111,7 +111,7 @@ def diagnose(
                 try:
                     diagnosis = _brief(found, out) if brief else _whole(found, base, judges, out)
                 except InputError:  # a full disk must not cost the answer
-                    print_summary(found.diagnosis, Console())
+                    print_summary(found.diagnosis, Console(), "diagnosis.json")
                     raise
     except KeyboardInterrupt:
         rest = (
@@ -121,7 +121,7 @@ def diagnose(
         )
         print(f"interrupted: there is no diagnosis in {out}; {rest}", file=sys.stderr)
         raise typer.Exit(130) from None
-    print_summary(diagnosis, Console())
+    print_summary(diagnosis, Console(), "diagnosis.json" if brief else "report.html")
     if not brief:
         print(out / "report.html")
 

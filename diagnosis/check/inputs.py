@@ -158,9 +158,10 @@ def set_beside(
     """
     grid = np.linspace(*span, GRID)
     own, other = (c(grid) for c in courses)
-    width = float(np.ptp(other)) or float(np.max(np.abs(other))) or float(np.ptp(own))
-    tolerance = HELD * width + 4.0 * _noise(own, other)
+    size = 0.0 if unit == "K" else float(np.max(np.abs(other)))  # the zero of a temperature is no size
+    width = float(np.ptp(other)) or size or float(np.ptp(own))
     cells = int(np.ceil(margin / (grid[1] - grid[0]))) + 1
+    tolerance = HELD * width + 4.0 * _noise(own, other, cells)
     allowed = cells * (grid[1] - grid[0])
 
     def differ(values: Array) -> AnyArray:
@@ -201,10 +202,16 @@ def set_beside(
     )
 
 
-def _noise(own: Array, other: Array) -> float:
-    """Standard deviation of a column that changes far more often than the programme does; else 0."""
+def _noise(own: Array, other: Array, cells: int) -> float:
+    """Standard deviation of a column that changes far more often than the programme does; else 0.
+
+    Noise changes from reading to reading, within so many cells; a command that is held for longer is none.
+    """
     steps = np.abs(np.diff(own))
-    steps = steps[steps > 0.0]
+    changes = np.flatnonzero(steps)
+    if len(changes) > 1 and np.median(np.diff(changes)) > cells:
+        return 0.0
+    steps = steps[changes]
     if len(steps) < 10 * (1 + np.count_nonzero(np.diff(other))):
         return 0.0
     return float(np.median(steps)) / 0.954  # of the difference of two normal readings

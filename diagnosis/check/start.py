@@ -21,6 +21,8 @@ from diagnosis.search.shares import RIG_START
 WRONG_NUMBERS = 0.5
 #: How much farther off than later ones first readings are that show another start.
 ELSEWHERE = 3.0
+#: Deviations by which a single reading may be off.
+GROWN = 2.0
 #: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
 STRAINED = 4.0
 
@@ -44,6 +46,8 @@ def start_doubts(compared: Compared) -> list[Doubt]:
         if _is_driven_before(beside):
             continue
         off, deviation = _off(beside)
+        if _grows(beside, off):
+            continue
         total = float(np.sqrt(deviation**2 + spread**2))
         if abs(off) > limit * total + beside.channel.bias_bound:
             most = STRAINED * float(np.hypot(deviation, usual)) + beside.channel.bias_bound
@@ -66,6 +70,8 @@ def _others(compared: Compared) -> list[Doubt]:
     for beside in every:
         off, deviation = _off(beside)
         later = float(np.median(np.abs(beside.measured - beside.simulated_there)))
+        if _grows(beside, off):
+            continue
         if abs(off) > limit * deviation + beside.channel.bias_bound and abs(off) > ELSEWHERE * later:
             values, time = first(beside)
             end = float(beside.channel.times[len(values) - 1])
@@ -89,6 +95,13 @@ def _is_driven_before(beside: Beside) -> bool:
     assert simulated is not None
     course = simulated.values[simulated.times <= beside.channel.times[0]]
     return bool(course.size and np.ptp(course) > beside.floor)
+
+
+def _grows(beside: Beside, off: float) -> bool:
+    """Whether the very first reading is where it is simulated and later ones leave: another slope, the same start."""
+    values, _ = first(beside)
+    own = float(values[0] - beside.at(beside.channel.times[:1])[0])
+    return abs(own) + GROWN * max(beside.floor, measured_noise(beside)) < 0.5 * abs(off)
 
 
 def _off(beside: Beside) -> tuple[float, float]:

@@ -15,6 +15,9 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.score import LEAST_VISIBLE
 
+#: Scatter, in deviations of the noise, up to which the readings of a sensor stand still: noise may be stated too small.
+STILL = 2.0
+
 
 @dataclass(frozen=True)
 class Pieces:
@@ -99,8 +102,14 @@ def _blocks(matrix: Array, first: AnyArray, last: AnyArray) -> Array:
     return np.asarray(total[last, last] - total[first, last] - total[last, first] + total[first, first])
 
 
+def _moments(values: Array, weight: Array) -> tuple[Array, Array]:
+    """Squares and values about the mean, so that the variance of large numbers is none of rounding."""
+    about = values - np.average(values, weights=weight)
+    return about**2, about
+
+
 def best_constant(
-    residuals: Array, readings: Array, fewest: int, used: AnyArray, pieces: int
+    residuals: Array, readings: Array, fewest: int, used: AnyArray, pieces: int, own: Array | None = None
 ) -> tuple[int, int, float] | None:
     """The interval in which a sensor that holds one value explains most: first sample, sample after the last, gain.
 
@@ -110,6 +119,8 @@ def best_constant(
         fewest: Samples that an interval must hold.
         used: Which samples count, shape (samples,).
         pieces: Into which the samples are cut at most; begin and end lie between two of them.
+        own: Measured values in deviations of the sensor's own noise, where `readings` are scaled otherwise: a sensor
+            that stands still scatters by no more than `STILL` of them.
     """
     if not used.any():
         return None
@@ -120,10 +131,12 @@ def best_constant(
     cuts = np.unique(np.linspace(0, len(residuals), min(pieces, len(residuals)) + 1).astype(int))
     first, last = np.triu_indices(len(cuts), 1)
     sums = [
-        np.concatenate([[0.0], np.cumsum(v * weight)])[cuts] for v in (misfit, level**2, level, np.ones(len(level)))
+        np.concatenate([[0.0], np.cumsum(v * weight)])[cuts]
+        for v in (misfit, level**2, level, np.ones(len(level)), *_moments(readings if own is None else own, weight))
     ]
-    lost, square, total, count = (s[last] - s[first] for s in sums)
-    seen = (count >= fewest) & (count < sums[3][-1])
+    lost, square, total, count, squares, values = (s[last] - s[first] for s in sums)
+    scatter = squares / np.maximum(count, 1.0) - (values / np.maximum(count, 1.0)) ** 2
+    seen = (count >= fewest) & (count < sums[3][-1]) & (scatter < STILL**2)
     if not seen.any():
         return None
     gains = np.where(seen, lost - np.maximum(square - total**2 / np.maximum(count, 1.0), 0.0), -np.inf)

@@ -129,9 +129,8 @@ def _offsets(projection: Projection, scaled: Scaled, readings: Readings, cuts: A
 def _stuck(found: _Collected, base: Fit, scaled: Scaled, readings: Readings, term: Term) -> None:
     factor = scaled(readings.used.astype(np.float64)[None], readings.own)[0]
     residuals = base.residuals[readings.own]
-    best = best_constant(
-        residuals, factor * readings.measured / readings.deviation, FEWEST_EQUAL, factor != 0.0, STUCK_PIECES
-    )
+    own = readings.measured / readings.deviation
+    best = best_constant(residuals, factor * own, FEWEST_EQUAL, factor != 0.0, STUCK_PIECES, own)
     if best is not None:
         first, last, gain = best
         found.score(term, gain, (1.0, float(readings.edges[first]), float(readings.edges[last])))

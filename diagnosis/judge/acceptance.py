@@ -165,7 +165,9 @@ def accept(
         current = Explanation(outcome.base)
     after = judge.predict(current.fit.point)
     readings = unfitted.readings
-    if current.terms and gain(before, after, readings).is_loss:
+    # A fault of a stretch of training says nothing of other readings; what it keeps from the parameters does.
+    is_of_training = all(is_local(t) for t in current.terms) and gain(recalibrated, after, readings).is_gain
+    if current.terms and not is_of_training and gain(before, after, readings).is_loss:
         reasons |= dict.fromkeys(current.terms, (_DISTORTED,))
         current, after = Explanation(outcome.base), recalibrated
     fitted = training.predict(current.fit.point, is_fitted=False)

@@ -9,6 +9,7 @@ from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, p
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
 from diagnosis.report.user_units import IN_SI, Units
+from diagnosis.search.posterior import HUBER
 
 #: What follows from a verdict.
 ADVICE = {
@@ -144,8 +145,9 @@ def structure(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict is Verdict.RECORDING_FAULT:
         return "Residuals were not looked at."
     return (
-        f"Largest standardised sum of residuals: {number(abs(diagnosis.structure_before))} after recalibration, "
-        f"{number(abs(diagnosis.structure_after))} at the end."
+        f"Largest standardised sum of residuals, each counted as {HUBER:g} deviations at most: "
+        f"{number(abs(diagnosis.structure_before))} after recalibration, {number(abs(diagnosis.structure_after))} at "
+        "the end."
     )
 
 

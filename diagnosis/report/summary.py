@@ -47,8 +47,14 @@ _FINDINGS, _ROWS, _STATEMENTS = 2, 4, 2
 _STATEMENT = 14
 
 
-def print_summary(diagnosis: Diagnosis, console: Console) -> None:
-    """Print verdict, findings, fit and certainty; foreign text is stripped of control characters and markup."""
+def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.html") -> None:
+    """Print verdict, findings, fit and certainty; foreign text is stripped of control characters and markup.
+
+    Args:
+        diagnosis: What is told.
+        console: Where it goes.
+        rest: Name of the file that has what is left out here.
+    """
     width = max(console.width, 40)
     head = f"{diagnosis.verdict.value.upper()}  "
     first, *others = _wrapped(head, diagnosis.statement, width, _STATEMENT)
@@ -64,15 +70,15 @@ def print_summary(diagnosis: Diagnosis, console: Console) -> None:
         note = model_note(diagnosis)
         label, told = ("model    ", f" ({note})") if note else ("amended  ", "")
         foot += map(Text, _wrapped(label, diagnosis.amended_model + told, width, 2))
-    body = [Text(line) for line in _body(diagnosis, width)]
+    body = [Text(line) for line in _body(diagnosis, width, rest)]
     room = max(LINES - len(lines) - len(foot), 1)
     if len(body) > room:
-        body = [*body[: room - 1], Text("  ... the rest is in report.html")]
+        body = [*body[: room - 1], Text(f"  ... the rest is in {rest}")]
     for line in (*lines, *body, *foot):
         console.print(line, soft_wrap=True, highlight=False)
 
 
-def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
+def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
     units = Units(diagnosis.units)
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
@@ -84,17 +90,17 @@ def _body(diagnosis: Diagnosis, width: int) -> Iterator[str]:
         yield from _finding(order, finding, width, units)
     more = len(diagnosis.findings) - len(told)
     if more > 0:
-        yield f"  and {more} more in report.html"
+        yield f"  and {more} more in {rest}"
     decides = what_decides(diagnosis)
     if decides:
         yield from _wrapped("decide   ", decides, width, 8)
     yield from _wrapped("better   ", improvement(diagnosis), width, 4)
-    yield from _fit(diagnosis, width)
+    yield from _fit(diagnosis, width, rest)
     yield from _wrapped("searched ", searched(diagnosis), width, 4)
     yield from _wrapped("sure     ", sureness(diagnosis), width, 4)
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
-    for rest in diagnosis.left[:_STATEMENTS]:
-        yield from _wrapped("left in  ", remainder(rest, units), width, 2)
+    for left in diagnosis.left[:_STATEMENTS]:
+        yield from _wrapped("left in  ", remainder(left, units), width, 2)
     for moved in diagnosis.recalibration[:_STATEMENTS]:
         yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
@@ -124,12 +130,12 @@ def _finding(order: int, finding: Finding, width: int, units: Units) -> Iterator
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))
 
 
-def _fit(diagnosis: Diagnosis, width: int) -> Iterator[str]:
+def _fit(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
     found, units = rows(diagnosis.fit), Units(diagnosis.units)
     for row in found[:_ROWS]:
         yield from _wrapped("         ", _fit_row(row, units), width, 1)
     if len(found) > _ROWS:
-        yield f"         and {len(found) - _ROWS} more rows in report.html"
+        yield f"         and {len(found) - _ROWS} more rows in {rest}"
 
 
 def _fit_row(row: Row, units: Units) -> str:

@@ -47,7 +47,7 @@ def remainder(left: Remainder, units: Units = IN_SI) -> str:
     place = f"{clean(left.channel)}, {units.span(left.begin, left.end)}"
     told = mean_left(left, units)
     size = f"{told} on average, " if told else ""
-    return f"{place}: {size}{number(abs(left.z))} deviations, the assumed noise stays below {number(left.limit)}"
+    return f"{place}: {size}at least {number(abs(left.z))} deviations, assumed noise below {number(left.limit)}"
 
 
 def mean_left(left: Remainder, units: Units) -> str:

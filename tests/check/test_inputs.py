@@ -14,7 +14,7 @@ from cosim.unit.protocol import Array
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.input_doubts import how
-from diagnosis.check.inputs import compare_inputs
+from diagnosis.check.inputs import compare_inputs, set_beside
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import of_another_experiment
 from diagnosis.recording.recording import load_recording
@@ -130,3 +130,22 @@ def test_drops_of_a_moment_that_the_readings_hardly_show_accuse_nobody(scenario:
     found = [d for d in doubts(scenario, a) if d.subject.startswith("drive.")]
     assert not any(d.is_serious for d in found)
     assert not any("the readings follow" in d.statement for d in found)
+
+
+@pytest.mark.parametrize(("unit", "constant"), [("A", 0.0), ("W", 800.0), ("K", 278.15)])
+def test_a_course_is_not_that_of_a_programme_that_stays(unit: str, constant: float) -> None:
+    levels = np.random.default_rng(5).uniform(0.0, 2500.0, 17)
+    if unit == "K":
+        levels = 278.15 + 4.0 * np.sin(np.arange(17.0))
+    elif unit == "A":
+        levels = np.random.default_rng(5).uniform(-1.0, 3.0, 17)
+
+    def recorded(at: Array) -> Array:
+        return np.asarray(levels[np.minimum((at / 100.0).astype(int), 16)])
+
+    def stays(at: Array) -> Array:
+        return np.full(len(at), constant)
+
+    found = set_beside("a", "drive", unit, (recorded, stays), (0.0, 1700.0), 4.0, False)
+    assert found.kind == "other"
+    assert sum(end - begin for begin, end in found.stretches) > 0.8 * 1700.0

@@ -212,7 +212,7 @@ def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
     assert isinstance(stream, io.StringIO)
     assert "next     Staircase for 60 s would decide. Scenario: out/next_experiment/scenario.yaml" in stream.getvalue()
     assert (
-        "left in  coil[4,4].temperature, 30.0 to 42.0 s: 7.70 deviations, the assumed noise stays below 4.90"
+        "left in  coil[4,4].temperature, 30.0 to 42.0 s: at least 7.70 deviations, assumed noise below 4.90"
         in stream.getvalue()
     )
 

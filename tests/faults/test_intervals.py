@@ -105,3 +105,14 @@ def test_the_scan_of_a_long_channel_fits_into_a_little_memory():
     tracemalloc.stop()
     assert found.values[1:] == pytest.approx((2013.0, 5107.0), abs=10.0)
     assert peak < 2e8  # bytes: 400 directions of 8000 samples are 26 MB
+
+
+def test_readings_that_move_do_not_stand_still_however_badly_the_model_errs():
+    random = np.random.default_rng(4)
+    readings = np.linspace(0.0, 50.0, COUNT) + random.standard_normal(COUNT)
+    residuals = np.where(np.arange(COUNT) < COUNT // 2, 80.0, 0.0) + random.standard_normal(COUNT)
+    every = np.ones(COUNT, dtype=bool)
+    found = best_constant(residuals, readings, 8, every, COUNT)
+    assert found is None or np.std(readings[found[0] : found[1]]) < 2.0
+    weakened = best_constant(residuals, 0.01 * readings, 8, every, COUNT, own=readings)
+    assert weakened is None or np.std(readings[weakened[0] : weakened[1]]) < 2.0
