@@ -326,7 +326,7 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
 
 def _are_others(switches: Array, chosen: Sequence[float], near: float) -> bool:
     """Whether at most half of the switches [s] are near chosen instants [s]."""
-    return sum(min(abs(t - c) for c in chosen) < near for t in switches) <= 0.5 * len(switches)
+    return bool(sum(min(abs(t - c) for c in chosen) < near for t in switches) <= 0.5 * len(switches))
 
 
 def _bent(beside: Beside) -> Fit:
