@@ -14,7 +14,8 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
-from diagnosis.check.check import check_recordings
+from diagnosis.check.beside import compare
+from diagnosis.check.check import doubts_of
 from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
@@ -131,11 +132,12 @@ def diagnose(
     """
     begin = clock.perf_counter()
     known = options.catalogue()
-    both = distinct([*training, *held_out])
+    on_progress("checking that recordings and scenario are of the same experiment")
+    compared = [compare(scenario, recording) for recording in distinct([*training, *held_out])]
+    both = [one.recording for one in compared]
     training, held_out = both[: len(training)], both[len(training) :]
     model, judge = models_of(scenario, training, held_out, known, options.threads, options.without, options.batches)
-    on_progress("checking that recordings and scenario are of the same experiment")
-    doubts = check_recordings(scenario, both)
+    doubts = doubts_of(compared)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
+from diagnosis.check.feedthrough import QUIETER, quieter, settled
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
@@ -46,6 +47,7 @@ class Course:
         times: Instants [s] from which a value holds, shape (points,), rising.
         values: Shape (points,).
         is_recorded: Whether it comes from a column of the recording.
+        is_linear: Whether straight lines join the points.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Course:
     times: Array
     values: Array
     is_recorded: bool
+    is_linear: bool = False
 
     def switches(self) -> Array:
         """Instants at which the value changes [s]."""
@@ -202,6 +205,9 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
             except RunStopped as stopped:
                 note = f"the simulation stopped: {stopped.reason}"
     courses = tuple(_courses(own, recording))
+    recording = replace(
+        recording, channels={n: _settled(c, recording, courses, results) for n, c in recording.channels.items()}
+    )
     channels = {n: _beside(c, results, recording.path / "recording.yaml") for n, c in recording.channels.items()}
     return Compared(recording, own, channels, courses, note, results, scenario)
 
@@ -236,10 +242,30 @@ def _courses(scenario: Scenario, recording: Recording) -> list[Course]:
             values = np.array([[e.to(given.unit) for e in row if e is not None] for row in rows])
             many = values.shape[1] > 1
             found += [
-                Course(f"{key}[{k + 1}]" if many else key, given.unit, times, values[:, k], key in recorded)
+                Course(
+                    f"{key}[{k + 1}]" if many else key,
+                    given.unit,
+                    times,
+                    values[:, k],
+                    key in recorded,
+                    given.interpolation == "linear",
+                )
                 for k in range(values.shape[1])
             ]
     return found
+
+
+def _settled(channel: Channel, recording: Recording, courses: Sequence[Course], results: xr.Dataset | None) -> Channel:
+    """The channel as it can be compared where it follows an input at once, with a noise that nobody stated."""
+    if results is None or channel.later:
+        return channel
+    series = series_of(results, channel.target, recording.path / "recording.yaml")
+    if channel.target.is_component:
+        channel = settled(channel, series, [(c.times, c.values) for c in courses if not c.is_linear])
+    if channel.is_deviation_given:
+        return channel
+    noise = quieter(channel, series)
+    return replace(channel, deviation=noise) if noise < QUIETER * channel.deviation else channel
 
 
 def _beside(channel: Channel, results: xr.Dataset | None, source: Path) -> Beside:

@@ -13,6 +13,7 @@ import numpy as np
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL, explained
+from diagnosis.check.feedthrough import QUIETER, quieter
 from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.noise import estimate_noise, is_unresolved
@@ -66,10 +67,12 @@ def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
 
 
 def measured_noise(beside: Beside) -> float:
-    """Standard deviation of a channel's readings by their neighbours, rounding included."""
+    """Standard deviation of a channel's readings by their neighbours, rounding included; see `quieter`."""
     if "noise" not in beside.memo:
-        channel = beside.channel
-        beside.memo["noise"] = estimate_noise(channel.times, channel.values, channel.quantum)
+        channel, own = beside.channel, beside.simulated
+        plain = estimate_noise(channel.times, channel.values, channel.quantum)
+        noise = plain if own is None else quieter(channel, own)
+        beside.memo["noise"] = noise if noise < QUIETER * plain else plain
     return cast(float, beside.memo["noise"])
 
 

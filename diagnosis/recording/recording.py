@@ -59,6 +59,7 @@ class Channel:
         dropped: Why rows of its column are not among the samples (`empty`, `invalid`, `before begin`, `after end`,
             `uncertain`, `thinned`; once it has been held against a scenario, `before start` and `after stop` of the
             simulated time), with their number; `diagnosis.recording.usage` puts it into words.
+        later: How much `times` were moved, to compare readings with the output after a change of an input [s].
     """
 
     name: str
@@ -74,6 +75,7 @@ class Channel:
     bias_bound: float = 0.0
     is_clipped: AnyArray = field(default_factory=lambda: np.zeros(0, dtype=bool))
     dropped: Mapping[str, int] = field(default_factory=dict)
+    later: float = 0.0
 
     @property
     def unit(self) -> str:

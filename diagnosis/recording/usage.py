@@ -26,19 +26,22 @@ class Usage:
         used: Readings that are compared.
         unused: Why the others are not, in plain words, to their number; each is counted once, under the first reason
             that holds.
+        is_after: Whether readings at a change of an input are compared with the output after it.
     """
 
     channel: str
     rows: int
     used: int
     unused: Mapping[str, int]
+    is_after: bool = False
 
     def __str__(self) -> str:
         """`coil[1].temperature: 412 of 6000 readings are not used: 300 within 0.3 s of a switch, 112 clipped`."""
+        after = ", each as taken just after the input changed" if self.is_after else ""
         if not self.unused:
-            return f"{self.channel}: all {self.rows} readings are used"
+            return f"{self.channel}: all {self.rows} readings are used{after}"
         why = ", ".join(f"{count} {reason}" for reason, count in self.unused.items())
-        return f"{self.channel}: {self.rows - self.used} of {self.rows} readings are not used: {why}"
+        return f"{self.channel}: {self.rows - self.used} of {self.rows} readings are not used: {why}{after}"
 
 
 def usage(
@@ -66,6 +69,7 @@ def _usage(channel: Channel, margin: float, switches: Sequence[float], start: fl
         "after stop": "after the simulated time",
         "uncertain": "far less certain than the others",
         "thinned": "left out of so many, at even distances",
+        "at a switch": "taken while an input changed that the quantity follows at once",
     }
     found = {words[reason]: count for reason, count in channel.dropped.items()}
     is_left: AnyArray = np.ones(len(channel.times), dtype=bool)
@@ -80,7 +84,7 @@ def _usage(channel: Channel, margin: float, switches: Sequence[float], start: fl
         if count:
             found[reason] = found.get(reason, 0) + count
     used = int(np.count_nonzero(is_left))
-    return Usage(channel.name, used + sum(found.values()), used, found)
+    return Usage(channel.name, used + sum(found.values()), used, found, channel.later > 0.0)
 
 
 def near_switch(times: Array, switches: Sequence[float] | Array, margin: float) -> AnyArray:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.components import ProgrammeComponent
 from cosim.fmu.units import is_known
 from cosim.unit.protocol import Array, Causality
 from cosim.unit.quantity import PhysicalValue, conversion
@@ -20,6 +22,9 @@ from diagnosis.search.problem import Parameter
 USUAL = 0.05
 #: Change by which a parameter is asked what it does, relative.
 STEP = 0.01
+#: Gain of all programmes with which a parameter of an FMU without visible states is asked again, and largest share of
+#: what it does that may change with them if it is a start value: a linear system's free response depends on no input.
+LESS, FREE = -0.5, 0.05
 #: Parameters that are varied at most, those that move the outputs most.
 MOST = 20
 
@@ -66,27 +71,51 @@ def _values(fmu: FastFmu, system: FastSystem, component: str) -> Iterator[tuple[
 
 def _effect(system: FastSystem, component: str, fmu: FastFmu, parameter: str, value: float) -> float:
     """How far the outputs move with it, in their own sizes; 0 for a start value."""
-    unit = fmu.unit.table.all[parameter].variable.unit
-    courses, rates = [], []
-    for factor in (1.0, 1.0 + STEP):
-        changes = Changes({component: {parameter: PhysicalValue(factor * value, unit)}})
-        rows = system.simulate(changes)
-        if rows is None:
-            return 0.0
-        courses.append(rows.values.copy())
-        rates.append(_rates(system, component, fmu))
-    before, after = courses
-    moved = np.abs(after - before)
-    sizes = np.std(before, axis=0) + 1e-12 * np.max(np.abs(before), axis=0)
+    before, after = (_simulated(system, component, fmu, parameter, f * value) for f in (1.0, 1.0 + STEP))
+    if before is None or after is None:
+        return 0.0
+    moved = np.abs(after.rows - before.rows)
+    sizes = np.std(before.rows, axis=0) + 1e-12 * np.max(np.abs(before.rows), axis=0)
     outputs = [s for (name, _), s in system.recorded.items() if name in system.fmus]
     columns = np.concatenate([np.arange(s.start, s.stop) for s in outputs])
     with np.errstate(divide="ignore", invalid="ignore"):
         effect = float(np.nanmax(np.where(sizes > 0.0, np.sqrt(np.mean(moved**2, axis=0)) / sizes, 0.0)[columns]))
+    if not np.any(moved[0, columns] > 0.0):
+        return effect
     if fmu.is_model_exchange and fmu.state_count:
-        is_start = np.array_equal(rates[0], rates[1]) and bool(np.any(moved[0, columns] > 0.0))
+        own = [s for (c, name), s in system.recorded.items() if c == component and name.startswith("state ")]
+        states = np.concatenate([np.arange(s.start, s.stop) for s in own])
+        is_start = np.array_equal(before.rates, after.rates) and bool(np.any(moved[0, states] > 0.0))
     else:
-        is_start = bool(np.any(moved[0, columns] > 0.0))
+        less = [_simulated(system, component, fmu, parameter, f * value, LESS) for f in (1.0, 1.0 + STEP)]
+        rows = [r.rows[:, columns] for r in less if r is not None]
+        change = (after.rows - before.rows)[:, columns]
+        is_start = len(rows) < 2 or bool(np.max(np.abs(change - (rows[1] - rows[0]))) < FREE * np.max(np.abs(change)))
     return 0.0 if is_start else effect
+
+
+@dataclass(frozen=True)
+class _Simulated:
+    """What a simulation recorded, shape (outputs, recorded), and derivatives of the states after it."""
+
+    rows: Array
+    rates: Array
+
+
+def _simulated(
+    system: FastSystem, component: str, fmu: FastFmu, parameter: str, value: float, gain: float = 0.0
+) -> _Simulated | None:
+    """A simulation with another value of a parameter, and programmes that are larger by a share; None if it fails."""
+    unit = fmu.unit.table.all[parameter].variable.unit
+    scenario = system.scenario
+    span = scenario.time.start.to("s"), scenario.time.stop.to("s")
+    gains = {
+        name: dict.fromkeys(part.outputs, (gain, *span))
+        for name, part in scenario.components.items()
+        if isinstance(part, ProgrammeComponent)
+    }
+    rows = system.simulate(Changes({component: {parameter: PhysicalValue(value, unit)}}, gains=gains if gain else {}))
+    return None if rows is None else _Simulated(rows.values.copy(), _rates(system, component, fmu))
 
 
 def _rates(system: FastSystem, component: str, fmu: FastFmu) -> Array:
