@@ -167,6 +167,12 @@ class Compared:
         """Last sample [s]."""
         return self.recording.end
 
+    @cached_property
+    def drive(self) -> str:
+        """What a response is earlier or later than, in words."""
+        moving = [c for c in self.courses if len(c.switches())]
+        return "its recorded input" if moving and all(c.is_recorded for c in moving) else "its programme"
+
     def switches(self) -> Array:
         """Instants within the recording at which a programme changes [s], rising."""
         found = [c.switches() for c in self.courses]

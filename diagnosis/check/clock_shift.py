@@ -31,6 +31,8 @@ SHIFTS, LAGS = 9, 9
 SLOWER = (0.05, 0.2)
 #: Channels that are asked; more of one rig share its clock.
 MOST_CHANNELS = 2
+#: Share of its range by which a course turns over: less is rounding, or a ripple of a solver.
+TURN = 0.02
 #: Instants at which an event is tried.
 EVENTS = 100
 #: What an event, and sensors that answer an input, are in words.
@@ -118,7 +120,10 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_decisive = min(found.gained, found.spread) > limit
     if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
         # what sets in in some time and stays may seem late, and what answers at once early
-        rivals = (event_gain(compared), direct_gain(compared), growth_gain(compared))
+        is_late = found.size > 0.0 and not found.is_rate
+        # what answers at once comes early
+        at_once = 0.0 if is_late else direct_gain(compared)
+        rivals = (event_gain(compared), at_once, growth_gain(compared, is_late))
         if max(rivals) > found.gained + limit:
             return []
         for rival, what in zip(rivals, _ELSE):
@@ -126,7 +131,7 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
                 return [_or_else(compared, found, over, what)]
         if not found.is_common:
             return [_of_one(compared, found, over)]
-        if found.size > 0.0 and not found.is_rate:
+        if is_late:
             return [_late(compared, found, where, over)]
         return [_decided(compared, found, where, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
@@ -165,7 +170,7 @@ def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over
         return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
     stated = max(b.channel.offset_bound for b in asked(compared))
     text = (
-        f"the response comes {abs(found.size):.3g} s earlier than its programme ({low:.3g} to {high:.3g} s, 95 %), "
+        f"the response comes {abs(found.size):.3g} s earlier than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), "
         f"where at most {stated:.3g} s are stated; {weight}"
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
@@ -176,7 +181,7 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
     """The doubt where the response comes late: a dead time and many lags in series make it late too."""
     low, high = found.interval
     text = (
-        f"the response comes {found.size:.3g} s later than its programme ({low:.3g} to {high:.3g} s, 95 %), by more "
+        f"the response comes {found.size:.3g} s later than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), by more "
         f"than one or two lags explain ({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and "
         f"many lags in series cannot be told apart"
     )
@@ -186,32 +191,82 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
 
 def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float], what: str) -> Doubt:
     """The doubt where something else explains as much: the search knows it."""
-    off = f"run {found.percent:.2g} % wrong" if found.is_rate else f"be {abs(found.size):.3g} s off"
-    text = f"the readings' clock seems to {off}, or {what}: these cannot be told apart"
+    way = "later" if found.size > 0.0 else "earlier"
+    off = f"the response seems to come {abs(found.size):.3g} s {way} than {compared.drive}"
+    if found.is_rate:
+        off = f"the readings' clock seems to run {found.percent:.2g} % wrong"
+    text = f"{off}, or {what}: these cannot be told apart"
     remedy = "compare two instants that both clocks know"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
 
 
 def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
     """The doubt where one channel alone is off: the search knows such a fault, so that it is no other experiment."""
-    off = f"{found.percent:.2g} %" if found.is_rate else f"{abs(found.size):.3g} s"
-    text = (
-        f"the times of one channel seem to be off by {off}: its own clock, or that of the recording, for no other "
-        f"channel shows the same"
-    )
+    asking = asked(compared)
+    names = " and ".join(b.channel.name for b in asking)
+    if found.is_rate:
+        text = f"the times of {names} seem to run {found.percent:.2g} % wrong: its own clock, or that of the recording"
+    else:
+        low, high = sorted(abs(v) for v in found.interval)
+        way, causes = ("later", ", or a dead time") if found.size > 0.0 else ("earlier", "")
+        text = (
+            f"the response of {names} comes {abs(found.size):.3g} s {way} than {compared.drive} ({low:.3g} to "
+            f"{high:.3g} s, 95 %): the clock of the channel, of the input or of the recording{causes}"
+        )
+    more = "no other channel can confirm it" if len(asking) == 1 else "not every channel shows the same"
+    text = f"{text}; {more}"
     remedy = "compare two instants that both clocks know, or state the channel's `offset_bound`"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
 
 
 def asked(compared: Compared) -> list[Beside]:
-    """Channels that tell the time best."""
-    direct = [b for b in leading(compared) if b.channel.target.domain in ("thermal", "electrical")]
-    step = max(1, -(-len(direct) // MOST_CHANNELS))
-    return direct[::step]
+    """Channels that tell the time best: temperatures and flows, and outputs of a component that follow its inputs.
+
+    A level or a position may follow its inputs as they do. One that swings by itself says nothing of a clock: a
+    frequency that is a little off moves its readings as a clock does.
+    """
+    found = [
+        b
+        for b in leading(compared)
+        if b.channel.target.domain in ("thermal", "electrical")
+        or (b.channel.target.is_component and not swings(compared, b))
+    ]
+    step = max(1, -(-len(found) // MOST_CHANNELS))
+    return found[::step]
+
+
+def swings(compared: Compared, beside: Beside) -> bool:
+    """Whether the simulated channel turns more often than all that drives it.
+
+    What follows its inputs through lags and integrators in series, none of them complex, cannot: such kernels diminish
+    variation. Schoenberg, J. Anal. Math. 1 (1951) 331-374.
+    """
+    assert beside.simulated is not None
+    inside = (beside.simulated.times >= compared.begin) & (beside.simulated.times <= compared.end)
+    driven = sum(turns(c.at(beside.simulated.times[inside])) for c in compared.courses)
+    # the course begins anywhere: an equilibrium that is left may add one turn for each state, two here
+    return turns(beside.simulated.values[inside]) > driven + 2
+
+
+def turns(values: Array) -> int:
+    """How often a course turns over, by more than `TURN` of its range."""
+    least = TURN * float(np.ptp(values)) if len(values) else 0.0
+    if not least > 0.0:
+        return 0
+    count, way, extreme = 0, 0, float(values[0])
+    for value in values:
+        step = (value - extreme) * (way or 1)
+        if way == 0 and abs(value - values[0]) > least:
+            way, extreme = (1 if value > values[0] else -1), float(value)
+        elif way and step > 0.0:
+            extreme = float(value)
+        elif way and step < -least:
+            count, way, extreme = count + 1, -way, float(value)
+    return count
 
 
 def clock_shift(compared: Compared) -> Shift | None:
-    """The shift of a recording's clock; None where nothing is driven, or no temperature or flow is measured."""
+    """The shift of a recording's clock; None where nothing is driven, or nothing follows it."""
     leads = asked(compared)
     if not leads or not len(compared.switches()):
         return None
@@ -302,10 +357,14 @@ def direct_gain(compared: Compared) -> float:
     return _gain_of(compared, lambda times, course: [direct(compared, times)])
 
 
-def growth_gain(compared: Compared) -> float:
+def growth_gain(compared: Compared, is_late: bool = False) -> float:
     """What a response, of the body or of a sensor, gains that grows or fades steadily: a drift, wear, an input's too.
 
     Seen beside the course it moves as one does whose clock runs wrong.
+
+    Args:
+        compared: The recording.
+        is_late: Whether it is asked beside a response that comes late: what answers an input at once comes early.
     """
 
     def of_the_body(times: Array, course: Array) -> list[Array]:
@@ -316,7 +375,7 @@ def growth_gain(compared: Compared) -> float:
         inputs = direct(compared, times)
         return [np.concatenate([inputs, inputs * _share(times)])]
 
-    return max(_gain_of(compared, of_the_body), _gain_of(compared, of_the_inputs))
+    return max(_gain_of(compared, columns) for columns in (of_the_body, of_the_inputs)[: 1 if is_late else 2])
 
 
 def _share(times: Array) -> Array:
@@ -355,8 +414,8 @@ def thinned(beside: Beside) -> Thinned:
 
 
 def order(beside: Beside) -> int:
-    """2 where a body's heat capacity leaves kinks of a switch, 1 where steps are left of it."""
-    return 2 if beside.channel.target.domain == "thermal" else 1
+    """2 where a body's heat capacity, inertia or volume leaves kinks of a switch, 1 where steps are left of it."""
+    return 1 if beside.channel.target.domain in ("electrical", "stiffness") else 2
 
 
 def timed_channel(beside: Beside, moves: Array, lags: Array) -> Timed:

@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.explain import Basis, Fit, basis, design, fit, gain
+from diagnosis.check.explain import MOST_LEFT, Basis, Fit, basis, design, fit, gain
 from diagnosis.check.timing import critical, percent
 from diagnosis.judge.diagnosis import Doubt
 
@@ -37,7 +37,7 @@ def swap_doubts(compared: Compared) -> list[Doubt]:
     kinds: dict[tuple[str, str], list[Beside]] = defaultdict(list)
     for b in compared.channels.values():
         if b.moves and len(b.pick) >= 24:
-            kinds[b.channel.target.kind, b.channel.target.quantity].append(b)
+            kinds[_kind(b)].append(b)
     found = []
     for members in kinds.values():
         if len(members) > 1:
@@ -45,29 +45,39 @@ def swap_doubts(compared: Compared) -> list[Doubt]:
     return found
 
 
+def _kind(beside: Beside) -> tuple[str, str]:
+    """Channels of one kind may be exchanged: the same quantity of elements, outputs of components in one unit."""
+    target = beside.channel.target
+    return ("component", target.si_unit) if target.is_component else (target.kind, target.quantity)
+
+
 def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
     count = len(members)
     level = critical(float(count * (count - 1)))
     own_fits = [basis(b).fit(b.measured, b.tolerance) for b in members]
-    if not _may_cycle(_most(members, own_fits) > level * (1.0 - SLACK)):
+    as_simulated = np.array([[_is_nearer(b, course) for course in members] for b in members])
+    if not _may_cycle((_most(members, own_fits) > level * (1.0 - SLACK)) | as_simulated):
         return []
     fits: list[list[Fit]] = [[_one(b, course) for course in members] for b in members]
     # relative to what each channel's own simulation explains
     gains = np.array([[gain(row[i], other) for other in row] for i, row in enumerate(fits)])
-    rows, columns = linear_sum_assignment(gains, maximize=True)
+    # a lag makes the fast of two channels the slow one: what reads as the other is simulated is no loss then
+    rows, columns = linear_sum_assignment(np.where(as_simulated, np.maximum(gains, 0.0), gains), maximize=True)
     found = []
     for cycle in _cycles(rows, columns):
         # every channel of an exchange must gain: one that is wrong by itself has another fault
         own = [float(gains[i, columns[i]]) for i in cycle]
-        if min(own) <= level:
+        if max(own) <= level or not all(g > level or as_simulated[i, columns[i]] for g, i in zip(own, cycle)):
             continue
         names = [members[i].channel.name for i in cycle]
         takes = ", ".join(f"`{members[i].channel.name}` reads like `{members[columns[i]].channel.name}`" for i in cycle)
-        worst = min(cycle, key=lambda i: gains[i, columns[i]])
+        gaining = [i for i in cycle if gains[i, columns[i]] > level]
+        worst = min(gaining, key=lambda i: gains[i, columns[i]])
         text = (
             f"{takes}: so exchanged, the simulation explains at least "
             f"{percent(fits[worst][columns[worst]].share)} of "
-            f"each, in place of {percent(fits[worst][worst].share)}. {WHICH}"
+            f"{'each' if len(gaining) == len(cycle) else members[worst].channel.name}, in place of "
+            f"{percent(fits[worst][worst].share)}. {WHICH}"
         )
         remedy = (
             "look which of them are exchanged; `column` of these channels puts columns and sensors right, the scenario "
@@ -83,7 +93,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
                 True,
                 compared.begin,
                 compared.end,
-                float(np.sqrt(min(own))),
+                float(np.sqrt(max(min(own), level))),
                 same_as=(EXCHANGED,) if len(cycle) == 2 else (),
             )
         )
@@ -122,6 +132,15 @@ def _may_cycle(is_better: AnyArray) -> bool:
         if not lost.any():
             return bool(left.any())
         left[lost], left[:, lost] = False, False
+
+
+def _is_nearer(beside: Beside, course: Beside) -> bool:
+    """Whether a channel reads as another one is simulated, rather than as it is: a quarter of the squares at most.
+
+    As simulated, without an offset, a gain and a lag: by these a slow channel explains the readings of a fast one.
+    """
+    left = [float(np.mean((beside.measured - b.at(beside.times)) ** 2)) + beside.tolerance**2 for b in (beside, course)]
+    return left[1] < MOST_LEFT**2 * left[0]
 
 
 def _one(beside: Beside, course: Beside) -> Fit:

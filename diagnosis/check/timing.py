@@ -230,7 +230,7 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     if abs(shift) < np.min(np.diff(ends)) or _shares(fits) > 1.0 - DISCREPANCY**2:
         stated = max(b.channel.offset_bound for b in leads)
         text = (
-            f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s "
+            f"the response comes {abs(shift):.3g} s {way} than {compared.drive}, where at most {stated:.3g} s "
             f"are stated: "
             "moved by that, it explains {other} of the readings, as it is {own}"
         )

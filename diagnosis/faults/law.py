@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cosim.unit.protocol import Array
 from diagnosis.search.problem import Term, TermParameter
 
 #: Intervals of fewer samples than this are wild readings, which Huber's function deals with.
@@ -75,6 +76,73 @@ INPUT = FaultLaw(
         "sensor_offset_in_interval": "another sensor of the same part decides",
     },
 )
+UNSTATED = FaultLaw(
+    "unstated_input_in_interval",
+    "input that acted for a while although it was stated as zero",
+    f"input = stated + offset * box(t) where stated = 0; {_INTERVAL}",
+    "offset",
+    {
+        "ambient_step": "a record of the input itself decides",
+        "sensor_offset_in_interval": "another sensor of the same part decides",
+    },
+)
+#: Faults of inputs: what is stated was another, or acted where nothing was stated.
+OF_INPUTS = (INPUT, UNSTATED)
+#: Stretches in which an input is stated as zero of which each may be wrong; of more the longest.
+STRETCHES = 4
+#: Share by which an input is off that is no finding: laboratory supplies hold what is set on them to about 1 %. What is
+#: smaller than that of the largest value of an input is stated as zero.
+ACCURACY = 0.01
+
+
+def gain() -> TermParameter:
+    """Strength of a wrong input: off altogether at -1, twice as much at 1."""
+    return TermParameter(
+        "gain",
+        "1",
+        -1.0,
+        1.0,
+        (0.02,),
+        negligible=ACCURACY,
+        meaning="change of the input in the interval, as a share of what was stated",
+    )
+
+
+def added(unit: str, largest: float) -> TermParameter:
+    """Strength of an input that acts while it is stated as zero: no more than its largest value elsewhere.
+
+    Args:
+        unit: SI unit of the input.
+        largest: Largest stated value, without its sign.
+    """
+    return TermParameter(
+        "offset",
+        unit,
+        -largest,
+        largest,
+        (0.02 * largest,),
+        negligible=ACCURACY * largest,
+        meaning="the input in the interval, where it was stated as zero",
+    )
+
+
+def is_zero(values: Array, axis: int = 0) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Where an input is stated as zero, same shape; all false where it is never anything else."""
+    size = np.abs(values)
+    return np.asarray(size < ACCURACY * size.max(axis=axis, keepdims=True))
+
+
+def zero_stretches(edges: Array, zero: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple[float, float]]:
+    """Stretches in which an input is stated as zero [s], the longest `STRETCHES` of them, in order of time.
+
+    Args:
+        edges: Between pieces of the recording [s], shape (pieces + 1,), rising.
+        zero: Whether the input is zero in a piece, shape (pieces,).
+    """
+    change = np.diff(np.concatenate([[False], zero, [False]]).astype(int))
+    found = zip(edges[np.flatnonzero(change > 0)].tolist(), edges[np.flatnonzero(change < 0)].tolist())
+    longest = sorted(found, key=lambda s: s[0] - s[1])[:STRETCHES]
+    return sorted(s for s in longest if s[0] < s[1])
 
 
 @dataclass(frozen=True)
@@ -121,6 +189,25 @@ def occasion(label: str, titles: Sequence[str], number: int) -> str:
         return label
     named = titles[number] if len(set(titles)) == len(titles) else f"recording {number + 1}"
     return f"{label} ({named})"
+
+
+def unstated_terms(
+    label: str, strength: TermParameter, stretches: Sequence[tuple[float, float]], span: Span, recording: int
+) -> list[Term]:
+    """An input that acts while it is stated as zero, as the search sees it: one term for each such stretch.
+
+    Args:
+        label: Its place.
+        strength: Its first parameter.
+        stretches: See `zero_stretches`.
+        span: When a fault may be; its instants are the price of each stretch too.
+        recording: Number of the recording.
+    """
+    found = []
+    for begin, end in stretches:
+        own = label if len(stretches) == 1 else f"{label}, stated as zero from {begin:.6g} to {end:.6g} s"
+        found.append(fault_term(UNSTATED, own, strength, Span(begin, end, span.instants), recording))
+    return found
 
 
 def fault_term(law: FaultLaw, label: str, strength: TermParameter, span: Span, recording: int) -> Term:

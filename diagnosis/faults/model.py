@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.faults.law import AGAIN, INPUT, OCCASIONS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
+from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.models.build import DiagnosisModel, Effect, Spot
@@ -24,7 +24,7 @@ _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     OFFSET.identifier: Readings.with_offset,
     STUCK.identifier: Readings.with_held,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, STUCK, INPUT)}
+_LAWS = {law.identifier: law for law in (OFFSET, STUCK, *OF_INPUTS)}
 #: Samples by which begin and end are moved to look for a better interval near the one found.
 _MOVES = (-8, -5, -3, -2, -1, 1, 2, 3, 5, 8)
 #: Pieces of a recording in which a change of an input is simulated: by the coil network, and where a run takes seconds.

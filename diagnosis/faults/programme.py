@@ -3,22 +3,75 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from cosim.components import ProgrammeComponent, ProgrammeOutput, nanoseconds
+from cosim.formula import to_base
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import PhysicalValue
-from diagnosis.faults.law import INPUT, Span, fault_term, occasion
-from diagnosis.faults.network_inputs import gain
+from diagnosis.faults.law import INPUT, Span, added, fault_term, gain, is_zero, occasion, unstated_terms, zero_stretches
 from diagnosis.recording.recording import Recording
+from diagnosis.recording.units import si_unit
 from diagnosis.search.problem import Term
 
 #: A temperature is no input that is a share off: of a room that is another the catalogue has laws.
 _TEMPERATURES = ("K", "degC")
 #: Second per nanosecond.
 _NANO = 1e-9
+
+
+@dataclass(frozen=True)
+class InputChange:
+    """What a fault does to an output of a programme.
+
+    Args:
+        amount: Share of what is stated, or a value in the unit of the output that acts where nothing is stated.
+        begin: [s].
+        end: [s].
+        is_added: Whether it acts where nothing is stated.
+    """
+
+    amount: float
+    begin: float
+    end: float
+    is_added: bool = False
+
+    def key(self) -> tuple[str, str, str, bool]:
+        """Every number to its last bit."""
+        return self.amount.hex(), self.begin.hex(), self.end.hex(), self.is_added
+
+    def shares(self, low: Array, step: float) -> Array:
+        """Share of each macro-step that lies in the interval, shape (steps,).
+
+        Args:
+            low: Begins of the macro-steps [s].
+            step: Macro-step [s].
+        """
+        inside = np.minimum(low + step, self.end) - np.maximum(low, self.begin)
+        return np.asarray(np.clip(inside / step, 0.0, 1.0))
+
+    def change(self, stated: Array, shares: Array) -> Array:
+        """What acts beside what is stated, shape (steps,) or (steps, elements).
+
+        Args:
+            stated: In the unit of the output.
+            shares: See `shares`.
+        """
+        shares = shares.reshape(-1, *[1] * (stated.ndim - 1))
+        if not self.is_added:
+            return np.asarray(stated * self.amount * shares)
+        return np.asarray(np.where(is_zero(stated), self.amount * shares, 0.0))
+
+
+def input_change(term: Term, values: Sequence[float], given: ProgrammeOutput) -> InputChange:
+    """What a term of `programme_inputs` does to its output."""
+    amount, begin, end = values
+    if term.identifier == INPUT.identifier:
+        return InputChange(amount, begin, end)
+    return InputChange(amount / to_base(given.unit)[0], begin, end, True)
 
 
 def programme_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) -> dict[Term, tuple[str, str]]:
@@ -36,34 +89,52 @@ def programme_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recordi
             if not isinstance(component, ProgrammeComponent) or not span.begin < span.end:
                 continue
             for output, given in component.outputs.items():
-                if given.unit not in _TEMPERATURES and np.any(_values(given)):
-                    label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
-                    found[fault_term(INPUT, label, gain(), span, number)] = (name, output)
+                values = _values(given)
+                if given.unit in _TEMPERATURES or not np.any(values):
+                    continue
+                label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
+                found[fault_term(INPUT, label, gain(), span, number)] = (name, output)
+                stretches = _zero_stretches(given, values, span)
+                if stretches:
+                    largest = to_base(given.unit)[0] * float(np.abs(values).max())
+                    strength = added(si_unit(given.unit), largest)
+                    terms = unstated_terms(label, strength, stretches, span, number)
+                    found.update(dict.fromkeys(terms, (name, output)))
     return found
 
 
-def with_gain(given: ProgrammeOutput, fault: tuple[float, float, float], scenario: Scenario) -> ProgrammeOutput:
-    """The output times 1 + gain within an interval.
+def _zero_stretches(given: ProgrammeOutput, values: Array, span: Span) -> list[tuple[float, float]]:
+    """Stretches in which a scalar output is stated as zero; none of a list."""
+    if values.ndim != 1 or given.points is None:
+        return []
+    times = np.array([t.to("s") for t, _ in given.points])
+    zero = is_zero(values)
+    if given.interpolation == "linear":
+        zero[:-1] &= zero[1:]
+    edges = np.clip(np.concatenate([[span.begin], times[1:], [max(span.end, times[-1])]]), span.begin, span.end)
+    return zero_stretches(edges, zero)
 
-    A macro-step that lies in it in part has that part of the gain, so that the interval may begin and end anywhere:
-    programmes switch between macro-steps alone.
+
+def with_changes(given: ProgrammeOutput, faults: Sequence[InputChange], scenario: Scenario) -> ProgrammeOutput:
+    """The output as faults make it, each of them of what is stated.
+
+    A macro-step that lies in the interval in part has that part of the change, so that the interval may begin and end
+    anywhere: programmes switch between macro-steps alone.
 
     Args:
         given: As it is stated.
-        fault: Gain, begin [s], end [s].
+        faults: What they do.
         scenario: What runs it; its start and macro-step make the grid.
     """
-    amount, begin, end = fault
     start, step = (nanoseconds(t) for t in (scenario.time.start, scenario.time.macro_step))
-    first, last = (int((edge / _NANO - start) // step) for edge in (begin, end))
+    edges = [int((edge / _NANO - start) // step) for f in faults for edge in (f.begin, f.end)]
     own = [nanoseconds(t) for t, _ in given.points or []]
-    grid = [start + n * step for n in (first, first + 1, last, last + 1) if n >= 0]
+    grid = [start + n * step for e in edges for n in (e, e + 1) if n >= 0]
     times = np.array(sorted({start, *own, *grid}), dtype=np.int64)
     values = _at(given, own, times)
     is_linear = given.points is not None and given.interpolation == "linear"
-    low = (times - (step // 2 if is_linear else 0)) * _NANO
-    inside = np.clip((np.minimum(low + step * _NANO, end) - np.maximum(low, begin)) / (step * _NANO), 0.0, 1.0)
-    moved = values * (1.0 + amount * inside).reshape(-1, *[1] * (values.ndim - 1))
+    low = np.asarray((times - (step // 2 if is_linear else 0)) * _NANO, dtype=np.float64)
+    moved = values + sum(f.change(values, f.shares(low, step * _NANO)) for f in faults)
     points = [(PhysicalValue(t * _NANO, "s"), _quantity(v, given.unit)) for t, v in zip(times.tolist(), moved)]
     return given.model_copy(update={"constant": None, "points": points})
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.faults.law import INPUT
+from diagnosis.faults.law import OF_INPUTS
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
@@ -373,7 +373,8 @@ def _finding(
         doubts = (*doubts, unknown) if unknown else doubts
     if not bears_names(accepted):
         doubts = (*doubts, _much_left(accepted))
-    if term.identifier == INPUT.identifier and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
+    is_input = term.identifier in {law.identifier for law in OF_INPUTS}
+    if is_input and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))

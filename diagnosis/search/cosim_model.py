@@ -14,7 +14,7 @@ from cosim.compute.result import Task
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion
-from diagnosis.faults.programme import programme_inputs
+from diagnosis.faults.programme import InputChange, input_change, programme_inputs
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Channel, Recording
@@ -140,17 +140,21 @@ class CosimModel:
                 lists.setdefault(component, {})[name] = tuple(PhysicalValue(v, found.unit) for v in found.values)
             else:
                 parameters.setdefault(component, {})[name] = PhysicalValue(found.values[0], found.unit)
-        gains: dict[str, dict[str, tuple[float, float, float]]] = {}
+        faults: dict[str, dict[str, tuple[InputChange, ...]]] = {}
         for term, values in point.terms.items():
             if term.recording is not None:
                 component, output = self.inputs[term]
                 if term.recording == number:
-                    gains.setdefault(component, {})[output] = (values[0], values[1], values[2])
+                    given = numbers.scenario.components[component]
+                    assert isinstance(given, ProgrammeComponent)
+                    own_faults = faults.setdefault(component, {})
+                    change = input_change(term, values, given.outputs[output])
+                    own_faults[output] = (*own_faults.get(output, ()), change)
                 continue
             law = self._terms[term]
             there = parameters.setdefault(law.component, {})
             there.update(with_law(numbers, law, values, there))
-        return Changes(parameters, shifts, lists, gains)
+        return Changes(parameters, shifts, lists, faults)
 
     def scenario_at(self, point: Point, number: int) -> Scenario:
         """The scenario of one recording with the values of a point; it can be run as it is."""

@@ -28,7 +28,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
-from diagnosis.faults.programme import with_gain
+from diagnosis.faults.programme import InputChange, with_changes
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import sample, series_of
@@ -42,14 +42,14 @@ class Changes:
         parameters: Component to its parameters that have other values.
         shifts: Programme to its outputs that are moved as a whole, and by how much, in the unit of the output.
         lists: Component to its parameters that are lists, each whole.
-        gains: Programme to its outputs that were another within an interval: gain, begin [s], end [s].
+        faults: Programme to its outputs that were another within an interval.
         added: FMU to terms that are added to those that it has.
     """
 
     parameters: Mapping[str, Mapping[str, PhysicalValue]] = field(default_factory=dict)
     shifts: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     lists: Mapping[str, Mapping[str, Sequence[PhysicalValue]]] = field(default_factory=dict)
-    gains: Mapping[str, Mapping[str, tuple[float, float, float]]] = field(default_factory=dict)
+    faults: Mapping[str, Mapping[str, Sequence[InputChange]]] = field(default_factory=dict)
     added: Mapping[str, Sequence[AddedTermEntry]] = field(default_factory=dict)
 
     def text(self) -> str:
@@ -60,9 +60,9 @@ class Changes:
             c: {n: [(v.number.hex(), v.unit) for v in values] for n, values in own.items()}
             for c, own in self.lists.items()
         }
-        gains = {c: {o: [v.hex() for v in g] for o, g in own.items()} for c, own in self.gains.items()}
+        faults = {c: {o: [f.key() for f in own[o]] for o in own} for c, own in self.faults.items()}
         added = {c: [t.model_dump(mode="json") for t in terms] for c, terms in self.added.items()}
-        more = [lists, gains, added] if added else [lists, gains] if gains else [lists] if lists else []
+        more = [lists, faults, added] if added else [lists, faults] if faults else [lists] if lists else []
         return json.dumps([parameters, shifts, *more], sort_keys=True)
 
 
@@ -166,9 +166,9 @@ def changed(scenario: Scenario, changes: Changes) -> Scenario:
         own = components[name]
         outputs = {o: shifted(g, moved.get(o, 0.0)) for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
-    for name, intervals in changes.gains.items():
+    for name, faults in changes.faults.items():
         own = components[name]
-        outputs = {o: with_gain(g, intervals[o], scenario) if o in intervals else g for o, g in own.outputs.items()}
+        outputs = {o: with_changes(g, faults[o], scenario) if o in faults else g for o, g in own.outputs.items()}
         components[name] = own.model_copy(update={"outputs": outputs})
     for name, terms in changes.added.items():
         own = components[name]

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from diagnosis.faults.law import INPUT
+from diagnosis.faults.law import OF_INPUTS
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
 from evaluation.proof.answer import Answer, Concealed, Sabotage
 from evaluation.proof.departure import is_within_noise
@@ -40,7 +40,7 @@ _DOUBTS: Mapping[str, frozenset[str]] = {
     "sensor_stuck": frozenset({"sensor", "noise"}),
 }
 #: Sabotage to findings that say the same of the recordings that were spoiled.
-_FINDINGS: Mapping[str, frozenset[str]] = {"input_offset": frozenset({INPUT.identifier})}
+_FINDINGS: Mapping[str, frozenset[str]] = {"input_offset": frozenset(law.identifier for law in OF_INPUTS)}
 
 
 def accepted(diagnosis: Diagnosis | None) -> tuple[Finding, ...]:

@@ -63,7 +63,7 @@ def test_a_response_that_grows_is_no_clock_that_runs_wrong(
     monkeypatch.setattr("diagnosis.check.clock_shift.direct_gain", lambda compared: 0.0)
     monkeypatch.setattr("diagnosis.check.clock_shift.event_gain", lambda compared: 0.0)
     assert shift_doubts(one) == []
-    monkeypatch.setattr("diagnosis.check.clock_shift.growth_gain", lambda compared: 0.0)
+    monkeypatch.setattr("diagnosis.check.clock_shift.growth_gain", lambda compared, is_late: 0.0)
     assert shift_doubts(one) != []
 
 

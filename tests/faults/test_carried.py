@@ -11,7 +11,7 @@ from diagnosis.amend.changes import changes_of
 from diagnosis.experiment.bench import Belief
 from diagnosis.faults.given import GivenFaults, faults_of
 from diagnosis.faults.model import with_faults
-from diagnosis.faults.programme import with_gain
+from diagnosis.faults.programme import InputChange, with_changes
 from diagnosis.judge.held_out import carried_over
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.quantity import parse_quantity
@@ -60,7 +60,8 @@ def test_residuals_are_those_of_what_is_predicted_with_every_fault(model):
 
 def test_a_fault_changes_its_own_recording_alone(model):
     for term in (*model.sensor_terms, *model.input_terms):
-        there = model.residuals([nominal(model), nominal(model).plus(term, (0.5, 200.0, 400.0))])
+        span = (0.0, 30.0) if term.identifier == "unstated_input_in_interval" else (200.0, 400.0)
+        there = model.residuals([nominal(model), nominal(model).plus(term, (0.3, *span))])
         changed = np.flatnonzero(there[0] != there[1])
         own = [r.own for r in model.readings if r.recording == term.recording]
         assert len(changed)
@@ -98,7 +99,7 @@ def test_another_model_an_experiment_and_an_amended_scenario_leave_faults_of_a_d
 def test_a_programme_with_a_gain_drives_the_same_energy_wherever_the_interval_begins(made):
     """Partial macro-steps have their part: 0.1 * (203.7 - 101.3) s of 0.75 W, exact but for rounding."""
     given = made.components["drive"].outputs["power_1"]
-    moved = with_gain(given, (0.1, 101.3, 203.7), made)
+    moved = with_changes(given, [InputChange(0.1, 101.3, 203.7)], made)
 
     def energy(output):
         times = np.array([t.to("s") for t, _ in output.points])
@@ -106,6 +107,18 @@ def test_a_programme_with_a_gain_drives_the_same_energy_wherever_the_interval_be
         return float(np.sum(watts * np.diff(np.append(times, 600.0))))
 
     assert energy(moved) - energy(given) == pytest.approx(0.1 * 102.4 * 0.75, rel=1e-9)
+
+
+def test_an_input_acts_where_nothing_is_stated_and_a_gain_there_is_nothing(made):
+    """Both at once, each of what is stated: 0.2 W over the 30 s before the first command, a tenth of 0.75 W after."""
+    given = made.components["drive"].outputs["power_1"]
+    both = [InputChange(0.1, 0.0, 203.0), InputChange(0.2, 0.0, 100.0, is_added=True)]
+    moved = with_changes(given, both, made)
+    found = {round(t.to("s")): v.to("W") for t, v in moved.points}
+    assert found[0] == pytest.approx(0.2)
+    assert found[30] == found[100] == pytest.approx(0.825)
+    assert found[203] == pytest.approx(0.75)
+    assert found[250] == pytest.approx(0.3)
 
 
 def test_the_closed_loop_runs_and_scans_faults_of_its_inputs_and_sensors(made, tmp_path):

@@ -68,6 +68,16 @@ def test_a_heater_that_gave_more_for_a_while_is_a_fault_of_its_input(made):
     assert (begin, end) == pytest.approx((200.0, 330.0), abs=CLOSE)
 
 
+def test_a_heater_that_was_on_before_the_first_command_is_told(made):
+    fault = ("unstated_input_in_interval at power of coil[2] (second)", (0.2, 40.0, 100.0))
+    outcome = found(made, recorded(made, 2, [fault]))
+    (term,) = outcome.best.terms
+    assert str(term) == fault[0]
+    power, begin, end = outcome.best.fit.point.terms[term]
+    assert power == pytest.approx(0.2, rel=0.15)
+    assert (begin, end) == pytest.approx((40.0, 100.0), abs=CLOSE)
+
+
 @pytest.mark.slow
 def test_two_sensors_at_fault_are_found_beside_a_law(made):
     law = ("neighbour_heat at all coils", (0.03,))

@@ -11,6 +11,9 @@ import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
+from cosim.loading import load_scenario
+from diagnosis.check.check import check_recordings
+from diagnosis.recording.recording import load_recording
 from evaluation.fmus.model import OdeModel
 
 ROOM = OdeModel(
@@ -106,3 +109,41 @@ def test_readings_that_leave_the_simulation_at_once_do_not_begin_elsewhere(room:
     done = CliRunner().invoke(app, [*asked, "--scenario", str(room / "scenario.yaml")])
     assert "begins at" not in done.output
     assert "input agrees" not in done.output
+
+
+def test_heating_that_was_logged_as_zero_and_acted_is_told_with_its_size(room: Path) -> None:
+    """A share of nothing is nothing: such a stretch was called physics, or not found."""
+    own = week(1, slice(0, 0), 0.0, room / "as_it_was")
+    assert own[280] == 1023.0
+    assert len(set(own[280:320])) == 1
+    logged = own.copy()
+    logged[280:320] = 0.0
+    week(1, slice(0, 0), 0.0, room / "first", logged)
+    week(2, slice(0, 0), 0.0, room / "second")
+    asked = ["diagnose", str(room / "scenario.yaml"), "--recording", str(room / "first")]
+    asked += ["--held-out", str(room / "second"), "--brief", "--out", str(room / "answer")]
+    done = CliRunner().invoke(app, asked)
+    assert done.exit_code == 0, done.output
+    answer = json.loads((room / "answer" / "diagnosis.json").read_text())
+    assert answer["verdict"] == "measurement fault", done.output
+    (fault,) = [f for f in answer["findings"] if f["is_accepted"]]
+    assert fault["effect"] == "unstated_input_in_interval"
+    size, begin, end = (p["value"] for p in fault["parameters"])
+    assert size == pytest.approx(1023.0, rel=0.03)
+    assert (begin, end) == pytest.approx((280 * STEP, 320 * STEP), abs=2.0 * STEP)
+
+
+def test_the_columns_of_two_outputs_in_one_unit_are_seen_to_be_exchanged(room: Path) -> None:
+    """By a lag the air explains the wall, so that only one of them gains; and outputs of one FMU were not compared."""
+    week(1, slice(0, 0), 0.0, room / "right")
+    week(1, slice(0, 0), 0.0, room / "wrong")
+    text = (room / "wrong" / "recording.yaml").read_text()
+    swapped = (
+        text.replace("column: Ta", "column: X").replace("column: Tw", "column: Ta").replace("column: X", "column: Tw")
+    )
+    assert swapped != text
+    (room / "wrong" / "recording.yaml").write_text(swapped)
+    scenario = load_scenario(room / "scenario.yaml")
+    wrong, right = (check_recordings(scenario, [load_recording(room / n)]) for n in ("wrong", "right"))
+    assert [d.kind for d in wrong if d.is_serious] == ["swapped"]
+    assert right == ()

@@ -11,7 +11,7 @@ from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults import network_inputs
-from diagnosis.faults.law import INPUT, Span, fault_term, occasion
+from diagnosis.faults.law import Span, fault_term, occasion, unstated_terms
 from diagnosis.models.coil_network.free import FreeSet, directions, free_parameters, sensor_values
 from diagnosis.models.coil_network.kernel.layout import QUANTITIES, CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.network import CoilNetwork, CoilNetworkError
@@ -161,10 +161,14 @@ class CoilNetworkModel:
             for number, run in enumerate(self.runs):
                 times = np.unique(np.concatenate([s.times for s in run.series]))
                 span = Span(float(run.inputs.time[0]), float(times[-1]), len(times))
-                for candidate, place in network_inputs.driven_places(self.coils, run.inputs):
-                    label = occasion(place.label, self._titles, number)
-                    term = fault_term(INPUT, label, network_inputs.gain(), span, number)
-                    self._inputs[term] = (candidate, replace(place, label=label))
+                for driven in network_inputs.driven_places(self.coils, run.inputs):
+                    label = occasion(driven.place.label, self._titles, number)
+                    if driven.stretches:
+                        terms = unstated_terms(label, driven.strength, driven.stretches, span, number)
+                    else:
+                        terms = [fault_term(driven.fault, label, driven.strength, span, number)]
+                    for term in terms:
+                        self._inputs[term] = (driven.candidate, replace(driven.place, label=term.place))
         return list(self._inputs)
 
     def where(self, term: Term) -> tuple[CandidateTerm, Place]:

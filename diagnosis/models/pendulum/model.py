@@ -100,7 +100,7 @@ class PendulumModel(CosimModel):
                 values = self._grids[number or 0].values
                 central = values["central_inertia"] * own["mass"].to("kg") / values["mass"]
                 own["central_inertia"] = PhysicalValue(central, "kg*m^2")
-        return Changes(parameters, found.shifts, found.lists, found.gains)
+        return Changes(parameters, found.shifts, found.lists, found.faults)
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`; forward differences: half the arms, and exact enough for their use.

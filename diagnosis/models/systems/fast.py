@@ -350,15 +350,11 @@ class FastSystem:
     def _changed_column(self, key: tuple[str, str], changes: Changes) -> Array:
         values = self._columns[key]
         shift = changes.shifts.get(key[0], {}).get(key[1], 0.0)
-        gain = changes.gains.get(key[0], {}).get(key[1])
         if shift:
             values = values + shift
-        if gain is not None:
-            amount, begin, end = gain
-            low = (self.start + self.size * np.arange(self.steps)) / 1e9
-            step = self.size / 1e9
-            inside = np.clip((np.minimum(low + step, end) - np.maximum(low, begin)) / step, 0.0, 1.0)
-            values = values * (1.0 + amount * inside)
+        low, stated = (self.start + self.size * np.arange(self.steps)) / 1e9, values.T
+        for fault in changes.faults.get(key[0], {}).get(key[1], ()):
+            values = values + fault.change(stated, fault.shares(low, self.size / 1e9)).T
         return np.ascontiguousarray(values)
 
     def _set_laws(self, laws: Mapping[int, Sequence[float]]) -> None:

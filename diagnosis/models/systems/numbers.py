@@ -11,6 +11,7 @@ from cosim.components import ProgrammeComponent
 from cosim.fmu.units import is_known
 from cosim.unit.protocol import Array, Causality
 from cosim.unit.quantity import PhysicalValue, conversion
+from diagnosis.faults.programme import InputChange
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu
 from diagnosis.recording.units import si_unit
@@ -109,12 +110,12 @@ def _simulated(
     unit = fmu.unit.table.all[parameter].variable.unit
     scenario = system.scenario
     span = scenario.time.start.to("s"), scenario.time.stop.to("s")
-    gains = {
-        name: dict.fromkeys(part.outputs, (gain, *span))
+    faults = {
+        name: dict.fromkeys(part.outputs, (InputChange(gain, *span),))
         for name, part in scenario.components.items()
         if isinstance(part, ProgrammeComponent)
     }
-    rows = system.simulate(Changes({component: {parameter: PhysicalValue(value, unit)}}, gains=gains if gain else {}))
+    rows = system.simulate(Changes({component: {parameter: PhysicalValue(value, unit)}}, faults=faults if gain else {}))
     return None if rows is None else _Simulated(rows.values.copy(), _rates(system, component, fmu))
 
 
