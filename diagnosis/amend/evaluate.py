@@ -20,11 +20,11 @@ from diagnosis.amend.free_run import free_run, free_run_of, start_of
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import Predictions, channel_fits, differences, predictions
 from diagnosis.judge.spread import spread_over_recordings
-from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.systems.model import SystemModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.recording import Recording

@@ -93,6 +93,9 @@ class CosimModel:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
 
+    #: See `diagnosis.search.problem.has_ridges`.
+    has_ridges = False
+
     def __init__(
         self,
         scenario: Scenario,

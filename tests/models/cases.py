@@ -12,7 +12,8 @@ from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.faults.given import LawsOnly
 from diagnosis.faults.model import with_faults
-from diagnosis.models.build import DiagnosisModel, model_of
+from diagnosis.models.build import model_of
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.recording.readings import read_results

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.protocol import ModelBase
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Own, Point, Term
@@ -39,10 +40,11 @@ class Series:
 @dataclass(frozen=True)
 class Run:
     series: tuple[Series, ...]
+    shares: Array
 
 
-class Lines(LineModel):
-    """See `diagnosis.models.build.DiagnosisModel`; one recording with one channel.
+class Lines(LineModel, ModelBase):
+    """See `diagnosis.models.protocol.DiagnosisModel`; one recording with one channel.
 
     Args:
         truth: Signal without noise, shape (samples,).
@@ -60,7 +62,7 @@ class Lines(LineModel):
     def runs(self) -> Sequence[Run]:
         channel = Channel("signal", Target("line", (), "signal"), TIME, self.measured, self.noise, self.is_given)
         used = np.ones(len(TIME), dtype=bool)
-        return (Run((Series(replace(channel, is_clipped=~used), np.arange(len(TIME)), used),)),)
+        return (Run((Series(replace(channel, is_clipped=~used), np.arange(len(TIME)), used),), np.zeros(1)),)
 
     def residuals(self, points: Sequence[Point]) -> Array:
         return np.array([(self.measured - self.signal(p)) / self.noise for p in points])

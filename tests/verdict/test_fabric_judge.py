@@ -11,7 +11,7 @@ import yaml
 from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.of_a_day import is_shown_there_alone
-from diagnosis.models.build import models_of, timeline_of
+from diagnosis.models.build import models_of
 from diagnosis.models.fabric.model import FabricModel
 from diagnosis.recording.recording import Recording, load_recording
 from tests.fabric_diagnosis.fabrics import small
@@ -41,7 +41,7 @@ def recorded(folder: Path, **keys: object) -> Recording:
 def test_whether_a_held_out_fabric_shows_what_its_coils_lack_is_asked_of_the_coils(tmp_path: Path) -> None:
     training = FabricModel(small(), [recorded(tmp_path / "monday")], catalogue())
     held_out = [recorded(tmp_path / "tuesday")]
-    judge = FabricModel(small(), held_out, catalogue(), timeline=timeline_of(training))
+    judge = FabricModel(small(), held_out, catalogue(), timeline=training.timeline)
     assert not judge.can_be_fitted
     events = {
         t.identifier: t

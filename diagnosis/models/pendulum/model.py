@@ -87,6 +87,8 @@ def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free],
 class PendulumModel(CosimModel):
     """See `CosimModel`; residuals come from `swings`, `predictions` from the co-simulation."""
 
+    has_ridges = True
+
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
 
