@@ -327,6 +327,8 @@ class DiagnosisModel(Protocol):
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path | None:
         """Write the scenario with a point's numbers and laws; None where there is no way to.
 
+        A scenario with a coil network is amended by that (`diagnosis.amend.amend`).
+
         Args:
             scenario: What was diagnosed.
             point: Fitted values, of this model.

@@ -25,6 +25,8 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 
 __all__ = ["ComponentTerm", "CosimModel", "Free", "free_parameters", "predicted"]
 
+#: What simulated recordings that judge, where the co-simulation did.
+BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
 STEP = 1e-3
 
@@ -170,6 +172,14 @@ class CosimModel:
         self.runs += len(different)
         results = dict(zip(different, self._batches.results(simulate, self.settings, list(different.values()))))
         return [list(results[k].arrays) if results[k].is_complete else None for k in keys]
+
+    def judged_by(self, point: Point) -> str:
+        """What simulated recordings that judge, for people.
+
+        Args:
+            point: At which they were judged.
+        """
+        return BY_FREE_RUNS
 
     def predict(self, point: Point, number: int) -> list[Array] | None:
         """Values of every channel of a recording at its samples, SI; None where the run stopped."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.cosimulation.unit_laws import laws_of
@@ -156,6 +158,14 @@ class ClosedLoopModel(ModelBase):
     def groups(self) -> Mapping[str, AnyArray]:
         """No channels are looked at together."""
         return {}
+
+    def judged_by(self, point: Point) -> str:
+        """What simulated recordings that judge, for people."""
+        return self.model.judged_by(point)
+
+    def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
+        """See `diagnosis.amend.closed_loop.amend_closed_loop`."""
+        return amend_closed_loop(scenario, self.model, point, folder)
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from diagnosis.models.coil_network.kernel.places import Place
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
 from diagnosis.models.cosimulation.model import Component
+from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.models.fabric.bins import Binning
 from diagnosis.models.fabric.laws import fabric_laws
 from diagnosis.models.fabric.mechanical import MechanicalModel
@@ -303,6 +305,14 @@ class FabricModel(ModelBase):
     def own_search(self, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
         """See `diagnosis.models.fabric.search.search_fabric`."""
         return search_fabric(self, settings, on_progress)
+
+    def judged_by(self, point: Point) -> str:
+        """Bullet, driven by the coil network."""
+        return BY_BULLET
+
+    def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
+        """See `diagnosis.models.fabric.amended.amend_fabric`."""
+        return amend_fabric(scenario, self, point, folder)
 
     def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
         """Asked of its coils: it is not fitted where it judges, and what has an instant or a day belongs to them."""

@@ -98,6 +98,16 @@ class SystemModel(CosimModel):
         self.runs += len(wanted)
         return [self._prediction(point, number) for point, number in wanted]
 
+    def judged_by(self, point: Point) -> str:
+        """See `CosimModel`; with how far the co-simulation is from compiled code in the first recording."""
+        by, found = "compiled code that steps the same FMUs", self.apart(point, 0)
+        if found is None:
+            return f"{by}; `cosim run` of the amended scenario stops"
+        worst, end = found
+        return (
+            f"{by}; `cosim run` of the amended scenario differs by {worst:.2g} of the noise at most until {end:.4g} s"
+        )
+
     def apart(self, point: Point, number: int, steps: int = COMPARED) -> tuple[float, float] | None:
         """How far a run of the co-simulation is from what was simulated, over the first macro-steps of a recording.
 
