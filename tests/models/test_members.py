@@ -174,7 +174,7 @@ def test_a_search_of_its_own_is_of_a_model_that_the_usual_one_does_not_fit(model
     if model.can_be_fitted:
         assert model.own_search(Settings(), print) is None
     else:
-        assert type(model).own_search is not ModelBase.own_search  # it takes minutes
+        assert "own_search" in vars(type(model))  # it takes minutes
 
 
 def test_a_term_moves_residuals_by_its_strength(model: DiagnosisModel) -> None:
