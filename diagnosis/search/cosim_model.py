@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -29,6 +30,9 @@ __all__ = ["ComponentTerm", "CosimModel", "Free", "free_parameters", "predicted"
 BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
 STEP = 1e-3
+#: Residuals that are kept: a fit asks again for those where it stands.
+KEPT = 64
+_Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
 
 
 @dataclass(frozen=True)
@@ -250,6 +254,32 @@ class CosimModel:
             return same
         known = self._numbers_of[number].of(free.component, free.name)
         return same if known is not None and elements == set(range(len(known.values))) else []
+
+
+class CompiledModel(CosimModel):
+    """A `CosimModel` whose residuals come from compiled code; those that were asked for last are kept."""
+
+    def _compiled(self, wanted: Sequence[tuple[Point, int]]) -> Iterable[list[Array] | None]:
+        """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
+        raise NotImplementedError
+
+    @cached_property
+    def _known(self) -> dict[_Key, Array]:
+        """Residuals that are kept, by what was asked."""
+        return {}
+
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        known = self._known
+        keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
+        new = {key: one for key, one in zip(keys, wanted) if key not in known}
+        for key, values in zip(new, self._compiled(list(new.values()))):
+            known[key] = self._residual(key[2], values)
+        self.runs += len(new)
+        found = [known[key] for key in keys]
+        for key in list(known)[:-KEPT]:
+            del known[key]
+        return found
 
 
 def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Array:
