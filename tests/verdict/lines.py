@@ -40,7 +40,10 @@ class Series:
 @dataclass(frozen=True)
 class Run:
     series: tuple[Series, ...]
-    shares: Array
+
+    @property
+    def shares(self) -> Array:
+        return np.zeros(len(self.series))
 
 
 class Lines(LineModel, ModelBase):
@@ -62,7 +65,7 @@ class Lines(LineModel, ModelBase):
     def runs(self) -> Sequence[Run]:
         channel = Channel("signal", Target("line", (), "signal"), TIME, self.measured, self.noise, self.is_given)
         used = np.ones(len(TIME), dtype=bool)
-        return (Run((Series(replace(channel, is_clipped=~used), np.arange(len(TIME)), used),), np.zeros(1)),)
+        return (Run((Series(replace(channel, is_clipped=~used), np.arange(len(TIME)), used),)),)
 
     def residuals(self, points: Sequence[Point]) -> Array:
         return np.array([(self.measured - self.signal(p)) / self.noise for p in points])
