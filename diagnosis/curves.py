@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.diagnose import Result
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.fits import is_channel, plain_channel
 from diagnosis.report.series import Series
 from diagnosis.search.problem import Point

@@ -37,12 +37,10 @@ from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
-from diagnosis.models.build import DiagnosisModel, models_of
+from diagnosis.models.build import models_of
 from diagnosis.models.cosimulation.unit_laws import identifiers
-from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.fabric.search import search_fabric
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.biased import with_biases
-from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
 from diagnosis.report.user_units import written_units
@@ -170,7 +168,7 @@ def diagnose(
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
-    right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
+    right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     told_apart, located, experiment = Isolability(), Located(()), None
     if not options.is_brief:
@@ -180,9 +178,7 @@ def diagnose(
         located = locate(model, outcome.base, [r.title for r in training], settings.seed)
         on_progress("designing the next experiment")
         experiment = next_experiment(scenario, model, training, outcome, accepted, options.limits)
-    first, left = (
-        plain_likelihood(model).residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point)
-    )
+    first, left = (model.plain.residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, why_open(outcome, found, right, tried, doubts), doubts, units),
@@ -260,11 +256,11 @@ def _searched(
     model: DiagnosisModel, judge: DiagnosisModel | None, settings: Settings, on_progress: Callable[[str], None]
 ) -> tuple[Outcome, DiagnosisModel, DiagnosisModel | None]:
     """Outcome of the search, the model that it belongs to, and the model that judges."""
-    if isinstance(model, FabricModel):
-        outcome = search_fabric(model, settings, on_progress)
-        if isinstance(judge, FabricModel):
-            judge.take_scatter(model)
-        return outcome, model, judge
+    own = model.own_search(settings, on_progress)
+    if own is not None:
+        if judge is not None:
+            judge.take_scatter(model.scatter())
+        return own, model, judge
     outcome, found = search_with_model_error(with_faults(with_biases(model)), settings, on_progress)
     return outcome, found, with_biases(judge) if judge is not None else None
 
@@ -294,7 +290,7 @@ def _accepted(
         fitted,
         is_local,
         lambda: left_out_readings(model, titles),
-        not isinstance(judge, FabricModel),
+        judge is None or judge.can_be_fitted,
         on_progress,
     )
     return accepted, unfitted.readings

@@ -12,7 +12,7 @@ import numpy as np
 from cosim.compute.steps import counted
 from cosim.unit.protocol import Array
 from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.fit import Fit, fit
@@ -61,7 +61,7 @@ def search_with_model_error(
     if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for
         outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
         factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
-    model = GivenFaults(model, faults)
+    plain, model = model, GivenFaults(model, faults)
     first = outcome
     outcome = _laws_alone(outcome)
     found = QuasiLikelihoodModel(model, factor)
@@ -75,7 +75,8 @@ def search_with_model_error(
         found = QuasiLikelihoodModel(model, np.maximum(factor, larger))
         outcome = refitted(found, outcome)
     if faults:
-        outcome, found = _with_faults(found, outcome, faults)
+        found = QuasiLikelihoodModel(LawsOnly(plain), found.inflation)
+        outcome = _with_faults(found, outcome, faults)
     return replace(outcome, first=first), found
 
 
@@ -97,13 +98,8 @@ def _laws_alone(outcome: Outcome) -> Outcome:
     return replace(outcome, best=laws(outcome.best), rivals=tuple(laws(e) for e in outcome.rivals))
 
 
-def _with_faults(
-    model: QuasiLikelihoodModel, outcome: Outcome, faults: Mapping[Term, tuple[float, ...]]
-) -> tuple[Outcome, QuasiLikelihoodModel]:
-    """Laws and faults fitted together, and the model that looks for neither."""
-    inner = model.inner
-    assert isinstance(inner, GivenFaults)
-    whole = QuasiLikelihoodModel(LawsOnly(inner.inner), model.inflation)
+def _with_faults(whole: QuasiLikelihoodModel, outcome: Outcome, faults: Mapping[Term, tuple[float, ...]]) -> Outcome:
+    """Laws and faults fitted together, by a model that looks for neither."""
 
     def beside(one: Explanation) -> Explanation:
         point = one.fit.point
@@ -111,7 +107,7 @@ def _with_faults(
 
     best = shrink(whole, beside(outcome.best), outcome.margin)
     near = [beside(e) for e in outcome.rivals if len(e.terms) == len(outcome.best.terms)][:WEIGHED]
-    return _settled(whole, outcome, recalibrate(whole), best, near), whole
+    return _settled(whole, outcome, recalibrate(whole), best, near)
 
 
 def refitted(model: QuasiLikelihoodModel, outcome: Outcome) -> Outcome:

@@ -13,8 +13,7 @@ from dataclasses import replace
 
 from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import pooled, refitted
-from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.coil_network.model import CoilNetworkModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.complete import completed
 from diagnosis.search.problem import Term
@@ -27,7 +26,7 @@ MOST = 200_000
 
 def is_cheap(model: DiagnosisModel) -> bool:
     """Whether another search of the model takes a minute at most: a network of coils or heaters that is not large."""
-    return isinstance(model, CoilNetworkModel) and len(model.layout.time) * len(model.parameters) < MOST
+    return model.is_fast and len(model.layout.time) * len(model.parameters) < MOST
 
 
 def other_ways(

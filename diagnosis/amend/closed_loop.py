@@ -9,12 +9,12 @@ import yaml
 from cosim.scenario import Scenario
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.written import comment_of, write_scenario
-from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.search.cosim_model import CosimModel
 from diagnosis.search.cosim_run import changed
 from diagnosis.search.problem import Point
 
 
-def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, folder: Path) -> Path:
+def amend_closed_loop(scenario: Scenario, model: CosimModel, point: Point, folder: Path) -> Path:
     """Write the scenario with the fitted parameters and terms, which its components switch on themselves.
 
     What belongs to one recording or day alone (its initial state) is left as the scenario has it; what all share is in.
@@ -28,7 +28,7 @@ def amend_closed_loop(scenario: Scenario, model: ClosedLoopModel, point: Point, 
     Returns:
         The file that `cosim run` takes.
     """
-    lasting = model.model.changes_at(point.lasting, None)
+    lasting = model.changes_at(point.lasting, None)
     folder.mkdir(parents=True, exist_ok=True)
     data = yaml.safe_load(changed(scenario, lasting).to_yaml())
     take_along(scenario, data, folder)

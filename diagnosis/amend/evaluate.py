@@ -15,22 +15,15 @@ from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from diagnosis.amend.amend import AmendedModel, amend_like, write_amended
 from diagnosis.amend.changes import CannotAmend, changes_of
-from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.amend.free_run import free_run, free_run_of, start_of
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import Predictions, channel_fits, differences, predictions
 from diagnosis.judge.spread import spread_over_recordings
-from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.cosimulation.model import ClosedLoopModel
-from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
-from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.systems.model import SystemModel
-from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.recording.recording import Recording
+from diagnosis.search.cosim_model import BY_FREE_RUNS
 from diagnosis.search.problem import Point
-
-BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 
 
 def evaluate_amended_model(
@@ -73,27 +66,15 @@ def _evaluate(
     folder: Path,
 ) -> Diagnosis:
     training, judge = models
-    inner, fitted = unwrapped(training, points[0])
-    if isinstance(inner, ClosedLoopModel):
-        path = amend_closed_loop(scenario, inner, fitted["after"], folder)
-        by = BY_FREE_RUNS if judge is not None else ""
-        if judge is not None and isinstance(inner.model, SystemModel):
-            by = _by_compiled_code(judge, points[1])
-        return replace(diagnosis, amended_model=str(path), held_out_by=by)
-    if isinstance(inner, FabricModel):
-        by = BY_BULLET if judge is not None else ""
-        try:
-            path = amend_fabric(scenario, inner, fitted["after"], folder)
-        except CannotAmend as reason:
-            by = "; ".join(filter(None, (by, f"there is no amended scenario: {reason}")))
-            return replace(diagnosis, held_out_by=by)
-        return replace(diagnosis, amended_model=str(path), held_out_by=by)
-    if not isinstance(inner, CoilNetworkModel):
-        return replace(diagnosis, held_out_by="the model that was fitted; it has no amended scenario")
+    network, fitted = training.coil_network, _innermost(training, points[0])
+    if network is None:
+        by = "" if judge is None else judge.judged_by(points[1]["after"])
+        return _by_itself(diagnosis, scenario, training, points[0]["after"], folder, by)
+    by = network.judged_by(fitted["after"])
     try:
-        amended = _amended(scenario, inner, fitted, folder)
+        amended = _amended(scenario, network, fitted, folder)
     except CannotAmend as reason:
-        return replace(diagnosis, held_out_by=f"the fast simulation; there is no amended scenario: {reason}")
+        return replace(diagnosis, held_out_by=f"{by}; there is no amended scenario: {reason}")
     diagnosis = replace(diagnosis, amended_model=str(amended["after"].path))
     if judge is None:
         return replace(diagnosis, held_out_by="")
@@ -103,7 +84,7 @@ def _evaluate(
     except RunStopped as stopped:
         if stopped.is_interrupt:
             raise KeyboardInterrupt from stopped
-        return replace(diagnosis, held_out_by=f"the fast simulation; the free run stopped: {stopped.reason}")
+        return replace(diagnosis, held_out_by=f"{by}; the free run stopped: {stopped.reason}")
     fits = [f for f in diagnosis.fit if not f.is_held_out]
     fits += channel_fits(judge, held_out, points[1], is_held_out=True, predicted=free)
     return replace(
@@ -115,26 +96,23 @@ def _evaluate(
     )
 
 
-def _by_compiled_code(judge: DiagnosisModel, points: Mapping[str, Point]) -> str:
-    """Who simulated held-out recordings of a system of FMUs, and how far the co-simulation is from that."""
-    model, own = unwrapped(judge, points)
-    assert isinstance(model, ClosedLoopModel)
-    assert isinstance(model.model, SystemModel)
-    by = "compiled code that steps the same FMUs"
-    found = model.model.apart(own["after"], 0)
-    if found is None:
-        return f"{by}; `cosim run` of the amended scenario stops"
-    worst, end = found
-    return f"{by}; `cosim run` of the amended scenario differs by {worst:.2g} of the noise at most until {end:.4g} s"
+def _by_itself(
+    diagnosis: Diagnosis, scenario: Scenario, model: DiagnosisModel, point: Point, folder: Path, by: str
+) -> Diagnosis:
+    """The diagnosis with the scenario that a model amends itself, its held-out fits as they are."""
+    try:
+        path = model.amend(scenario, point, folder)
+    except CannotAmend as reason:
+        by = "; ".join(filter(None, (by, f"there is no amended scenario: {reason}")))
+        return replace(diagnosis, held_out_by=by)
+    if path is None:
+        return replace(diagnosis, held_out_by=f"{model.judged_by(point)}; it has no amended scenario")
+    return replace(diagnosis, amended_model=str(path), held_out_by=by)
 
 
-def unwrapped(model: DiagnosisModel, points: Mapping[str, Point]) -> tuple[DiagnosisModel, dict[str, Point]]:
-    """The model that simulates, and the points as it knows them."""
-    inner, own = model, dict(points)
-    while isinstance(inner, WrappedModel):
-        own = {stage: inner.inside(point) for stage, point in own.items()}
-        inner = inner.inner
-    return inner, own
+def _innermost(model: DiagnosisModel, points: Mapping[str, Point]) -> dict[str, Point]:
+    """Points by stage, as the model that simulates knows them."""
+    return {stage: model.innermost_point(point) for stage, point in points.items()}
 
 
 def _amended(
@@ -158,13 +136,13 @@ def _free(
 
     They begin as the judge's point says, be it estimated from a first stretch (`beginning`) or known of the same day.
     """
-    inner, own = unwrapped(judge, points)
-    assert isinstance(inner, CoilNetworkModel)
-    simulated = predictions(inner, own)
+    network, own = judge.coil_network, _innermost(judge, points)
+    assert network is not None, "training and judge are of the same kind"
+    simulated = predictions(network, own)
     found: dict[str, list[list[Array]]] = {stage: [] for stage in points}
     order = [(stage, n, recording) for stage in points for n, recording in enumerate(held_out)]
     for stage, n, recording in counted(order, "recordings that judge simulated freely"):
-        run, start = inner.runs[n], start_of(inner.network_parameters(own[stage], n))
+        run, start = network.runs[n], start_of(network.network_parameters(own[stage], n))
         if stage in amended:
             values = free_run(amended[stage], recording, run.times, start)
         else:

@@ -19,11 +19,9 @@ from diagnosis.experiment.separation import DECISIVE
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.judge import UNSEPARATED, bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
-from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import GRAVITY
-from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
-from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Explanation, Outcome
@@ -128,13 +126,10 @@ def next_experiment(
 ) -> NextExperiment | None:
     """What would decide about explanations that are left open, where the coil network can simulate it; see `design`."""
     question = open_explanations(_as_accepted(outcome, accepted))
-    inflation = None
-    while isinstance(model, WrappedModel):
-        inflation = model.inflation if isinstance(model, QuasiLikelihoodModel) else inflation
-        model = model.inner
-    if question is None or not isinstance(model, CoilNetworkModel):
+    network = model.coil_network
+    if question is None or network is None:
         return None
-    return design(scenario, SoFar(model, recordings, inflation), question, limits)
+    return design(scenario, SoFar(network, recordings, model.inflation), question, limits)
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.wrappers.wrapped import Scaled, WrappedModel, unscaled
+from diagnosis.models.protocol import DiagnosisModel, Scaled, unscaled
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.score import Projection
@@ -32,11 +32,11 @@ class GivenFaults(LawsOnly):
 
     def __init__(self, inner: DiagnosisModel, faults: Mapping[Term, tuple[float, ...]]) -> None:
         super().__init__(inner)
-        self.faults = dict(faults)
+        self.given = dict(faults)
 
     def inside(self, point: Point) -> Point:
         """The point with the faults."""
-        return Point(point.base, {**point.terms, **self.faults})
+        return Point(point.base, {**point.terms, **self.given})
 
 
 def faults_of(point: Point) -> dict[Term, tuple[float, ...]]:

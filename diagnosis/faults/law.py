@@ -27,7 +27,7 @@ _INTERVAL = "box(t) = 1 from begin to end, else 0"
 
 @dataclass(frozen=True)
 class FaultLaw:
-    """A kind of fault; see `diagnosis.models.build.Effect`.
+    """A kind of fault; see `diagnosis.models.protocol.Effect`.
 
     Args:
         identifier: Stable name.
@@ -147,7 +147,7 @@ def zero_stretches(edges: Array, zero: np.ndarray[tuple[int, ...], np.dtype[np.b
 
 @dataclass(frozen=True)
 class FaultPlace:
-    """See `diagnosis.models.build.Spot`.
+    """See `diagnosis.models.protocol.Spot`.
 
     Args:
         label: Channel or input, and its recording where there are several.

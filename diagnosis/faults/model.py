@@ -11,9 +11,8 @@ from cosim.unit.protocol import Array
 from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
-from diagnosis.models.build import DiagnosisModel, Effect, Spot
-from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.wrapped import Scaled, WrappedModel, unscaled
+from diagnosis.models.protocol import DiagnosisModel, Effect, Scaled, Spot, unscaled
+from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term, strength_slopes
 from diagnosis.search.score import Projection, Scoring
@@ -52,25 +51,10 @@ class FaultyModel(WrappedModel):
                 for law, strength in ((OFFSET, readings.offset()), (STUCK, WHOLLY)):
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
-        innermost = self._innermost()
-        #: Faults of inputs, which the inner model simulates.
-        self.input_terms: list[Term] = list(getattr(innermost, "input_terms", list)())
-        self._is_fast = isinstance(innermost, CoilNetworkModel)
-
-    def _innermost(self) -> DiagnosisModel:
-        found = self.inner
-        while isinstance(found, WrappedModel):
-            found = found.inner
-        return found
-
-    @property
-    def is_fast(self) -> bool:
-        """Whether a simulation takes milliseconds."""
-        return self._is_fast
 
     def faults(self) -> tuple[Term, ...]:
-        """Every fault that the search tries beside the laws."""
-        return (*self.sensor_terms, *self.input_terms)
+        """Every fault that the search tries beside the laws; those of inputs are simulated by the inner model."""
+        return (*self.sensor_terms, *self.input_terms())
 
     def inside(self, point: Point) -> Point:
         """The point without faults of sensors."""
@@ -175,7 +159,7 @@ class FaultyModel(WrappedModel):
         return found.joined(self._input_scores(base, projection, scaled))
 
     def _input_scores(self, base: Fit, projection: Projection, scaled: Scaled) -> Scoring:
-        terms = [t for t in self.input_terms if t not in base.point.terms]
+        terms = [t for t in self.input_terms() if t not in base.point.terms]
         draws = projection.draws
         if not terms or structure(base.residuals, self.layout).is_noise:
             return Scoring([], 0, np.zeros(draws), (None,) * draws)
@@ -186,7 +170,7 @@ class FaultyModel(WrappedModel):
             return strength_slopes(self, base.point, None, tasks)
 
         own = {r: self._residuals_of(r) for r in {t.recording for t in terms}}
-        pieces = PIECES if self._is_fast else FEW_PIECES
+        pieces = PIECES if self.is_fast else FEW_PIECES
         return input_scores(projection, scaled, [(t, own[t.recording]) for t in terms], slopes, pieces)
 
     def _residuals_of(self, recording: int | None) -> slice:

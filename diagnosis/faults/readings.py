@@ -9,10 +9,8 @@ import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.law import Span
-from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import deviation
-from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import TermParameter
 
 
@@ -96,15 +94,11 @@ class Readings:
 
 def readings_of(model: DiagnosisModel) -> list[Readings]:
     """Every channel of every recording of a model that compares sample by sample, in the order of its residuals."""
-    network: object = model
-    while isinstance(network, WrappedModel):
-        network = network.inner
     found: list[Readings] = []
     begin = 0
     labels = _labels(model)
     for recording, run in enumerate(model.runs):
-        shares = network.runs[recording].shares if isinstance(network, CoilNetworkModel) else np.zeros(len(run.series))
-        for series, share in zip(run.series, shares.tolist()):
+        for series, share in zip(run.series, run.shares.tolist()):
             channel, count = series.channel, len(series.samples)
             times = channel.times[-count:] if count else np.zeros(0)
             found.append(

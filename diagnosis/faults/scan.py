@@ -10,7 +10,7 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
 from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET
 from diagnosis.faults.readings import Readings
-from diagnosis.models.wrappers.wrapped import Scaled
+from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.score import Projection, Score, Scoring

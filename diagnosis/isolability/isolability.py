@@ -14,9 +14,9 @@ from diagnosis.judge.isolability import ExtraChannel, FaultClass, Isolability
 from diagnosis.models.coil_network.kernel.layout import QUANTITIES
 from diagnosis.models.coil_network.kernel.places import coil_label
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Model, Term
+from diagnosis.search.problem import Term
 
 #: Quantities by which stretched coils are known.
 _LOADED = frozenset({"extension", "length", "stiffness", "tension"})
@@ -37,7 +37,7 @@ MOST = 6
 ABSORBED = 0.1
 
 
-def isolability(model: Model, fit: Fit, terms: Sequence[Term]) -> Isolability:
+def isolability(model: DiagnosisModel, fit: Fit, terms: Sequence[Term]) -> Isolability:
     """What can be told apart, by the structure of the equations and by the sizes of effects.
 
     Args:
@@ -47,7 +47,7 @@ def isolability(model: Model, fit: Fit, terms: Sequence[Term]) -> Isolability:
     """
     shown, alike = effects(model, fit, widest(terms))
     by_size = list(_by_size(shown, alike))
-    network = _network(model)
+    network = model.coil_network
     if network is None:
         return Isolability(tuple(by_size))
     rig = rig_of(network)
@@ -56,12 +56,6 @@ def isolability(model: Model, fit: Fit, terms: Sequence[Term]) -> Isolability:
     extra = extra_channels(rig, now)
     statements = [*_structural(classes, now), *(e.statement for e in extra[:1]), *by_size]
     return Isolability(tuple(statements), tuple(classes), tuple(extra))
-
-
-def _network(model: object) -> CoilNetworkModel | None:
-    while isinstance(model, WrappedModel):
-        model = model.inner
-    return model if isinstance(model, CoilNetworkModel) else None
 
 
 def rig_of(model: CoilNetworkModel) -> Rig:

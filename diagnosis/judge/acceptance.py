@@ -16,7 +16,7 @@ from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term

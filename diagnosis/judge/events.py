@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.judge.diagnosis import Estimate
-from diagnosis.models.build import DiagnosisModel, timeline_of
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
@@ -53,7 +53,7 @@ def event_of(term: Term, values: Sequence[float], model: DiagnosisModel) -> Even
         values: Of its parameters, as fitted: the instant on the joint axis.
         model: Model of the recordings that were fitted, wrapped or not.
     """
-    timeline = None if term.recording is not None else timeline_of(model)  # a fault has begin and end instead
+    timeline = None if term.recording is not None else model.timeline  # a fault has begin and end instead
     joint = next((v for p, v in zip(term.parameters, values) if p.is_instant), None)
     if timeline is None or joint is None:
         return None
@@ -119,7 +119,7 @@ def since(term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0, units
         doubt: As in `instant_interval`.
         units: In which instants are shown.
     """
-    timeline, interval = timeline_of(model), instant_interval(term, fit, model, doubt)
+    timeline, interval = model.timeline, instant_interval(term, fit, model, doubt)
     if timeline is None or interval is None:
         return ""
     (first, begin), (last, end) = (timeline.place(joint) for joint in interval)

@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import ChannelFit, Difference
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Point
 from diagnosis.search.structure import WINDOWS

@@ -7,34 +7,16 @@ The angle at which somebody lets an arm go belongs to the day and not to the mod
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.unit.protocol import AnyArray
 from diagnosis.judge.recording_parameters import OwnNumbers, recording_parameters
-from diagnosis.models.build import DiagnosisModel, RecordedRun
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, DiagnosisModel, RecordedRun, compared_run
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
-from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
-
-
-@dataclass(frozen=True)
-class _Series:
-    """See `diagnosis.models.build.Series`."""
-
-    channel: Channel
-    samples: AnyArray
-    used: AnyArray
-
-
-@dataclass(frozen=True)
-class _Run:
-    """See `diagnosis.models.build.RecordedRun`."""
-
-    series: tuple[_Series, ...]
 
 
 class InitialStateModel(WrappedModel):
@@ -90,9 +72,9 @@ def begun(
     return InitialStateModel(judge, recordings), found
 
 
-def _begun(run: RecordedRun, length: float) -> _Run:
+def _begun(run: RecordedRun, length: float) -> ComparedRun:
     series = []
     for s in run.series:
         times = s.channel.times[-len(s.samples) :]
-        series.append(_Series(s.channel, s.samples, np.asarray(s.used & (times >= s.channel.times[0] + length))))
-    return _Run(tuple(series))
+        series.append(ComparedSeries(s.channel, s.samples, np.asarray(s.used & (times >= s.channel.times[0] + length))))
+    return compared_run(series, run.shares)

@@ -33,8 +33,7 @@ from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import has_bins, raw_residuals
-from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.display import words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
@@ -441,7 +440,7 @@ def _effect(model: DiagnosisModel, fit: Fit, term: Term) -> Array:
     point = fit.point
     if has_bins(model):
         return np.asarray(model.residuals([point.without(term)])[0] - fit.residuals)  # bins of a fabric
-    inner = plain_likelihood(model)
+    inner = model.plain
     used = np.concatenate([s.used for run in model.runs for s in run.series])
     return np.where(used, raw_residuals(inner, point.without(term)) - raw_residuals(inner, point), 0.0)
 

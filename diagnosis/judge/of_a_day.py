@@ -11,9 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diagnosis.judge.unfitted import raw_residuals, readings_of
-from diagnosis.models.build import DiagnosisModel
-from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term
 
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
@@ -44,14 +42,7 @@ def is_shown_there_alone(
         return False
     if judge is None:
         return is_of_a_day and (is_event or getattr(place, "day", None) is not None)
-    # A fabric is not fitted where it judges; what it has with an instant or of a day belongs to its coils.
-    asked = judge.network if isinstance(judge, FabricModel) else judge
-    there = {str(t): t for t in asked.terms()} if asked is not None else {}
-    if asked is None or str(term) not in there:
-        return True
-    nominal = Point(np.zeros(len(asked.parameters)))
-    without, with_it = asked.residuals([nominal, nominal.plus(there[str(term)], tuple(values))])
-    return np.array_equal(without, with_it)
+    return not judge.is_moved_by(term, values)
 
 
 def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
@@ -69,7 +60,7 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     if term.recording is None:
         return ""
     _, begin, end = point.terms[term]
-    inner = plain_likelihood(model)
+    inner = model.plain
     left = raw_residuals(inner, point)
     change = raw_residuals(inner, point.without(term)) - left
     readings = readings_of(model.runs, [""] * len(model.runs))

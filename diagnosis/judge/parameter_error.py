@@ -22,8 +22,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.runs import ZERO
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.objective import AT_BOUND, Objective
 from diagnosis.search.problem import Point
 
@@ -186,12 +186,11 @@ def without_whitening(model: DiagnosisModel, columns: Array) -> Array:
     """
     found, begin = columns.copy(), 0
     for run in model.runs:
-        shares = getattr(run, "shares", None)
         for number, series in enumerate(run.series):
             rows = begin + np.flatnonzero(series.used)
             begin += len(series.samples)
-            if shares is not None and len(rows) and shares[number] > 0.0:
-                share = float(shares[number])
+            share = float(run.shares[number])
+            if len(rows) and share > 0.0:
                 found[rows] += columns[rows].sum(axis=0) * (share / (1.0 - len(rows) * share))
     return found
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Point, Term
 

@@ -18,9 +18,7 @@ from diagnosis.judge.diagnosis import Member
 from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.unfitted import raw_residuals
-from diagnosis.models.build import DiagnosisModel, timeline_of
-from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.quasi_likelihood import plain_likelihood
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term, strength_slopes
 
 #: Sum of squared differences, in deviations of the noise, that odds of 20 to 1 ask for: 2 ln 20.
@@ -46,7 +44,7 @@ def same_response(
         term: One of its terms.
         judge: Model of the held-out recordings; None where there are none.
     """
-    if _network(model) is None or term.recording is not None or term.unit == "measurement":
+    if not model.is_fast or term.recording is not None or term.unit == "measurement":
         return ()
     seen = _seen(model, point, term)
     own = _rows(model, [point, point.without(term)], seen)
@@ -73,12 +71,6 @@ def same_response(
         if training < APART and training + held.distance(there) < APART:
             found.append(Member(other.identifier, model.where(other)[1].label, other.is_named))
     return tuple(found)
-
-
-def _network(model: object) -> CoilNetworkModel | None:
-    while hasattr(model, "inner"):
-        model = model.inner
-    return model if isinstance(model, CoilNetworkModel) else None
 
 
 def _is_same_law(model: DiagnosisModel, one: Term, other: Term) -> bool:
@@ -110,7 +102,7 @@ def _likely(model: DiagnosisModel, point: Point, term: Term, others: Sequence[Te
             tasks.append((other, (other.parameters[0].starts[0], *rest)))
     if not tasks:
         return found
-    inner, without = plain_likelihood(model), point.without(term)
+    inner, without = model.plain, point.without(term)
     here = np.asarray(inner.residuals([without])[0])
     response = np.asarray(inner.residuals([point])[0]) - here
     slopes = np.asarray(strength_slopes(inner, without, here, tasks), dtype=np.float64)
@@ -173,18 +165,18 @@ def _seen(model: DiagnosisModel, point: Point, term: Term) -> Array:
     Within a step a resistance is its mean: what sets in there is spread over the step, by each law in its own way, and
     that is an error of the fast simulation and nothing that a rig does.
     """
-    network, seen = _network(model), _used(model)
-    assert network is not None
+    seen, timeline = _used(model), model.timeline
     joint = next((v for p, v in zip(term.parameters, point.terms[term]) if p.is_instant), None)
-    timeline = timeline_of(model)
     if joint is None or timeline is None:
         return seen
     number, instant = timeline.place(joint)
-    ends, begin = np.asarray(network.runs[number].inputs.time), 0
+    ends, begin = model.step_ends(number), 0
+    if not len(ends):
+        return seen
     k = int(np.searchsorted(ends, instant))
     first, last = float(ends[max(k - 2, 0)]), float(ends[min(k + 1, len(ends) - 1)])
     for run in range(number + 1):
-        for series in network.runs[run].series:
+        for series in model.runs[run].series:
             times = series.channel.times[-len(series.samples) :]
             if run == number:
                 seen[begin : begin + len(times)][(times >= first) & (times <= last)] = 0.0
@@ -197,7 +189,7 @@ def _rows(model: DiagnosisModel, points: Sequence[Point], seen: Array) -> Array:
 
     Zeros of channels are not taken away: what differs at readings that do not count must not spread over the others.
     """
-    inner = plain_likelihood(model)
+    inner = model.plain
     return np.array([raw_residuals(inner, p) * seen for p in points])
 
 

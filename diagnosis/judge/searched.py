@@ -10,10 +10,9 @@ import numpy as np
 from cosim.components import ProgrammeComponent
 from cosim.scenario import Scenario
 from diagnosis.faults.law import AGAIN
-from diagnosis.faults.model import FaultyModel
 from diagnosis.judge.diagnosis import Domain, Searched
 from diagnosis.judge.doubts import MEASURED
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term, strength_slopes
 
 
@@ -28,14 +27,13 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
         without: Effects that were left out on demand.
         base: The recalibrated model; None: every domain counts.
     """
-    faulty = _with_faults(model)
     by_domain: dict[str, list[Term]] = {}
-    for term in (*model.terms(), *(faulty.faults() if faulty is not None else ())):
+    for term in (*model.terms(), *model.faults()):
         if term.is_completing:  # a basis, not laws that were tried one by one
             continue
         by_domain.setdefault(term.unit, []).append(term)
     unseen = []
-    if base is not None and faulty is not None and faulty.is_fast:
+    if base is not None and model.is_fast:
         unseen = [n for n, terms in sorted(by_domain.items()) if n not in MEASURED and not _shows(model, base, terms)]
     domains = tuple(
         Domain(
@@ -52,27 +50,13 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
     if not any(by_domain[name] for name in by_domain if name not in MEASURED):
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
-    untried += _untried(model)
+    untried += model.untried
     if not any(p.own is None for p in model.parameters):
         untried.append(
             "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
             "code) moves these readings"
         )
     return Searched(domains, tuple(untried))
-
-
-def _untried(model: object) -> tuple[str, ...]:
-    """What the model that simulates says of places without a law."""
-    while hasattr(model, "inner"):
-        model = model.inner
-    return tuple(getattr(model, "untried", ()))
-
-
-def _with_faults(model: object) -> FaultyModel | None:
-    """The model whose faults with begin and end were tried beside the laws."""
-    while not isinstance(model, FaultyModel) and hasattr(model, "inner"):
-        model = model.inner
-    return model if isinstance(model, FaultyModel) else None
 
 
 def _shows(model: DiagnosisModel, base: Point, terms: Sequence[Term]) -> bool:

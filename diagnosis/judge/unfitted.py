@@ -18,10 +18,10 @@ from diagnosis.judge.held_out import carried_over
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
 from diagnosis.judge.recording_parameters import recording_parameters
-from diagnosis.models.build import DiagnosisModel, RecordedRun
 from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.protocol import DiagnosisModel, RecordedRun
 from diagnosis.models.wrappers.masked import MaskedModel
-from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, inflation, plain_likelihood
+from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, inflation
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
@@ -195,12 +195,12 @@ def raw_residuals(model: DiagnosisModel, point: Point) -> Array:
 
 def has_bins(model: DiagnosisModel) -> bool:
     """Whether residuals of the search are means of readings, as those of a fabric, and not readings themselves."""
-    return hasattr(model, "residual_of_reading")
+    return model.residual_of_reading is not None
 
 
 def _can_be_moved(model: DiagnosisModel) -> bool:
     """Whether derivatives of its readings are known: not where each simulation takes minutes, or bins are fitted."""
-    return bool(getattr(model, "can_be_fitted", True)) and not has_bins(model)
+    return model.can_be_fitted and not has_bins(model)
 
 
 def _tested(model: DiagnosisModel, readings: Readings, kept: AnyArray, may: Freedom, columns: Array) -> Tested:
@@ -250,7 +250,7 @@ class HeldOutReadings:
         nominal = {"nominal": Point(np.zeros(len(judge.parameters)))}
         shown = begun(judge, trained, nominal, recordings)[0] if self._has_beginning else judge
         self.readings = readings_of(shown.runs, [r.title for r in recordings])
-        self._own = recording_parameters(judge, trained) if getattr(judge, "can_be_fitted", True) else []
+        self._own = recording_parameters(judge, trained) if judge.can_be_fitted else []
         self._columns: Array | None = None
 
     def predict(self, point: Point, is_fitted: bool = True) -> Predicted:
@@ -307,7 +307,7 @@ class HeldOutReadings:
         """
         if not _can_be_moved(self._judge) or not _can_be_moved(self._trained):
             return None
-        may = freedom(plain_likelihood(self._trained), point, self._judge, predicted.points[0])
+        may = freedom(self._trained.plain, point, self._judge, predicted.points[0])
         if not may.directions.shape[1]:
             return None
         columns = may.columns()
@@ -369,7 +369,7 @@ class LeftOutReadings:
         on_progress: Callable[[str], None] = lambda text: None,
     ) -> None:
         self._model, self._parts, self.basis = model, parts, basis
-        self._inner = plain_likelihood(model)
+        self._inner = model.plain
         self._on_progress = on_progress
         self.readings = readings_of(model.runs, titles)
 
@@ -390,7 +390,8 @@ class LeftOutReadings:
 
     def _readings_of(self, part: AnyArray) -> AnyArray:
         """Which readings belong to residuals of the search, shape (readings,)."""
-        return np.asarray(part[self._inner.residual_of_reading] if has_bins(self._inner) else part)  # type: ignore[attr-defined]
+        place = self._inner.residual_of_reading
+        return part if place is None else np.asarray(part[place])
 
     def tested(self, point: Point, predicted: Predicted) -> Tested | None:
         """See `Unfitted`; each part by the fit to the others."""

@@ -11,8 +11,7 @@ from cosim.unit.protocol import Array
 from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 from diagnosis.models.coil_network.model import CoilNetworkModel
-from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
-from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.fit import Columns, Fit
 from diagnosis.search.problem import Model, Parameter, Point
 
@@ -64,17 +63,12 @@ class Fitted:
         return replace(self, fit=replace(self.fit, point=point, residuals=residuals, columns=columns))
 
 
-def fitted(model: Model, fit: Fit) -> Fitted | None:
+def fitted(model: DiagnosisModel, fit: Fit) -> Fitted | None:
     """The coil network inside a model, or None where there is none.
 
     Args:
         model: A coil network, also with biases or tempered.
         fit: Of this model, without terms.
     """
-    inner: object = model
-    inflation = np.ones(len(model.layout.names))
-    while isinstance(inner, WrappedModel):
-        if isinstance(inner, QuasiLikelihoodModel):
-            inflation = inner.inflation
-        inner = inner.inner
-    return Fitted(model, inner, model.parameters, fit, inflation) if isinstance(inner, CoilNetworkModel) else None
+    network = model.coil_network
+    return None if network is None else Fitted(model, network, model.parameters, fit, model.inflation)

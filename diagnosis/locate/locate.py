@@ -17,6 +17,7 @@ from diagnosis.locate.panel import Panel, panels
 from diagnosis.locate.replay import ELECTRICAL, THERMAL, Replay, electrical, field_of, mechanical, thermal
 from diagnosis.locate.statistic import Tested, refitted, tested
 from diagnosis.models.coil_network.kernel.places import coil_label
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model
 from diagnosis.search.structure import structure
@@ -58,7 +59,7 @@ class UnitTest:
     courses: Sequence[Course]
 
 
-def locate(model: Model, fit: Fit, titles: Sequence[str], seed: int = 0) -> Located:
+def locate(model: DiagnosisModel, fit: Fit, titles: Sequence[str], seed: int = 0) -> Located:
     """Where and when each unit, driven alone with the recorded inputs, departs from the recordings.
 
     Args:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Protocol, runtime_checkable
+from collections.abc import Sequence
 
 from cosim.components import CircuitComponent
 from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import AnyArray, Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import check_rig
@@ -17,116 +15,10 @@ from diagnosis.models.coil_network.translate import NoCoilNetwork
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.models.fabric.model import FabricModel
 from diagnosis.models.fabric.runs import fabric_of
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.fits import fitting
-from diagnosis.recording.recording import Channel, Recording
-from diagnosis.search.problem import Layout, Parameter, Point, Term
-
-
-class Effect(Protocol):
-    """What a law says about itself."""
-
-    @property
-    def name(self) -> str:
-        """In plain words."""
-        ...
-
-    @property
-    def law(self) -> str:
-        """Formula."""
-        ...
-
-    @property
-    def confused_with(self) -> Mapping[str, str]:
-        """Identifiers that data often cannot tell from it, with what decides."""
-        ...
-
-
-class Spot(Protocol):
-    """Where a law acts."""
-
-    @property
-    def label(self) -> str:
-        """For people."""
-        ...
-
-
-class Series(Protocol):
-    """One channel of one recording, as the model samples it."""
-
-    @property
-    def channel(self) -> Channel:
-        """The channel."""
-        ...
-
-    @property
-    def samples(self) -> AnyArray:
-        """One number for each sample that is compared; they are the last ones of the channel."""
-        ...
-
-    @property
-    def used(self) -> AnyArray:
-        """Which of them count, shape (samples,)."""
-        ...
-
-
-class RecordedRun(Protocol):
-    """One recording."""
-
-    @property
-    def series(self) -> Sequence[Series]:
-        """Its channels."""
-        ...
-
-
-@runtime_checkable
-class DiagnosisModel(Protocol):
-    """What `diagnosis.search.problem.Model` has, and what judging and reporting need besides."""
-
-    parameters: Sequence[Parameter]
-    layout: Layout
-
-    @property
-    def runs(self) -> Sequence[RecordedRun]:
-        """One for each recording, in order."""
-        ...
-
-    @property
-    def simulations(self) -> int:
-        """How many were made so far."""
-        ...
-
-    def residuals(self, points: Sequence[Point]) -> Array:
-        """See `diagnosis.search.problem.Model`."""
-        ...
-
-    def base_jacobian(self, point: Point) -> Array:
-        """See `diagnosis.search.problem.Model`."""
-        ...
-
-    def terms(self) -> list[Term]:
-        """Every law that may be missing, at every place."""
-        ...
-
-    def where(self, term: Term) -> tuple[Effect, Spot]:
-        """What a term says about itself, and where it acts."""
-        ...
-
-    def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
-        """See `diagnosis.search.focus.Local`."""
-        ...
-
-    def scale_uncertainty(self, term: Term) -> Sequence[float]:
-        """Relative deviations of its parameters that recordings cannot lower: what scales them leaves no trace."""
-        ...
-
-    def groups(self) -> Mapping[str, AnyArray]:
-        """Channels that are looked at together, by name."""
-        ...
-
-    def predict(self, point: Point, run: int) -> Sequence[Array]:
-        """Simulated values of every channel of a recording at its samples, SI; infinite where that is impossible."""
-        ...
+from diagnosis.recording.recording import Recording
 
 
 def model_of(
@@ -148,7 +40,7 @@ def model_of(
         threads: Simulations at the same time.
         without: Laws of units that the model must not know.
         batches: Makes the runs of the co-simulation, where there are any.
-        timeline: Recordings that were fitted, where these are held out; see `timeline_of`.
+        timeline: Recordings that were fitted, where these are held out; the `timeline` of their model.
         like: Their model.
 
     Raises:
@@ -197,8 +89,8 @@ def models_of(
     model = model_of(scenario, training, catalogue, threads, without, batches)
     if not held_out:
         return model, None
-    judge = model_of(scenario, held_out, catalogue, threads, without, batches, timeline_of(model), model)
-    if isinstance(judge, FabricModel):
+    judge = model_of(scenario, held_out, catalogue, threads, without, batches, model.timeline, model)
+    if not judge.can_be_fitted:
         _without_beginning(held_out)
     if isinstance(model, CoilNetworkModel) and isinstance(judge, CoilNetworkModel):
         check_rig(judge.coils, model.coils, held_out[0])
@@ -218,14 +110,6 @@ def _without_beginning(recordings: Sequence[Recording]) -> None:
                 "of a fabric nothing is estimated from a first stretch: a simulation takes too long",
                 "leave it out, and give the start in `overrides`",
             )
-
-
-def timeline_of(model: object) -> Timeline | None:
-    """The recordings of a model laid end to end; None where no law of it has an instant (`ClosedLoopModel`)."""
-    while hasattr(model, "inner"):
-        model = model.inner
-    found = getattr(model, "timeline", None)
-    return found if isinstance(found, Timeline) else None
 
 
 def strings_of(scenario: Scenario) -> tuple[int, ...]:

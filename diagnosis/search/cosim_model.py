@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -25,8 +26,13 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term
 
 __all__ = ["ComponentTerm", "CosimModel", "Free", "free_parameters", "predicted"]
 
+#: What simulated recordings that judge, where the co-simulation did.
+BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
 #: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
 STEP = 1e-3
+#: Residuals that are kept: a fit asks again for those where it stands.
+KEPT = 64
+_Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
 
 
 @dataclass(frozen=True)
@@ -92,6 +98,9 @@ class CosimModel:
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
     """
+
+    #: See `diagnosis.search.problem.has_ridges`.
+    has_ridges = False
 
     def __init__(
         self,
@@ -172,6 +181,14 @@ class CosimModel:
         results = dict(zip(different, self._batches.results(simulate, self.settings, list(different.values()))))
         return [list(results[k].arrays) if results[k].is_complete else None for k in keys]
 
+    def judged_by(self, point: Point) -> str:
+        """What simulated recordings that judge, for people.
+
+        Args:
+            point: At which they were judged.
+        """
+        return BY_FREE_RUNS
+
     def predict(self, point: Point, number: int) -> list[Array] | None:
         """Values of every channel of a recording at its samples, SI; None where the run stopped."""
         return self.predictions([(point, number)])[0]
@@ -241,6 +258,32 @@ class CosimModel:
             return same
         known = self._numbers_of[number].of(free.component, free.name)
         return same if known is not None and elements == set(range(len(known.values))) else []
+
+
+class CompiledModel(CosimModel):
+    """A `CosimModel` whose residuals come from compiled code; those that were asked for last are kept."""
+
+    def _compiled(self, wanted: Sequence[tuple[Point, int]]) -> Iterable[list[Array] | None]:
+        """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
+        raise NotImplementedError
+
+    @cached_property
+    def _known(self) -> dict[_Key, Array]:
+        """Residuals that are kept, by what was asked."""
+        return {}
+
+    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
+        """Residuals of single recordings."""
+        known = self._known
+        keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
+        new = {key: one for key, one in zip(keys, wanted) if key not in known}
+        for key, values in zip(new, self._compiled(list(new.values()))):
+            known[key] = self._residual(key[2], values)
+        self.runs += len(new)
+        found = [known[key] for key in keys]
+        for key in list(known)[:-KEPT]:
+            del known[key]
+        return found
 
 
 def predicted(results: xr.Dataset, channel: Channel, recording: Recording) -> Array:

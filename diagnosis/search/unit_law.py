@@ -10,7 +10,7 @@ from diagnosis.search.cosim_model import ComponentTerm
 
 @dataclass(frozen=True)
 class UnitLaw:
-    """See `diagnosis.models.build.Effect`.
+    """See `diagnosis.models.protocol.Effect`.
 
     Args:
         place: The law in its component.

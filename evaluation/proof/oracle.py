@@ -14,9 +14,10 @@ from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.diagnosis import ChannelFit
 from diagnosis.judge.held_out import carried_over, channel_fits
-from diagnosis.models.build import DiagnosisModel, models_of
+from diagnosis.models.build import models_of
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.recording.recording import Channel, Recording, load_recording
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.posterior import cost
@@ -90,8 +91,8 @@ def oracle_fit(data: Data, answer: Answer, base: Fit) -> Fit | None:
 
 def _on_joint_axis(truth: Concealed, model: CoilNetworkModel) -> Concealed:
     """The truth with its instant on the axis on which a model lays its recordings end to end, if it does so."""
-    timeline = getattr(model, "timeline", None)
-    if timeline is None or truth.instant is None or not 1 <= truth.order <= len(timeline.seats):
+    timeline = model.timeline
+    if truth.instant is None or not 1 <= truth.order <= len(timeline.seats):
         return truth
     seat = timeline.seats[truth.order - 1]
     return replace(truth, parameters={**truth.parameters, "instant": truth.instant - seat.begin + seat.position})

@@ -9,13 +9,14 @@ import pytest
 import yaml
 
 from cosim.scenario import load_scenario
-from diagnosis.amend.evaluate import BY_FREE_RUNS, evaluate_amended_model
+from diagnosis.amend.evaluate import evaluate_amended_model
 from diagnosis.diagnose import Options, Result, diagnose
 from diagnosis.judge.diagnosis import Diagnosis
 from diagnosis.judge.held_out import TOLERANCE
 from diagnosis.models.coil_network.translate import translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
+from diagnosis.search.cosim_model import BY_FREE_RUNS
 from diagnosis.search.search import Settings
 from tests.diagnosis.two_heaters import conditions, record, scenario
 

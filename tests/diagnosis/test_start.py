@@ -8,7 +8,6 @@ import pytest
 from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
-from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.recording_parameters import recording_parameters
@@ -341,7 +340,7 @@ def test_an_amended_scenario_has_what_every_day_has_and_no_day_of_its_own(tmp_pa
     ]
     model = ClosedLoopModel(base, days)
     z = [1.0 if " of recording " not in p.name else 5.0 for p in model.parameters]
-    path = amend_closed_loop(base, model, Point(np.array(z)), tmp_path / "amended")
+    path = model.amend(base, Point(np.array(z)), tmp_path / "amended")
     written = load_scenario(path).components
     room = written["room"].outputs["temperature"].constant.to("degC")
     assert room == pytest.approx(21.0 + 1.0 / np.sqrt(2.0))

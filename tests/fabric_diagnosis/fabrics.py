@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import yaml
+
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit.quantity import PhysicalValue
@@ -50,3 +53,24 @@ def made(folder: Path, seed: int, channels: list[str], scenario: Scenario, **tru
 def small() -> Scenario:
     """5 x 2 links for a second."""
     return load_scenario(SMALL)
+
+
+def still(folder: Path, **keys: object) -> Recording:
+    """A marker and a current of the small fabric, over its second; the values stand still."""
+    folder.mkdir()
+    time = np.linspace(0.0, 0.98, 50)
+    table = np.column_stack([time, np.full(50, 0.01), np.where(time < 0.2, 0.0, 1.1)])
+    np.savetxt(folder / "data.csv", table, delimiter=",", header="time,z,i", comments="", fmt="%.4f")
+    channels = {
+        "marker[5].z": {"column": "z", "unit": "m", "noise": "0.2 mm"},
+        "supply.current": {"column": "i", "unit": "A", "noise": "3 mA"},
+    }
+    given = {
+        "title": folder.name,
+        "table": "data.csv",
+        "time": {"column": "time", "unit": "s", "zero": 0.0},
+        "channels": channels,
+        **keys,
+    }
+    (folder / "recording.yaml").write_text(yaml.safe_dump(given), encoding="utf-8")
+    return load_recording(folder)

@@ -34,7 +34,7 @@ def model(made):
 
 
 def term_of(model, name):
-    return next(t for t in (*model.sensor_terms, *model.input_terms) if str(t) == name)
+    return next(t for t in (*model.sensor_terms, *model.input_terms()) if str(t) == name)
 
 
 def nominal(model):
@@ -59,7 +59,7 @@ def test_residuals_are_those_of_what_is_predicted_with_every_fault(model):
 
 
 def test_a_fault_changes_its_own_recording_alone(model):
-    for term in (*model.sensor_terms, *model.input_terms):
+    for term in (*model.sensor_terms, *model.input_terms()):
         span = (0.0, 30.0) if term.identifier == "unstated_input_in_interval" else (200.0, 400.0)
         there = model.residuals([nominal(model), nominal(model).plus(term, (0.3, *span))])
         changed = np.flatnonzero(there[0] != there[1])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +12,22 @@ import numpy as np
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
 from diagnosis.candidates.registry import catalogue
-from diagnosis.faults.given import LawsOnly
+from diagnosis.faults.given import GivenFaults, LawsOnly
 from diagnosis.faults.model import with_faults
-from diagnosis.models.build import DiagnosisModel, model_of
+from diagnosis.judge.initial_state import InitialStateModel
+from diagnosis.judge.recording_parameters import OwnNumbers
+from diagnosis.models.build import model_of
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.models.wrappers.biased import with_biases
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
+from diagnosis.search.problem import Point
+from tests.fabric_diagnosis.fabrics import small, still
 from tests.systems.rigs import oscillator, oscillator_recordings
 
 RIG = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rig"
@@ -34,9 +43,9 @@ components:
 """
 
 
-def coil_network(folder: Path) -> DiagnosisModel:
+def coil_network(folder: Path, recording: Path = RIG / "monday") -> DiagnosisModel:
     """The rig of the documentation: two strings of coils, one recording."""
-    return model_of(load_scenario(str(RIG / "scenario.yaml")), [load_recording(RIG / "monday")], catalogue())
+    return model_of(load_scenario(str(RIG / "scenario.yaml")), [load_recording(recording)], catalogue())
 
 
 def system_of_fmus(folder: Path) -> DiagnosisModel:
@@ -67,6 +76,36 @@ def _masked(folder: Path) -> DiagnosisModel:
     return MaskedModel(inner, np.arange(len(inner.layout.time)) % 3 > 0)
 
 
+def _biased(folder: Path) -> DiagnosisModel:
+    monday = folder / "monday"
+    shutil.copytree(RIG / "monday", monday)
+    sidecar = monday / "recording.yaml"
+    text = sidecar.read_text(encoding="utf-8").replace("quantum: 1 mA}", "quantum: 1 mA, bias_bound: 3 mA}")
+    sidecar.write_text(text, encoding="utf-8")
+    return with_biases(coil_network(folder, monday))
+
+
+def _given_fault(folder: Path) -> DiagnosisModel:
+    model = with_faults(coil_network(folder))
+    fault = model.faults()[0]
+    return GivenFaults(model, {fault: (fault.parameters[0].starts[0], 20.0, 40.0)})
+
+
+def fabric(folder: Path) -> DiagnosisModel:
+    """A fabric that is not prepared: it is asked, and never simulated."""
+    return FabricModel(small(), [still(folder / "still")], catalogue())
+
+
+def _begun(folder: Path) -> DiagnosisModel:
+    monday = replace(load_recording(RIG / "monday"), beginning=10.0)
+    return InitialStateModel(coil_network(folder), [monday])
+
+
+def _of_a_day(folder: Path) -> DiagnosisModel:
+    inner = coil_network(folder)
+    return OwnNumbers(inner, Point(np.zeros(len(inner.parameters))), range(3))
+
+
 def _scaled(folder: Path) -> DiagnosisModel:
     inner = coil_network(folder)
     return QuasiLikelihoodModel(inner, np.full(len(inner.layout.names), 2.5))
@@ -78,7 +117,12 @@ CASES: Mapping[str, Callable[[Path], DiagnosisModel]] = {
     "system of FMUs": system_of_fmus,
     "pendulum": pendulum,
     "masked": _masked,
+    "with biases": _biased,
     "quasi-likelihood": _scaled,
     "with faults": lambda folder: with_faults(coil_network(folder)),
     "laws alone": lambda folder: LawsOnly(with_faults(coil_network(folder))),
+    "with a given fault": _given_fault,
+    "begun": _begun,
 }
+#: Those too that cannot be searched as they are: they answer every question of `DiagnosisModel` all the same.
+ASKED: Mapping[str, Callable[[Path], DiagnosisModel]] = {**CASES, "fabric": fabric, "of a day": _of_a_day}

@@ -1,4 +1,4 @@
-"""What every model of the diagnosis keeps, whatever simulates it (`diagnosis.models.build.DiagnosisModel`)."""
+"""What every model of the diagnosis keeps, whatever simulates it (`diagnosis.models.protocol.DiagnosisModel`)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 from cosim.run import run
 from cosim.scenario import parse_scenario
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, strength_slopes
 from tests.models.cases import ARM, CASES, pendulum
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.protocol import ModelBase
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Own, Point, Term
@@ -40,9 +41,13 @@ class Series:
 class Run:
     series: tuple[Series, ...]
 
+    @property
+    def shares(self) -> Array:
+        return np.zeros(len(self.series))
 
-class Lines(LineModel):
-    """See `diagnosis.models.build.DiagnosisModel`; one recording with one channel.
+
+class Lines(LineModel, ModelBase):
+    """See `diagnosis.models.protocol.DiagnosisModel`; one recording with one channel.
 
     Args:
         truth: Signal without noise, shape (samples,).

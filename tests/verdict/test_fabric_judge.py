@@ -4,44 +4,20 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
-import yaml
 
 from cosim.unit.errors import InputError
 from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.of_a_day import is_shown_there_alone
-from diagnosis.models.build import models_of, timeline_of
+from diagnosis.models.build import models_of
 from diagnosis.models.fabric.model import FabricModel
-from diagnosis.recording.recording import Recording, load_recording
-from tests.fabric_diagnosis.fabrics import small
-
-
-def recorded(folder: Path, **keys: object) -> Recording:
-    """A marker and a current of the small fabric, over its second; the values stand still."""
-    folder.mkdir()
-    time = np.linspace(0.0, 0.98, 50)
-    table = np.column_stack([time, np.full(50, 0.01), np.where(time < 0.2, 0.0, 1.1)])
-    np.savetxt(folder / "data.csv", table, delimiter=",", header="time,z,i", comments="", fmt="%.4f")
-    channels = {
-        "marker[5].z": {"column": "z", "unit": "m", "noise": "0.2 mm"},
-        "supply.current": {"column": "i", "unit": "A", "noise": "3 mA"},
-    }
-    given = {
-        "title": folder.name,
-        "table": "data.csv",
-        "time": {"column": "time", "unit": "s", "zero": 0.0},
-        "channels": channels,
-        **keys,
-    }
-    (folder / "recording.yaml").write_text(yaml.safe_dump(given), encoding="utf-8")
-    return load_recording(folder)
+from tests.fabric_diagnosis.fabrics import small, still
 
 
 def test_whether_a_held_out_fabric_shows_what_its_coils_lack_is_asked_of_the_coils(tmp_path: Path) -> None:
-    training = FabricModel(small(), [recorded(tmp_path / "monday")], catalogue())
-    held_out = [recorded(tmp_path / "tuesday")]
-    judge = FabricModel(small(), held_out, catalogue(), timeline=timeline_of(training))
+    training = FabricModel(small(), [still(tmp_path / "monday")], catalogue())
+    held_out = [still(tmp_path / "tuesday")]
+    judge = FabricModel(small(), held_out, catalogue(), timeline=training.timeline)
     assert not judge.can_be_fitted
     events = {
         t.identifier: t
@@ -54,6 +30,6 @@ def test_whether_a_held_out_fabric_shows_what_its_coils_lack_is_asked_of_the_coi
 
 
 def test_a_first_stretch_of_a_held_out_fabric_is_refused_before_any_simulation(tmp_path: Path) -> None:
-    training, held_out = recorded(tmp_path / "monday"), recorded(tmp_path / "tuesday", beginning="0.2 s")
+    training, held_out = still(tmp_path / "monday"), still(tmp_path / "tuesday", beginning="0.2 s")
     with pytest.raises(InputError, match="beginning"):
         models_of(small(), [training], [held_out], catalogue())

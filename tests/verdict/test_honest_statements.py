@@ -24,7 +24,7 @@ from diagnosis.judge.judge import (
     verdict,
     why_open,
 )
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
 from diagnosis.search.problem import Own, Parameter, Term, TermParameter

@@ -16,10 +16,10 @@ from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.agreement import agreement
 from diagnosis.judge.parameter_error import without_whitening, zeroed
 from diagnosis.judge.unfitted import HeldOutReadings, Unfitted, left_out_stretches, raw_residuals
-from diagnosis.models.build import DiagnosisModel
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import fit

@@ -1,18 +1,13 @@
-"""Elastic stop at the upper end."""
+"""Elastic stop at the upper end: that of the lower end from the other side."""
 
-from diagnosis.laws.law import Law, Number, Role
+from dataclasses import replace
 
-LAW = Law(
+from diagnosis.laws.motion.lower_stop import LAW as LOWER
+
+LAW = replace(
+    LOWER,
     identifier="upper_stop",
     name="elastic stop at the upper end",
-    role=Role.VELOCITY,
     formula="-stop_stiffness * max(x - stop, 0 * x)",
-    numbers=(
-        Number("stop_stiffness", "rate/x", "acceleration per distance beyond the stop", (3.0, 30.0), 1e4),
-        Number("stop", "x", "position of the stop", (0.4, 0.8), 2.0, -2.0, "x"),
-    ),
-    source="Shaw and Holmes, Journal of Sound and Vibration 90 (1983) 129",
-    confused_with={
-        "cubic_spring": "positions far from rest decide: how the force grows with the distance",
-    },
+    numbers=(LOWER.numbers[0], replace(LOWER.numbers[1], starts=(0.4, 0.8))),
 )

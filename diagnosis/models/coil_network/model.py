@@ -24,6 +24,7 @@ from diagnosis.models.coil_network.rig_scales import rig_scales
 from diagnosis.models.coil_network.runs import Run, check_rig, clocks, deviation, network_quantity
 from diagnosis.models.coil_network.term_at import term_at
 from diagnosis.models.coil_network.translate import translate
+from diagnosis.models.protocol import ModelBase
 from diagnosis.models.timeline import Seat, Timeline
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
@@ -48,8 +49,8 @@ UNIT_OF_QUANTITY = {
 }
 
 
-class CoilNetworkModel:
-    """See `diagnosis.search.problem.Model`.
+class CoilNetworkModel(ModelBase):
+    """See `diagnosis.models.protocol.DiagnosisModel`.
 
     Args:
         scenario: What the recordings are compared with.
@@ -86,7 +87,7 @@ class CoilNetworkModel:
         self._inputs: dict[Term, tuple[CandidateTerm, Place]] = {}
         self.runs = [Run(t, r, self.network) for t, r in zip(translations, recordings)]
         spans = [(run.translation.start, max(float(t[-1]) for t in run.times.values())) for run in self.runs]
-        self.timeline = Timeline.of(recordings, spans) if timeline is None else timeline
+        self._timeline = Timeline.of(recordings, spans) if timeline is None else timeline
         #: Where each recording lies on the joint axis.
         self.seats = self.timeline.seats if timeline is None else timeline.others(recordings, spans)
         self.measured = sorted({s.quantity for run in self.runs for s in run.series})
@@ -108,6 +109,29 @@ class CoilNetworkModel:
         for one in every:
             self._noise[self.coils.channel(one.quantity) + one.element] = deviation(one.channel)
         self._channel_number = np.array([self.coils.channel(s.quantity) + s.element for s in every])
+
+    @property
+    def timeline(self) -> Timeline:
+        """The fitted recordings laid end to end."""
+        return self._timeline
+
+    def step_ends(self, run: int) -> Array:
+        """Instants at which steps of the simulation of a recording end [s], shape (steps + 1,)."""
+        return np.asarray(self.runs[run].inputs.time)
+
+    @property
+    def is_fast(self) -> bool:
+        """True."""
+        return True
+
+    def judged_by(self, point: Point) -> str:
+        """The network itself, as long as no free run takes its place (`diagnosis.amend.evaluate`)."""
+        return "the fast simulation"
+
+    @property
+    def coil_network(self) -> CoilNetworkModel:
+        """Itself."""
+        return self
 
     @property
     def coils(self) -> CoilNetworkLayout:

@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.cosimulation.unit_laws import laws_of
 from diagnosis.models.pendulum.model import TORQUE, PendulumModel, is_single_pendulum, without_scale
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, ModelBase, compared_run
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.model import SystemLaws, SystemModel, laws_at
 from diagnosis.models.systems.places import Fit
 from diagnosis.models.systems.run import is_system
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
 from diagnosis.search.free_numbers import Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
@@ -34,24 +37,8 @@ class Component:
     label: str
 
 
-@dataclass(frozen=True)
-class ComparedSeries:
-    """See `diagnosis.models.build.Series`."""
-
-    channel: Channel
-    samples: AnyArray
-    used: AnyArray
-
-
-@dataclass(frozen=True)
-class ComparedRun:
-    """See `diagnosis.models.build.RecordedRun`."""
-
-    series: tuple[ComparedSeries, ...]
-
-
-class ClosedLoopModel:
-    """See `diagnosis.models.build.DiagnosisModel`.
+class ClosedLoopModel(ModelBase):
+    """See `diagnosis.models.protocol.DiagnosisModel`.
 
     Args:
         scenario: What the recordings are compared with.
@@ -132,7 +119,7 @@ class ClosedLoopModel:
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
-        return isinstance(self.model, PendulumModel)
+        return self.model.has_ridges
 
     @property
     def simulations(self) -> int:
@@ -165,12 +152,20 @@ class ClosedLoopModel:
         return
 
     def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
-        """See `diagnosis.models.build.DiagnosisModel`."""
+        """See `diagnosis.models.protocol.DiagnosisModel`."""
         return tuple(self._torque_scale if p.unit.startswith(TORQUE) else 0.0 for p in term.parameters)
 
     def groups(self) -> Mapping[str, AnyArray]:
         """No channels are looked at together."""
         return {}
+
+    def judged_by(self, point: Point) -> str:
+        """What simulated recordings that judge, for people."""
+        return self.model.judged_by(point)
+
+    def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
+        """See `diagnosis.amend.closed_loop.amend_closed_loop`."""
+        return amend_closed_loop(scenario, self.model, point, folder)
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""
@@ -188,7 +183,7 @@ def _unit_law(fit: Fit) -> UnitLaw:
 
 def _compared(recording: Recording) -> ComparedRun:
     channels = recording.channels.values()
-    return ComparedRun(tuple(ComparedSeries(c, np.arange(len(c.times)), ~c.is_clipped) for c in channels))
+    return compared_run(ComparedSeries(c, np.arange(len(c.times)), ~c.is_clipped) for c in channels)
 
 
 def _with_rounding(recording: Recording) -> Recording:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
@@ -12,8 +12,10 @@ from diagnosis.amend.amend import write_amended
 from diagnosis.amend.beside import take_along
 from diagnosis.amend.changes import changes_of
 from diagnosis.amend.written import comment_of, write_scenario
-from diagnosis.models.fabric.model import FabricModel
 from diagnosis.search.problem import Point
+
+if TYPE_CHECKING:
+    from diagnosis.models.fabric.model import FabricModel
 
 #: What judged the recordings that were held out.
 BY_BULLET = (

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -17,25 +18,29 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.models.coil_network.kernel.places import Place
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
-from diagnosis.models.cosimulation.model import ComparedRun, ComparedSeries, Component
+from diagnosis.models.cosimulation.model import Component
+from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.models.fabric.bins import Binning
 from diagnosis.models.fabric.laws import fabric_laws
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_of
+from diagnosis.models.fabric.search import search_fabric
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_model import with_law
 from diagnosis.search.free_numbers import Free, Numbers, free_parameters
 from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.unit_law import UnitLaw
 
 #: Speed of random starts where the scenario gives none [m/s]: within milliseconds it moves links by micrometres.
 START_SPEED = 1e-3
 
 
-class FabricModel:
-    """See `diagnosis.models.build.DiagnosisModel`.
+class FabricModel(ModelBase):
+    """See `diagnosis.models.protocol.DiagnosisModel`.
 
     Currents, temperatures and stiffness come from the coil network, poses from Bullet. The search varies the mechanical
     part through `prepared`, which `diagnosis.models.fabric.search` makes from few simulations;
@@ -147,7 +152,7 @@ class FabricModel:
             for c in recording.channels.values():
                 both = replace(c, deviation=float(np.hypot(c.deviation, self._scatter.get(c.name, 0.0))))
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
-            found.append(ComparedRun((*electrical, *own)))
+            found.append(compared_run((*electrical, *own)))
         return found
 
     @property
@@ -280,14 +285,38 @@ class FabricModel:
         channels = self.mechanical_recordings[run].channels.values()
         return [*first, *(found if found is not None else [np.full(len(c.times), np.inf) for c in channels])]
 
-    def take_scatter(self, other: FabricModel) -> None:
-        """Count the contact scatter that another model found as noise of the same channels."""
-        prepared = other.prepared
-        deviation = prepared.scatter_deviation()
+    @property
+    def has_scatter(self) -> bool:
+        """True: contacts scatter."""
+        return True
+
+    def scatter(self) -> dict[str, float]:
+        """Contact scatter by channel, SI, once it is prepared."""
+        deviation = self.prepared.scatter_deviation()
         found: dict[str, list[float]] = {}
-        for number, name in enumerate(other.binning.plain_names):
-            found.setdefault(name, []).extend((deviation[prepared.bins.channel == number] ** 2).tolist())
-        self._scatter = {name: float(np.sqrt(np.mean(squares))) for name, squares in found.items()}
+        for number, name in enumerate(self.binning.plain_names):
+            found.setdefault(name, []).extend((deviation[self.prepared.bins.channel == number] ** 2).tolist())
+        return {name: float(np.sqrt(np.mean(squares))) for name, squares in found.items()}
+
+    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+        """Count contact scatter as noise of the channels."""
+        self._scatter = dict(scatter)
+
+    def own_search(self, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
+        """See `diagnosis.models.fabric.search.search_fabric`."""
+        return search_fabric(self, settings, on_progress)
+
+    def judged_by(self, point: Point) -> str:
+        """Bullet, driven by the coil network."""
+        return BY_BULLET
+
+    def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
+        """See `diagnosis.models.fabric.amended.amend_fabric`."""
+        return amend_fabric(scenario, self, point, folder)
+
+    def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
+        """Asked of its coils: it is not fitted where it judges, and what has an instant or a day belongs to them."""
+        return self.network is not None and self.network.is_moved_by(term, values)
 
 
 def _network(

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
-from diagnosis.models.fabric.model import FabricModel
 from diagnosis.models.fabric.scatter import FEWEST
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
+
+if TYPE_CHECKING:
+    from diagnosis.models.fabric.model import FabricModel
 
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 4, 40.0
@@ -79,7 +82,7 @@ def search_fabric(
         outcome = plan.search(own)
     plan.confirm(outcome)
     outcome = plan.search(own)
-    model.take_scatter(model)
+    model.take_scatter(model.scatter())
     return outcome
 
 

@@ -19,17 +19,14 @@ from diagnosis.models.pendulum.batch import LAWS, arm, is_available, swings
 from diagnosis.models.sensor_chain import read
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series
-from diagnosis.search.cosim_model import STEP, CosimModel, Free
+from diagnosis.search.cosim_model import STEP, CompiledModel, Free
 from diagnosis.search.cosim_run import Changes
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
-from diagnosis.search.problem import Point, Term
+from diagnosis.search.problem import Point
 from mechanics.pendulum_design import PendulumDesign, behind_play
 
 #: Numbers of a design that a scenario need not give.
 _DEFAULTS: Mapping[str, float] = {f.name: f.default for f in fields(PendulumDesign) if f.default is not MISSING}
-_Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
-#: Residuals that are kept: a fit asks again for those where it stands.
-KEPT = 64
 #: A parameter is moved until a residual moves by so much [deviations], at most by so many of its prior deviations.
 SEEN, FARTHEST = 0.3, 0.3
 #: How units of torques over rate or angle begin.
@@ -84,8 +81,10 @@ def without_scale(scenario: Scenario, free: Sequence[Free]) -> tuple[list[Free],
     return [f for f in free if f not in masses], masses[0].parameter.deviation
 
 
-class PendulumModel(CosimModel):
+class PendulumModel(CompiledModel):
     """See `CosimModel`; residuals come from `swings`, `predictions` from the co-simulation."""
+
+    has_ridges = True
 
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; a heavier arm keeps its shape, so that its inertia grows with its mass.
@@ -131,24 +130,6 @@ class PendulumModel(CosimModel):
             found[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         return found
 
-    @cached_property
-    def _known(self) -> dict[_Key, Array]:
-        """Residuals that are kept."""
-        return {}
-
-    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
-        """Residuals of single recordings."""
-        known = self._known
-        keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
-        new = {key: one for key, one in zip(keys, wanted) if key not in known}
-        for key, values in zip(new, self._swung(list(new.values()))):
-            known[key] = self._residual(key[2], values)
-        self.runs += len(new)
-        found = [known[key] for key in keys]
-        for key in list(known)[:-KEPT]:
-            del known[key]
-        return found
-
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """See `CosimModel`; what faults of sensors add comes from `swings`."""
         found = super().predictions(wanted)
@@ -156,12 +137,12 @@ class PendulumModel(CosimModel):
             values = found[i]
             if values is not None and any(t.identifier in SENSOR_TERMS for t in point.terms):
                 plain = Point(point.base, {t: v for t, v in point.terms.items() if t.identifier not in SENSOR_TERMS})
-                with_them, without = self._swung([(point, number), (plain, number)])
+                with_them, without = self._compiled([(point, number), (plain, number)])
                 if with_them is not None and without is not None:
                     found[i] = [v + a - b for v, a, b in zip(values, with_them, without)]
         return found
 
-    def _swung(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
+    def _compiled(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel of recordings at their samples, SI, for points with the number of a recording."""
         numbers = [self._numbers(point, number) for point, number in wanted]
         together: dict[tuple[float, float, int], list[int]] = {}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,13 +24,11 @@ from diagnosis.models.systems.sensors import sensor_laws_of
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, place_of
-from diagnosis.search.cosim_model import CosimModel, Free
+from diagnosis.search.cosim_model import CompiledModel, Free
 from diagnosis.search.cosim_run import Changes, predicted
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.unit_law import UnitLaw
 
-#: Residuals that are kept: a fit asks again for those where it stands.
-KEPT = 64
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
 EXACT, MOST_SUBSTEPS = 0.02, 64
 #: Steps of the integration in a macro-step, and largest difference from the co-simulation in the size of a quantity,
@@ -42,7 +40,7 @@ COMPARED = 2000
 FIRST_STEPS = 3
 
 
-class SystemModel(CosimModel):
+class SystemModel(CompiledModel):
     """See `CosimModel`; residuals and predictions come from `FastSystem`.
 
     Args:
@@ -71,7 +69,6 @@ class SystemModel(CosimModel):
         placed = [fit.placed for fit in found]
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
-        self._known: dict[tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int], Array] = {}
         self._set_steps()
 
     def terms(self) -> list[Term]:
@@ -96,7 +93,17 @@ class SystemModel(CosimModel):
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI; None where the simulation stopped."""
         self.runs += len(wanted)
-        return [self._prediction(point, number) for point, number in wanted]
+        return list(self._compiled(wanted))
+
+    def judged_by(self, point: Point) -> str:
+        """See `CosimModel`; with how far the co-simulation is from compiled code in the first recording."""
+        by, found = "compiled code that steps the same FMUs", self.apart(point, 0)
+        if found is None:
+            return f"{by}; `cosim run` of the amended scenario stops"
+        worst, end = found
+        return (
+            f"{by}; `cosim run` of the amended scenario differs by {worst:.2g} of the noise at most until {end:.4g} s"
+        )
 
     def apart(self, point: Point, number: int, steps: int = COMPARED) -> tuple[float, float] | None:
         """How far a run of the co-simulation is from what was simulated, over the first macro-steps of a recording.
@@ -130,18 +137,9 @@ class SystemModel(CosimModel):
             worst = max(worst, float(np.max(np.abs(mine[i][inside] - there)) / channel.deviation))
         return worst, end
 
-    def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
-        """Residuals of single recordings."""
-        known, found = self._known, []
-        for point, number in wanted:
-            key = point.base.tobytes(), tuple(point.terms.items()), number
-            if key not in known:
-                self.runs += 1
-                known[key] = self._residual(number, self._prediction(point, number))
-            found.append(known[key])
-        for key in list(known)[:-KEPT]:
-            del known[key]
-        return found
+    def _compiled(self, wanted: Sequence[tuple[Point, int]]) -> Iterator[list[Array] | None]:
+        """One after the other: values of many points would take much memory."""
+        return (self._prediction(point, number) for point, number in wanted)
 
     def _prediction(self, point: Point, number: int) -> list[Array] | None:
         changes = self._numbers_at(point, number)
@@ -174,7 +172,6 @@ class SystemModel(CosimModel):
             count, before = 2 * count, now
             if all(m < EXACT for m in moved):
                 break
-        self._known.clear()
 
 
 #: Column of the rows, factor and offset to SI, whether it is a flow, SI unit.

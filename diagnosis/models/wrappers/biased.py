@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.models.build import DiagnosisModel, Series
 from diagnosis.models.coil_network.runs import deviation
+from diagnosis.models.protocol import DiagnosisModel, Series
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Parameter, Point
 

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.models.build import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Layout, Point, Term
 
@@ -36,8 +36,18 @@ class QuasiLikelihoodModel(WrappedModel):
 
     def __init__(self, inner: DiagnosisModel, inflation: Array) -> None:
         super().__init__(inner)
-        self.inflation = inflation
+        self._inflation = inflation
         self._factor = 1.0 / np.sqrt(inflation)[np.asarray(inner.layout.channel, dtype=int)]
+
+    @property
+    def inflation(self) -> Array:
+        """Of the variance of every channel, shape (channels,)."""
+        return self._inflation
+
+    @property
+    def plain(self) -> DiagnosisModel:
+        """The inner model."""
+        return self.inner
 
     @property
     def sizes_are_believed(self) -> bool:
@@ -59,11 +69,6 @@ class QuasiLikelihoodModel(WrappedModel):
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """Derivative of the residuals by the strength of terms, shape (tasks, residuals)."""
         return np.asarray(super().slopes(point, tasks) * self._factor)
-
-
-def plain_likelihood(model: DiagnosisModel) -> DiagnosisModel:
-    """The model with the noise of the sensors as it is: what is left is stated in that."""
-    return model.inner if isinstance(model, QuasiLikelihoodModel) else model
 
 
 def inflation(residuals: Array, layout: Layout) -> Array:

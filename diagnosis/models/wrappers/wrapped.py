@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
+from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.build import DiagnosisModel, Effect, RecordedRun, Spot
+from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Scaled, Spot, unscaled
+from diagnosis.models.timeline import Timeline
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Layout, Parameter, Point, Term, has_ridges, strength_slopes
+from diagnosis.search.problem import Layout, Parameter, Point, Term, strength_slopes
 from diagnosis.search.score import Projection, Scoring
+from diagnosis.search.search import Outcome, Settings
 
-#: What wrapping models make of changes of some residuals of the inner one: rows, shape (k, residuals), and which.
-Scaled = Callable[[Array, slice], Array]
-
-
-def unscaled(rows: Array, own: slice) -> Array:
-    """Changes of residuals as they are."""
-    return rows
+if TYPE_CHECKING:
+    from diagnosis.models.coil_network.model import CoilNetworkModel
 
 
 class WrappedModel:
-    """See `diagnosis.models.build.DiagnosisModel`.
+    """See `diagnosis.models.protocol.DiagnosisModel`; every member is that of the inner model but for `own_search`.
 
     Args:
-        inner: The model that simulates.
+        inner: The model that simulates, or another that wraps it.
     """
 
     def __init__(self, inner: DiagnosisModel) -> None:
@@ -40,11 +40,6 @@ class WrappedModel:
     def simulations(self) -> int:
         """How many were made so far."""
         return self.inner.simulations
-
-    @property
-    def sizes_are_believed(self) -> bool:
-        """See `diagnosis.search.problem.limits_of`."""
-        return bool(getattr(self.inner, "sizes_are_believed", False))
 
     def inside(self, point: Point) -> Point:
         """The point as the inner model knows it."""
@@ -66,21 +61,6 @@ class WrappedModel:
         """Changes of this model's residuals, from those of the inner model's; shape (k, residuals of `own`)."""
         return rows
 
-    def interval_scores(self, base: Fit, projection: Projection, scaled: Scaled = unscaled) -> Scoring | None:
-        """Scores of faults that have begin and end; None where the model knows none.
-
-        See `diagnosis.faults.model.FaultyModel.interval_scores`.
-        """
-        inner = getattr(self.inner, "interval_scores", None)
-        found = inner(base, projection, lambda rows, own: scaled(self.scaled(rows, own), own)) if inner else None
-        return found if isinstance(found, Scoring) else None
-
-    def near_intervals(self, point: Point) -> Iterator[Point]:
-        """Points with begin or end of a fault elsewhere; their parameters are those of this model."""
-        inner = getattr(self.inner, "near_intervals", None)
-        for other in inner(point) if inner else ():
-            yield Point(point.base, other.terms)
-
     def terms(self) -> list[Term]:
         """Every law that may be missing, at every place."""
         return self.inner.terms()
@@ -93,16 +73,6 @@ class WrappedModel:
         """See `diagnosis.search.focus.Local`."""
         return self.inner.shows_in(term)
 
-    @property
-    def has_ridges(self) -> bool:
-        """See `diagnosis.search.problem.has_ridges`."""
-        return has_ridges(self.inner)
-
-    @property
-    def can_be_fitted(self) -> bool:
-        """See `diagnosis.models.fabric.model.FabricModel`."""
-        return bool(getattr(self.inner, "can_be_fitted", True))
-
     def scale_uncertainty(self, term: Term) -> Sequence[float]:
         """See `DiagnosisModel`."""
         return self.inner.scale_uncertainty(term)
@@ -114,3 +84,112 @@ class WrappedModel:
     def predict(self, point: Point, run: int) -> Sequence[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""
         return self.inner.predict(self.inside(point), run)
+
+    @property
+    def innermost(self) -> DiagnosisModel:
+        """The model that simulates."""
+        return self.inner.innermost
+
+    def innermost_point(self, point: Point) -> Point:
+        """A point as the innermost model knows it."""
+        return self.inner.innermost_point(self.inside(point))
+
+    @property
+    def plain(self: DiagnosisModel) -> DiagnosisModel:
+        """Itself: what it changes is no noise."""
+        return self
+
+    @property
+    def inflation(self) -> Array:
+        """See `DiagnosisModel`."""
+        return self.inner.inflation
+
+    @property
+    def coil_network(self) -> CoilNetworkModel | None:
+        """See `DiagnosisModel`."""
+        return self.inner.coil_network
+
+    @property
+    def is_fast(self) -> bool:
+        """Whether a simulation takes milliseconds."""
+        return self.inner.is_fast
+
+    @property
+    def can_be_fitted(self) -> bool:
+        """See `DiagnosisModel`."""
+        return self.inner.can_be_fitted
+
+    @property
+    def has_scatter(self) -> bool:
+        """See `DiagnosisModel`."""
+        return self.inner.has_scatter
+
+    @property
+    def has_ridges(self) -> bool:
+        """See `diagnosis.search.problem.has_ridges`."""
+        return self.inner.has_ridges
+
+    @property
+    def sizes_are_believed(self) -> bool:
+        """See `diagnosis.search.problem.limits_of`."""
+        return self.inner.sizes_are_believed
+
+    @property
+    def residual_of_reading(self) -> AnyArray | None:
+        """See `DiagnosisModel`."""
+        return self.inner.residual_of_reading
+
+    @property
+    def timeline(self) -> Timeline | None:
+        """See `DiagnosisModel`."""
+        return self.inner.timeline
+
+    def step_ends(self, run: int) -> Array:
+        """Instants at which steps of the simulation of a recording end [s], shape (steps + 1,)."""
+        return self.inner.step_ends(run)
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """Where no law can be tried, and why."""
+        return self.inner.untried
+
+    def input_terms(self) -> list[Term]:
+        """See `DiagnosisModel`."""
+        return self.inner.input_terms()
+
+    def faults(self) -> tuple[Term, ...]:
+        """See `DiagnosisModel`."""
+        return self.inner.faults()
+
+    def interval_scores(self, base: Fit, projection: Projection, scaled: Scaled = unscaled) -> Scoring | None:
+        """See `DiagnosisModel`; with what this model makes of changes of residuals."""
+        return self.inner.interval_scores(base, projection, lambda rows, own: scaled(self.scaled(rows, own), own))
+
+    def near_intervals(self, point: Point) -> Iterable[Point]:
+        """Points with begin or end of a fault elsewhere; their parameters are those of this model."""
+        for other in self.inner.near_intervals(point):
+            yield Point(point.base, other.terms)
+
+    def own_search(self, settings: Settings, on_progress: Callable[[str], None]) -> Outcome | None:
+        """None: the points of such an outcome would be those of the inner model."""
+        return None
+
+    def scatter(self) -> Mapping[str, float]:
+        """See `DiagnosisModel`."""
+        return self.inner.scatter()
+
+    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+        """See `DiagnosisModel`."""
+        self.inner.take_scatter(scatter)
+
+    def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
+        """See `DiagnosisModel`."""
+        return self.inner.is_moved_by(term, values)
+
+    def judged_by(self, point: Point) -> str:
+        """See `DiagnosisModel`."""
+        return self.inner.judged_by(self.inside(point))
+
+    def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path | None:
+        """See `DiagnosisModel`."""
+        return self.inner.amend(scenario, self.inside(point), folder)
