@@ -85,6 +85,8 @@ def check(
     from diagnosis.check.check import doubts_of
     from diagnosis.check.page import write_page
     from diagnosis.check.tables import print_check
+    from diagnosis.models.coil_network.runs import refuse_unknown
+    from diagnosis.recording.conditions import scenario_of
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import refuse_doubled
 
@@ -92,7 +94,10 @@ def check(
         raise InputError(out, "", "this file exists already", "give another name with `--out`")
     refuse_doubled(recordings)
     base = load_scenario(scenario)
-    every = [compare(base, load_recording(path)) for path in recordings]
+    loaded = [load_recording(path) for path in recordings]
+    for one in loaded:  # what `cosim diagnose` would refuse is no experiment of this scenario
+        refuse_unknown(scenario_of(base, one), one)
+    every = [compare(base, one) for one in loaded]
     doubts = doubts_of(every)
     print_check(every, doubts, Console())
     if out is not None:
