@@ -92,7 +92,7 @@ def list_scenarios() -> None:
 
 @app.command()
 def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
-    """Check a scenario, its FMUs and its connections without running it; guess how long a run takes."""
+    """Check a scenario, its FMUs and its connections without running it; guess size, memory and time of a run."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
     from cosim.estimate import estimate
 
@@ -161,8 +161,8 @@ def run(
 
 
 def _announce(scenario: Scenario, starts: int, jobs: int, resume: bool) -> None:
-    """Say how long a fabric will take, where that is minutes; the progress bar says it of a run that goes on."""
-    from cosim.expected_time import announcement
+    """Say how long a run will take, where that is minutes; the progress bar says it of a run that goes on."""
+    from cosim.estimate import announcement
 
     text = "" if resume else announcement(scenario, starts, jobs)
     if text:
