@@ -18,6 +18,7 @@ from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.check.sniff import Sniffed
+from diagnosis.recording.cells import how_to_write
 from diagnosis.recording.channels import offered
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import SI_UNITS, parse_quantity
@@ -192,9 +193,16 @@ def _clock(table: Sniffed, heads: Sequence[Heading], source: Path) -> int:
             values = table.columns[k][np.isfinite(table.columns[k])]
             if is_right(head) and len(values) >= FEWEST_VALUES and np.mean(np.diff(values) > 0.0) > 0.9:
                 return k
+    for name, example in table.texts.items():  # a date or a clock that nobody can read for sure
+        if how_to_write(example) != how_to_write("") and not _has_letters(example):
+            raise InputError(source, name, f"`{example}` is no time that can be read", how_to_write(example))
     raise InputError(
         source, "", "no column holds rising times", "name the column of times `time_s`, `time_ms` or `time [min]`"
     )
+
+
+def _has_letters(text: str) -> bool:
+    return any(c.isalpha() for c in text.upper().replace("AM", "").replace("PM", ""))
 
 
 def _clock_unit(table: Sniffed, head: Heading) -> str:
