@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -24,7 +23,7 @@ from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.ssp import command as ssp
-from cosim.terminal import in_one_line, printable
+from cosim.terminal import as_argument, in_one_line, printable
 from cosim.unit.errors import InputError
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
@@ -186,7 +185,7 @@ def _run_starts(
     outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
     if outcome.is_interrupted:
         print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
-        print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
+        print(f"  go on with: cosim run {as_argument(folder.path)} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED)
     for start, reason in sorted(outcome.failures.items()):
         print(f"stopped: start {start}: {printable(str(reason))}", file=sys.stderr)
@@ -230,7 +229,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
         if folder.summary.is_file():
             print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:
-            print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
+            print(f"  go on with: cosim run {as_argument(folder.path)} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
 
 

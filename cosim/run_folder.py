@@ -20,7 +20,6 @@ import itertools
 import json
 import os
 import platform
-import shlex
 import subprocess
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -28,6 +27,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:  # `cosim --help` needs none of them
@@ -168,7 +168,7 @@ class RunFolder:
                     "",
                     f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
                     f"in {scenario.path}",
-                    f"resume what it holds with `cosim run {shlex.quote(str(self.path))} --resume`, or give another "
+                    f"resume what it holds with `cosim run {as_argument(self.path)} --resume`, or give another "
                     "folder with `--out`",
                 )
 

@@ -10,6 +10,7 @@ from rich.console import Console
 
 from cosim.loading import load_scenario
 from cosim.run_folder import write_atomically, writing
+from cosim.terminal import as_argument, printable
 from cosim.unit.errors import InputError
 
 app = typer.Typer(
@@ -38,11 +39,13 @@ def new(
         out.mkdir(parents=True, exist_ok=True)
         write_atomically(out / "data.csv", found.table.encode())
         write_atomically(out / "recording.yaml", found.sidecar.encode())
-    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {found.unclear} columns unclear")
+    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {len(found.unclear_columns)} columns unclear")
+    for text in found.unclear_columns:
+        print(f"  unclear column {printable(text)}")
     if not found.channels:
         print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
     else:
-        print(f"read it, then: cosim recording check {out} --scenario {scenario}")
+        print(f"read it, then: cosim recording check {as_argument(out)} --scenario {as_argument(scenario)}")
 
 
 @app.command("import")

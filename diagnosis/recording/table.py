@@ -80,7 +80,8 @@ class Table:
                 fields = next(csv.reader([line]))
                 if any(field.strip() for field in fields[width:]):
                     what = f"it has {len(fields)} values under {width} column names"
-                    remedy = f"correct the line; with decimal commas save the table with `;` between columns, which {NEW} reads"
+                    between = f"with decimal commas save the table with `;` between columns, which {NEW} reads"
+                    remedy = f"correct the line; {between}"
                     raise InputError(self.file, f"line {number + 1}", what, remedy)
 
     def column(self, name: str, key: str) -> Array:
