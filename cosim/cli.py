@@ -277,9 +277,19 @@ def reproduce(
     raise typer.Exit(reproduce_paper(out, jobs, starts, default if bands is None else bands))
 
 
+def _check_working_folder() -> None:
+    """Refuse to work in a folder that was removed meanwhile: no path could be found from there."""
+    try:
+        Path.cwd()
+    except OSError as error:
+        what = f"the working folder cannot be read: {error.strerror}"
+        raise InputError("cosim", "", what, "go to a folder that exists (`cd`)") from error
+
+
 def main() -> NoReturn:
     """Entry point: every foreseen error becomes one message and an exit code."""
     try:
+        _check_working_folder()
         app()
     except InputError as error:
         print(f"error: {printable(str(error))}", file=sys.stderr)
