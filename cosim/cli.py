@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -24,7 +23,7 @@ from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
 from cosim.ssp import command as ssp
-from cosim.terminal import in_one_line, printable
+from cosim.terminal import as_argument, in_one_line, printable
 from cosim.unit.errors import InputError
 from diagnosis.check import command as recording
 from diagnosis.command import diagnose
@@ -92,7 +91,7 @@ def list_scenarios() -> None:
 
 @app.command()
 def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
-    """Check a scenario, its FMUs and its connections without running it; guess how long a run takes."""
+    """Check a scenario, its FMUs and its connections without running it; guess size, memory and time of a run."""
     from cosim.assemble import assemble  # late: `--help` must not load Bullet
     from cosim.estimate import estimate
 
@@ -161,8 +160,8 @@ def run(
 
 
 def _announce(scenario: Scenario, starts: int, jobs: int, resume: bool) -> None:
-    """Say how long a fabric will take, where that is minutes; the progress bar says it of a run that goes on."""
-    from cosim.expected_time import announcement
+    """Say how long a run will take, where that is minutes; the progress bar says it of a run that goes on."""
+    from cosim.estimate import announcement
 
     text = "" if resume else announcement(scenario, starts, jobs)
     if text:
@@ -186,7 +185,7 @@ def _run_starts(
     outcome = run_ensemble(scenario, folder, count, resume, jobs, csv, lambda text: print(text, file=sys.stderr))
     if outcome.is_interrupted:
         print(f"interrupted: {len(outcome.complete)} of {count} starts are complete", file=sys.stderr)
-        print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
+        print(f"  go on with: cosim run {as_argument(folder.path)} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED)
     for start, reason in sorted(outcome.failures.items()):
         print(f"stopped: start {start}: {printable(str(reason))}", file=sys.stderr)
@@ -230,7 +229,7 @@ def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: b
         if folder.summary.is_file():
             print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:
-            print(f"  go on with: cosim run {shlex.quote(str(folder.path))} --resume", file=sys.stderr)
+            print(f"  go on with: cosim run {as_argument(folder.path)} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
 
 
@@ -278,9 +277,19 @@ def reproduce(
     raise typer.Exit(reproduce_paper(out, jobs, starts, default if bands is None else bands))
 
 
+def _check_working_folder() -> None:
+    """Refuse to work in a folder that was removed meanwhile: no path could be found from there."""
+    try:
+        Path.cwd()
+    except OSError as error:
+        what = f"the working folder cannot be read: {error.strerror}"
+        raise InputError("cosim", "", what, "go to a folder that exists (`cd`)") from error
+
+
 def main() -> NoReturn:
     """Entry point: every foreseen error becomes one message and an exit code."""
     try:
+        _check_working_folder()
         app()
     except InputError as error:
         print(f"error: {printable(str(error))}", file=sys.stderr)

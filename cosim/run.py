@@ -17,6 +17,7 @@ import xarray as xr
 from cosim.alone import alone
 from cosim.assemble import Assembly, assemble
 from cosim.components import nanoseconds
+from cosim.estimate import recorded_bytes, refuse_too_large
 from cosim.interrupt import Interrupt, deferred_interrupt
 from cosim.loop import Loop, Watched, choose_loop
 from cosim.native.plan import Grid
@@ -215,7 +216,11 @@ def _begin(scenario: Scenario, assembly: Assembly, folder: RunFolder | None, res
     start, stop = nanoseconds(scenario.time.start), nanoseconds(scenario.time.stop)
     output = nanoseconds(scenario.time.output_step)
     macro = nanoseconds(scenario.time.macro_step)
-    trace = _trace(scenario, assembly.system, range(start, stop + 1, output), folder)
+    outputs = range(start, stop + 1, output)
+    if not resume:  # of one that goes on, the checkpoints are there already
+        where = None if folder is None else folder.path
+        refuse_too_large(scenario, recorded_bytes(assembly.system, len(outputs)), len(outputs), where)
+    trace = _trace(scenario, assembly.system, outputs, folder)
     meter = EnergyMeter(assembly.system)
     if assembly.algorithm.divides_steps:
         meter.units = []

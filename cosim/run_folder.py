@@ -20,14 +20,15 @@ import itertools
 import json
 import os
 import platform
-import shlex
 import subprocess
+import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:  # `cosim --help` needs none of them
@@ -168,7 +169,7 @@ class RunFolder:
                     "",
                     f"it holds the run of another scenario: `{there.strip()}` there, `{here.strip()}` "
                     f"in {scenario.path}",
-                    f"resume what it holds with `cosim run {shlex.quote(str(self.path))} --resume`, or give another "
+                    f"resume what it holds with `cosim run {as_argument(self.path)} --resume`, or give another "
                     "folder with `--out`",
                 )
 
@@ -266,6 +267,31 @@ def writing(path: Path) -> Iterator[None]:
         if "HDF" not in str(error) and "space" not in str(error):
             raise
         raise InputError(path, "", f"it cannot be written: {error} (is the disk full?)", _MAKE_ROOM) from error
+
+
+def refuse_unwritable(folder: Path) -> None:
+    """Refuse a folder that cannot be made or written, before work is done that would be lost.
+
+    Args:
+        folder: What a command will write; where it does not exist, none is left behind.
+
+    Raises:
+        InputError: It is a file, or the system refuses to write there.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise InputError(folder, "", "this is a file, not a folder", "give another folder with `--out`")
+    made = []
+    with writing(folder):
+        missing = folder
+        while not missing.exists():
+            made.append(missing)
+            missing = missing.parent
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        finally:
+            _remove_empty(*made)
 
 
 @contextmanager

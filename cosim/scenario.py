@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import Field, StrictBool, StrictFloat, StrictInt, model_validator
+from pydantic import Field, StrictBool, StrictFloat, StrictInt, field_validator, model_validator
 
 from cosim.components import (
     Component,
@@ -74,14 +74,21 @@ class TimeSettings(Strict):
         "whole output steps.",
     )
 
+    @field_validator("start", "stop", "macro_step", "output_step", "checkpoint_step")
+    @classmethod
+    def _counted(cls, value: PhysicalValue) -> PhysicalValue:
+        if abs(nanoseconds(value)) >= LATEST:
+            raise ValueError(
+                f"`{value}` cannot be simulated: time ends at {LATEST / 1e9:.3g} s, it is counted in nanoseconds"
+            )
+        return value
+
     @model_validator(mode="after")
     def _check(self) -> TimeSettings:
         start, stop, macro = nanoseconds(self.start), nanoseconds(self.stop), nanoseconds(self.macro_step)
         output, checkpoint = nanoseconds(self.output_step), nanoseconds(self.checkpoint_step)
         if stop <= start:
             raise ValueError(f"stop ({self.stop}) must come after start ({self.start})")
-        if max(abs(start), stop) >= LATEST:
-            raise ValueError(f"simulated time ends at {LATEST / 1e9:.3g} s: it is counted in nanoseconds")
         if "checkpoint_step" not in self.model_fields_set:
             checkpoint = default_checkpoint_step(stop - start, output)
             self.__dict__["checkpoint_step"] = PhysicalValue(checkpoint / 1e9, "s")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
+from pathlib import Path
+
 
 def printable(text: str) -> str:
     """Text with its lines, every other control character replaced by a space.
@@ -19,3 +22,15 @@ def in_one_line(text: str) -> str:
     'a b'
     """
     return " ".join(printable(text).split())
+
+
+def as_argument(path: str | Path) -> str:
+    """A path as an argument of a command that a user may paste into a shell; no path is taken for an option.
+
+    >>> as_argument("my runs/a")
+    "'my runs/a'"
+    >>> as_argument("-runs")
+    './-runs'
+    """
+    text = str(path)
+    return shlex.quote(f"./{text}" if text.startswith("-") else text)

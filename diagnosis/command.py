@@ -12,7 +12,7 @@ from rich.console import Console
 
 from cosim.alone import alone
 from cosim.loading import load_scenario
-from cosim.run_folder import writing
+from cosim.run_folder import refuse_unwritable, writing
 from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:
@@ -146,15 +146,7 @@ def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
     """Refuse what would lose something, or judge a fit by itself, before any work is done."""
     if (out / "diagnosis.json").exists():
         raise InputError(out, "", "this folder already holds a diagnosis", "give another folder with `--out`")
-    if out.exists() and not out.is_dir():
-        raise InputError(out, "", "this is a file, not a folder", "give another folder with `--out`")
-    is_new = not out.exists()
-    with writing(out):  # a folder that cannot be written must not cost a diagnosis
-        out.mkdir(parents=True, exist_ok=True)
-        (out / ".writable").touch()
-        (out / ".writable").unlink()
-    if is_new:
-        out.rmdir()
+    refuse_unwritable(out)  # it must not cost a diagnosis
     from diagnosis.recording.together import refuse_doubled
 
     refuse_doubled(recording)

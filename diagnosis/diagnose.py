@@ -37,7 +37,7 @@ from diagnosis.judge.spread import spread_over_recordings
 from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
-from diagnosis.models.build import models_of
+from diagnosis.models.build import models_of, uses_batches
 from diagnosis.models.cosimulation.unit_laws import identifiers
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.biased import with_biases
@@ -135,6 +135,9 @@ def diagnose(
     both = [one.recording for one in compared]
     training, held_out = both[: len(training)], both[len(training) :]
     model, judge = models_of(scenario, training, held_out, known, options.threads, options.without, options.batches)
+    if not options.batches.place.is_local and not uses_batches(model):
+        what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
+        raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
     doubts = doubts_of(compared)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin

@@ -96,15 +96,17 @@ def compare(request: Request, out: Path | None = None) -> int:
     if len(set(labels)) < len(labels):
         raise InputError("--actuators", "", f"a name stands twice: {', '.join(labels)}", "name each actuator once")
     folder = out or Path("runs") / "compare" / Path(request.scenario).stem
-    with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
     problems: dict[str, str] = {}
     variants: list[Variant] = []
     for name in names:
         try:
             variants.append(variant(scenario, component, name, request.fmi))
         except InputError as error:
+            if name == names[-1] and not variants:  # none of them can be run: there is nothing to compare
+                raise
             problems[label_of(name)] = str(error)
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
     problems |= _run_all(variants, folder, request.jobs)
     if INTERRUPTED in problems.values():
         print(INTERRUPTED, file=sys.stderr)

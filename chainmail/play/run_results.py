@@ -7,6 +7,7 @@ from pathlib import Path
 import xarray as xr
 
 from cosim.run_folder import RunFolder
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 
@@ -32,7 +33,7 @@ def run_results(folder: Path) -> xr.Dataset:
             folder,
             "results.nc",
             "this run has no results yet: it still goes on, or its program was killed",
-            f"wait for its end, or go on with `cosim run {folder} --resume`",
+            f"wait for its end, or go on with `cosim run {as_argument(folder)} --resume`",
         )
     try:
         with xr.open_dataset(run.results, engine="netcdf4") as dataset:

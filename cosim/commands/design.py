@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from cosim.terminal import as_argument
 
 INTERRUPTED = 130
 
@@ -40,7 +41,7 @@ def design(
     except KeyboardInterrupt as error:
         print(
             "interrupted; finished runs are kept, go on with: "
-            + shlex.join(["cosim", "design", str(task), "--out", str(out), "--resume"]),
+            + f"cosim design {as_argument(task)} --out {as_argument(out)} --resume",
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

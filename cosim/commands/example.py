@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import shutil
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +10,7 @@ import typer
 
 from cosim.nearest import did_you_mean
 from cosim.shipped import SCENARIOS, shipped_examples
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 
@@ -36,7 +36,7 @@ def example(
     target = out or Path(source.name)
     if target.exists():
         raise InputError(target, "", "it exists already", "give another name with `--out`")
-    quoted = shlex.quote(str(target))
+    quoted = as_argument(target)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         if source.is_dir():

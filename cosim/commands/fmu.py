@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +10,7 @@ import typer
 from rich.console import Console
 
 from cosim.fmu_tools.sources import Language
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 app = typer.Typer(no_args_is_help=True, help="Build, export, inspect and validate FMUs; begin an actuator of your own.")
@@ -35,7 +35,7 @@ def new(
     from cosim.fmu_tools.new import begin
 
     folder = begin(name, language)
-    quoted = shlex.quote(str(folder))
+    quoted = as_argument(folder)
     source = "config.h and model.c" if language is Language.C else "actuator.py"
     print(f"{folder}: edit {source}, then\n  cosim fmu build {quoted}\n  cosim run {quoted}/scenario.yaml")
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from cosim.terminal import as_argument
 
 INTERRUPTED = 130
 
@@ -41,7 +42,7 @@ def sweep(
     except KeyboardInterrupt as error:
         print(
             "interrupted; finished runs are kept, go on with: "
-            + shlex.join(["cosim", "sweep", str(file), "--out", str(folder), "--resume"]),
+            + f"cosim sweep {as_argument(file)} --out {as_argument(folder)} --resume",
             file=sys.stderr,
         )
         raise typer.Exit(INTERRUPTED) from error

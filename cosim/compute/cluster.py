@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib
 import logging
 import os
+import re
+import socket
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from typing import Any, Protocol
@@ -14,6 +16,9 @@ from cosim.unit.errors import InputError
 
 #: Time in which a cluster must answer [s].
 CONNECT_TIME = 30.0
+#: An address as `dask scheduler` prints it.
+_ADDRESS = re.compile(r"^((tcp|tls)://)?(?P<host>[A-Za-z0-9.-]+|\[[0-9A-Fa-f:]+\]):(?P<port>\d{1,5})$")
+_REMEDY = "give the address that `dask scheduler` prints, such as `--cluster tcp://10.0.0.1:8786`, or leave it out"
 
 
 class Place(Protocol):
@@ -119,12 +124,10 @@ class DaskPlace:
             try:
                 self._client = self._open.enter_context(self._connect())
             except (OSError, TimeoutError) as error:
-                raise InputError(
-                    self._address or "local cluster",
-                    "",
-                    f"the cluster does not answer: {error}",
-                    "give the address that `dask scheduler` prints with `--cluster`, or leave it out",
-                ) from error
+                if self._address is not None:
+                    raise _unreachable(self._address, error) from error
+                what, remedy = f"its processes do not answer: {error}", "run with `--jobs 1`"
+                raise InputError("local cluster", "", what, remedy) from error
             self.parallel = max(1, sum(self._client.nthreads().values()))
         return self._client
 
@@ -154,6 +157,25 @@ class DaskPlace:
         self._open.close()
 
 
+def reach(address: str) -> None:
+    """Refuse an address that is none, or at which nothing listens.
+
+    Raises:
+        InputError: It is so.
+    """
+    found = _ADDRESS.match(address)
+    if found is None or not 0 < int(found["port"]) < 65536:
+        raise InputError("--cluster", "", f"`{address}` is no address of a Dask scheduler", _REMEDY)
+    try:
+        socket.create_connection((found["host"].strip("[]"), int(found["port"])), CONNECT_TIME).close()
+    except (OSError, UnicodeError) as error:  # UnicodeError: a host name with an empty or overlong part
+        raise _unreachable(address, error) from error
+
+
+def _unreachable(address: str, why: object) -> InputError:
+    return InputError("--cluster", "", f"the cluster at {address} does not answer: {why}", _REMEDY)
+
+
 def _same(shared: Any) -> Any:
     return shared
 
@@ -170,7 +192,12 @@ def choose_place(jobs: int | None = None, address: str | None = None, goes_on: b
         jobs: Processes on this machine; None: as many as there are cores. One needs no cluster.
         address: Of a Dask scheduler; comes before `jobs`.
         goes_on: As of `DaskPlace`.
+
+    Raises:
+        InputError: The address is none, or nothing answers there: said before any work is done.
     """
+    if address is not None:
+        reach(address)
     count = jobs or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()) or 1
     if address is None and count == 1:
         return Here()

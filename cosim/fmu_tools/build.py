@@ -31,12 +31,15 @@ def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path,
     """
     folder = find_source(given)
     language = language_of(folder)
-    if language is Language.PYTHON:
-        target = _target(class_name(folder), version, coils, out or folder)
-        return target, build_python(folder, version, coils, target)
-    name = model_identifier(folder)
-    target = _target(name, version, coils, out or _default_folder(folder))
-    return target, build_c(folder, version, coils, target)
+    is_python = language is Language.PYTHON
+    name = class_name(folder) if is_python else model_identifier(folder)
+    target = _target(name, version, coils, out or (folder if is_python else _default_folder(folder)))
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        return target, (build_python if is_python else build_c)(folder, version, coils, target)
+    except OSError as error:
+        what = f"it cannot be written: {error.strerror or error}"
+        raise InputError(target, "", what, "give a folder that can be written with `--out`") from error
 
 
 def export(name: str, version: int, coils: int, out: Path) -> Path:

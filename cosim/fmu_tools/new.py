@@ -33,8 +33,12 @@ def begin(given: str, language: Language) -> Path:
     if target.exists():
         raise InputError(given, "", "this folder exists already", "give another name, or remove it")
     source = TEMPLATES / language.value
-    target.mkdir(parents=True)
-    for file in sorted(p for p in source.iterdir() if p.is_file()):
-        text = file.read_text(encoding="utf-8").replace(_PLACEHOLDER, name)
-        (target / file.name).write_text(text, encoding="utf-8")
+    try:
+        target.mkdir(parents=True)
+        for file in sorted(p for p in source.iterdir() if p.is_file()):
+            text = file.read_text(encoding="utf-8").replace(_PLACEHOLDER, name)
+            (target / file.name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        what = f"it cannot be written: {error.strerror or error}"
+        raise InputError(given, "", what, "give a folder that can be written") from error
     return target

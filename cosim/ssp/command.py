@@ -12,6 +12,7 @@ import typer
 
 from cosim.loading import load_scenario
 from cosim.options import Changes, ScenarioArgument
+from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:
     from cosim.scenario import Scenario
@@ -64,6 +65,8 @@ def export_command(
     """Export a scenario as an SSP."""
     from cosim.ssp.export import export_ssp  # late: `--help` must not load Bullet
 
+    if out.suffix.lower() != ".ssp":
+        raise InputError("--out", "", f"`{out}` does not end in .ssp", "give a file name that ends in .ssp")
     number: Version = "1.0" if version == "1" else "2.0"
     _print_notes(export_ssp(load_scenario(scenario, changes or ()), out, number, only_fmus))
     print(out)

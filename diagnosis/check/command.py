@@ -10,6 +10,7 @@ from rich.console import Console
 
 from cosim.loading import load_scenario
 from cosim.run_folder import write_atomically, writing
+from cosim.terminal import as_argument, printable
 from cosim.unit.errors import InputError
 
 app = typer.Typer(
@@ -38,11 +39,13 @@ def new(
         out.mkdir(parents=True, exist_ok=True)
         write_atomically(out / "data.csv", found.table.encode())
         write_atomically(out / "recording.yaml", found.sidecar.encode())
-    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {found.unclear} columns unclear")
+    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {len(found.unclear_columns)} columns unclear")
+    for text in found.unclear_columns:
+        print(f"  unclear column {printable(text)}")
     if not found.channels:
         print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
     else:
-        print(f"read it, then: cosim recording check {out} --scenario {scenario}")
+        print(f"read it, then: cosim recording check {as_argument(out)} --scenario {as_argument(scenario)}")
 
 
 @app.command("import")
@@ -85,6 +88,8 @@ def check(
     from diagnosis.check.check import doubts_of
     from diagnosis.check.page import write_page
     from diagnosis.check.tables import print_check
+    from diagnosis.models.coil_network.runs import refuse_unknown
+    from diagnosis.recording.conditions import scenario_of
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import refuse_doubled
 
@@ -92,7 +97,10 @@ def check(
         raise InputError(out, "", "this file exists already", "give another name with `--out`")
     refuse_doubled(recordings)
     base = load_scenario(scenario)
-    every = [compare(base, load_recording(path)) for path in recordings]
+    loaded = [load_recording(path) for path in recordings]
+    for one in loaded:  # what `cosim diagnose` would refuse is no experiment of this scenario
+        refuse_unknown(scenario_of(base, one), one)
+    every = [compare(base, one) for one in loaded]
     doubts = doubts_of(every)
     print_check(every, doubts, Console())
     if out is not None:

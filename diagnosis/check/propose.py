@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.check.sniff import Sniffed
+from diagnosis.recording.cells import how_to_write
 from diagnosis.recording.channels import offered
 from diagnosis.recording.noise import estimate_noise, find_quantum
 from diagnosis.recording.quantity import SI_UNITS, parse_quantity
@@ -111,13 +114,13 @@ class Proposal:
         sidecar: Text of recording.yaml.
         table: Text of the plain copy of the table.
         channels: How many channels were matched.
-        unclear: How many columns were not.
+        unclear_columns: Columns that were not, each with the reason and what to write.
     """
 
     sidecar: str
     table: str
     channels: int
-    unclear: int
+    unclear_columns: tuple[str, ...]
 
 
 def heading(name: str) -> Heading:
@@ -167,17 +170,18 @@ def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
         reason, name = _match(table, head, names, list(channels))
         known = keep & np.isfinite(table.columns[k])
         if not reason and np.count_nonzero(known) < FEWEST_VALUES:
-            reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}"
+            reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}: leave it out"
         if reason:
             steered = [n for n in _programmes(scenario) if _is_called(head, n)]
             if len(steered) == 1:
-                reason = f"by its name it is the input {steered[0]}: give it under `inputs`, with its unit"
+                entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
+                reason = f"by its name it is the input {steered[0]}: write `{steered[0]}: {entry}` under `inputs`"
             unclear.append(f"{head.name}: {reason}")
             continue
         channels[name] = _entry(head, times[known], table.columns[k][known])
     dropped = int(np.count_nonzero(~keep))
     text = _sidecar(scenario, table, heads[clock], channels, unclear, dropped, source)
-    return Proposal(text, _plain(table, keep), len(channels), len(unclear))
+    return Proposal(text, _plain(table, keep), len(channels), tuple(unclear))
 
 
 def _clock(table: Sniffed, heads: Sequence[Heading], source: Path) -> int:
@@ -192,9 +196,16 @@ def _clock(table: Sniffed, heads: Sequence[Heading], source: Path) -> int:
             values = table.columns[k][np.isfinite(table.columns[k])]
             if is_right(head) and len(values) >= FEWEST_VALUES and np.mean(np.diff(values) > 0.0) > 0.9:
                 return k
+    for name, example in table.texts.items():  # a date or a clock that nobody can read for sure
+        if how_to_write(example) != how_to_write("") and not _has_letters(example):
+            raise InputError(source, name, f"`{example}` is no time that can be read", how_to_write(example))
     raise InputError(
         source, "", "no column holds rising times", "name the column of times `time_s`, `time_ms` or `time [min]`"
     )
+
+
+def _has_letters(text: str) -> bool:
+    return any(c.isalpha() for c in text.upper().replace("AM", "").replace("PM", ""))
 
 
 def _clock_unit(table: Sniffed, head: Heading) -> str:
@@ -241,28 +252,31 @@ def _offered(scenario: Scenario) -> dict[str, str]:
 def _match(table: Sniffed, head: Heading, names: dict[str, str], taken: Sequence[str]) -> tuple[str, str]:
     """Why a column is unclear, or the channel that it is."""
     if head.name in table.texts:
-        return f"it holds text (`{table.texts[head.name]}`)", ""
+        return f"it holds text (`{table.texts[head.name]}`): leave it out", ""
     if head.name in table.instants:
-        return "it holds dates, and another column is the clock", ""
+        return "it holds dates, and another column is the clock: leave it out", ""
     quantities = [q for q, words in WORDS.items() if head.word.split("_")[0] in words or head.word in words]
     if head.word.startswith("set") or "setpoint" in head.word or head.word.startswith("sp_"):
-        return "by its name it is a set point, not a reading", ""
+        given = _flow({"column": head.name, "unit": head.unit or "UNIT"})
+        what = f"write `PROGRAMME.OUTPUT: {given}` under `inputs` if it was applied as it stands, or leave it out"
+        return f"by its name it is a set point, not a reading: {what}", ""
     own = _called(head, names, taken)
     if own:
         return "", own
     if head.unit is None:
-        return "its name has no unit that is known; write it as `name_degC`, `name_mA` or `name [mm]`", ""
+        return f"its name has no unit that is known: {_to_write(head, names)}", ""
     fitting = [n for n, unit in names.items() if unit == head.si_unit]
     if not fitting:
-        return f"the scenario has no channel in {head.si_unit}", ""
+        return f"the scenario has no channel in {head.si_unit}: leave it out, or correct the unit", ""
     by_word = [n for n in fitting if parse_quantity(n).quantity in quantities]
     if not by_word:
-        return f"its name does not say which quantity it is; in {head.si_unit} there are {_few(fitting)}", ""
+        why = f"its name does not say which quantity it is; in {head.si_unit} there are {_few(fitting)}"
+        return f"{why}: {_to_write(head, fitting)}", ""
     chosen = _numbered(by_word, head)
     if len(chosen) != 1:
-        return f"it may be {_few(chosen or by_word)}", ""
+        return f"it may be {_few(chosen or by_word)}: {_to_write(head, chosen or by_word)}", ""
     if chosen[0] in taken:
-        return f"another column is {chosen[0]} already", ""
+        return f"another column is {chosen[0]} already: leave one of the two out", ""
     return "", chosen[0]
 
 
@@ -311,6 +325,17 @@ def _numbered(names: Sequence[str], head: Heading) -> list[str]:
     if any(len(parse_quantity(n).element) == 2 for n in counted):
         return [counted[number - 1]] if 1 <= number <= len(counted) and len(counted) == 1 else []
     return [n for n in counted if parse_quantity(n).element == (number,)]
+
+
+def _to_write(head: Heading, names: Iterable[str]) -> str:
+    """The line of recording.yaml that makes a channel of a column."""
+    entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
+    return f"write for example `{next(iter(names), 'CHANNEL')}: {entry}` under `channels`"
+
+
+def _flow(entry: dict[str, str]) -> str:
+    """A mapping in one line of YAML."""
+    return yaml.safe_dump(entry, default_flow_style=True, sort_keys=False, allow_unicode=True, width=10_000).strip()
 
 
 def _few(names: Sequence[str]) -> str:
@@ -392,8 +417,9 @@ def _conditions(scenario: Scenario) -> list[str]:
 def _plain(table: Sniffed, keep: np.ndarray) -> str:
     """The table with commas, points and one header line; columns of text are left out."""
     chosen = [k for k, name in enumerate(table.names) if name not in table.texts]
-    quoted = [f'"{table.names[k]}"' if "," in table.names[k] else table.names[k] for k in chosen]
-    rows = [",".join(quoted)]
+    header = io.StringIO()
+    csv.writer(header, lineterminator="").writerow([table.names[k] for k in chosen])
+    rows = [header.getvalue()]
     for values in table.columns[chosen][:, keep].T.tolist():
         rows.append(",".join("" if v != v else repr(v) for v in values))
     return "\n".join(rows) + "\n"

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import csv
-import re
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 
 import numpy as np
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
+from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant
 
 #: Lines before the header that are looked through.
 _MOST_HEADER = 60
-_POINT = re.compile(r"^\s*[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?\s*$")
-_COMMA = re.compile(r"^\s*[-+]?(\d+(,\d*)?|,\d+)([eE][-+]?\d+)?\s*$")
 #: What loggers write where nothing was measured.
 _NOTHING = frozenset({"", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf", "#n/a", "#div/0!"})
 
@@ -107,19 +104,7 @@ def _parsed(path: Path, lines: list[str], separator: str | None) -> Sniffed | No
 
 
 def _is_value(cell: str) -> bool:
-    return bool(_POINT.match(cell) or _COMMA.match(cell)) or _instant(cell) is not None
-
-
-def _instant(cell: str) -> float | None:
-    """Seconds since 1970 of a date in ISO 8601; None if it is none."""
-    if len(cell) < 10 or not cell[:4].isdigit() or cell[4] != "-":
-        return None
-    try:
-        moment = datetime.fromisoformat(cell.strip())
-    except ValueError:
-        return None
-    # without a zone: differences alone count
-    return (moment - datetime(1970, 1, 1, tzinfo=moment.tzinfo)).total_seconds()
+    return bool(POINT.match(cell) or COMMA.match(cell)) or instant(cell) is not None
 
 
 def _table(path: Path, lines: list[str], header: int, separator: str | None) -> Sniffed:
@@ -136,7 +121,7 @@ def _table(path: Path, lines: list[str], header: int, separator: str | None) -> 
                 path,
                 f"row {n + 1}",
                 f"it has {len(cells)} values, the header {len(names)}",
-                "correct the row; is the decimal sign the separator too?",
+                "correct the row; with decimal commas save the table with `;` between columns",
             )
     is_comma = _uses_comma(path, rows, separator)
     columns = np.full((len(names), len(rows)), np.nan)
@@ -147,7 +132,7 @@ def _table(path: Path, lines: list[str], header: int, separator: str | None) -> 
         columns[k] = values
         if example is not None:
             texts[name] = example
-        elif any(_instant(c) is not None for c in cells):
+        elif any(instant(c) is not None for c in cells):
             instants.append(name)
     return Sniffed(names, columns, header, separator or " ", is_comma, tuple(instants), texts)
 
@@ -156,9 +141,9 @@ def _uses_comma(path: Path, rows: list[list[str]], separator: str | None) -> boo
     """Whether numbers have a decimal comma; both signs in one file are refused."""
     if separator == ",":
         cells = [c for row in rows for c in row if "," in c]
-        return bool(cells) and all(_COMMA.match(c) for c in cells)
-    comma = next((c for row in rows for c in row if "," in c and _COMMA.match(c)), None)
-    point = next((c for row in rows for c in row if "." in c and _POINT.match(c)), None)
+        return bool(cells) and all(COMMA.match(c) for c in cells)
+    comma = next((c for row in rows for c in row if "," in c and COMMA.match(c)), None)
+    point = next((c for row in rows for c in row if "." in c and POINT.match(c)), None)
     if comma is not None and point is not None:
         raise InputError(
             path,
@@ -173,7 +158,7 @@ def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> tuple[Ar
     """Values of a column, and an example where it holds text instead."""
     found = np.full(len(cells), np.nan)
     known = [(n, c) for n, c in enumerate(cells) if c.lower() not in _NOTHING]
-    pattern = _COMMA if is_comma else _POINT
+    pattern = COMMA if is_comma else POINT
     bad: tuple[int, str] | None = None
     good, kind = 0, set()
     for n, cell in known:
@@ -182,7 +167,7 @@ def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> tuple[Ar
             kind.add("number")
             good += 1
             continue
-        moment = _instant(cell)
+        moment = instant(cell)
         if moment is not None:
             found[n] = moment
             kind.add("date")
@@ -194,11 +179,15 @@ def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> tuple[Ar
             path,
             name,
             f"`{bad[1]}` in row {bad[0] + 1} of this column is no number",
-            "leave the place empty where nothing was measured",
+            how_to_write(bad[1]),
         )
     if len(kind) > 1:
         raise InputError(path, name, "this column holds dates and numbers", "write all its times in one way")
     if bad is not None:
+        if has_thousands(bad[1]):
+            raise InputError(
+                path, name, f"`{bad[1]}` in row {bad[0] + 1} of this column is no number", how_to_write(bad[1])
+            )
         return found, bad[1]
     if kind == {"date"}:
         found = found - found[np.isfinite(found)][0]

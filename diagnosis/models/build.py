@@ -16,6 +16,7 @@ from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.models.fabric.model import FabricModel
 from diagnosis.models.fabric.runs import fabric_of
 from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.models.systems.model import SystemModel
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.fits import fitting
 from diagnosis.recording.recording import Recording
@@ -53,6 +54,13 @@ def model_of(
         return CoilNetworkModel(scenario, recordings, catalogue, threads, timeline)
     except NoCoilNetwork:  # also by what one of the recordings overrides
         return ClosedLoopModel(scenario, recordings, without, batches, _closed_loop(like))
+
+
+def uses_batches(model: DiagnosisModel) -> bool:
+    """Whether a model makes runs of the co-simulation, which processes and clusters can share."""
+    if isinstance(model, ClosedLoopModel):
+        return not isinstance(model.model, SystemModel)
+    return isinstance(model, FabricModel)
 
 
 def _closed_loop(model: DiagnosisModel | None) -> ClosedLoopModel | None:

@@ -12,7 +12,8 @@ from rich.console import Console
 
 from cosim.loading import load_scenario
 from cosim.options import Changes, complete_scenario
-from cosim.run_folder import RunFolder
+from cosim.run_folder import RunFolder, refuse_unwritable
+from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
 if TYPE_CHECKING:
@@ -49,13 +50,20 @@ def record(
         _render(scenario, out, video, seed, changes or [])
         return
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
-    from diagnosis.recording.readings import read_results
+    from diagnosis.recording.fits import no_results
+    from diagnosis.recording.readings import check_channels, read_results
     from diagnosis.recording.sensor import SensorFile, load_sensors
     from diagnosis.recording.write import Notes, write_recording
 
     if (out / "recording.yaml").exists():
         raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
+    refuse_unwritable(out)
     sensors = SensorFile() if sensor is None else load_sensors(sensor)
+    if not Path(scenario).is_dir():  # a run may take long: what is wrong with the readings must not cost it
+        base = load_scenario(scenario, changes or [])
+        span = base.time.stop.to("s") - base.time.start.to("s")
+        wanted, source = channels.split(), sensor or Path(scenario)
+        check_channels(no_results(base), wanted, sensors, span, Path(scenario), source)
     loaded, results = _results(scenario, changes or [])
     done = conditions(loaded)
     done["time"]["stop"] = f"{float(results['time'].values[-1]):.12g} s"
@@ -97,7 +105,7 @@ def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str
         )
     print(
         f"{out}: {count} frames, rig.yaml and truth.csv; go on with: "
-        f"cosim track {out / 'frames'} --rig {out / 'rig.yaml'} --out RECORDING"
+        f"cosim track {as_argument(out / 'frames')} --rig {as_argument(out / 'rig.yaml')} --out RECORDING"
     )
 
 

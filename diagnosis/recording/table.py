@@ -12,6 +12,7 @@ import pandas as pd  # type: ignore[import-untyped]
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
+from diagnosis.recording.cells import NEW, how_to_write
 
 
 class Table:
@@ -33,6 +34,8 @@ class Table:
             raise InputError(file, "", "there is no such table", "correct `table` in recording.yaml")
         try:
             self._frame = self._read(header_lines, wanted)
+        except InputError:
+            raise
         except Exception as error:  # pandas and pyarrow raise many unrelated kinds
             raise InputError(
                 file,
@@ -53,6 +56,10 @@ class Table:
 
         how: dict[str, Any] = {"skiprows": header_lines, "skipinitialspace": True, "comment": None}
         self._names = [str(n) for n in pd.read_csv(self.file, nrows=0, **how).columns]
+        mark = next((m for m in ";\t" if len(self._names) == 1 and m in self._names[0]), "")
+        if mark:
+            what = f"its columns are separated by {'`;`' if mark == ';' else 'tabs'}, not by commas"
+            raise InputError(self.file, "", what, f"{NEW} reads such tables")
         columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
         self._check_widths(header_lines)
         return pd.read_csv(self.file, usecols=columns, **how)
@@ -63,7 +70,7 @@ class Table:
         pandas takes the first ones, so that `0,5,21,3` with decimal commas under `t,T` was read as 0 and 5.
 
         Raises:
-            ValueError: There is such a row.
+            InputError: There is such a row.
         """
         width = len(self._names)
         with self.file.open(encoding="utf-8", newline="") as lines:
@@ -72,10 +79,10 @@ class Table:
                     continue
                 fields = next(csv.reader([line]))
                 if any(field.strip() for field in fields[width:]):
-                    raise ValueError(
-                        f"line {number + 1} has {len(fields)} values under {width} column names; is a comma the "
-                        "decimal mark? `cosim recording new` reads such tables"
-                    )
+                    what = f"it has {len(fields)} values under {width} column names"
+                    between = f"with decimal commas save the table with `;` between columns, which {NEW} reads"
+                    remedy = f"correct the line; {between}"
+                    raise InputError(self.file, f"line {number + 1}", what, remedy)
 
     def column(self, name: str, key: str) -> Array:
         """Values of a column, shape (rows,); what is empty is not a number.
@@ -98,6 +105,6 @@ class Table:
                 self.file,
                 key,
                 f"`{self._frame[name].iloc[row]}` in row {row + 1} of column `{name}` is no number",
-                "leave the place empty where nothing was measured",
+                how_to_write(str(self._frame[name].iloc[row])),
             )
         return np.asarray(values, dtype=np.float64)

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cosim.run_folder import refuse_unwritable
 from cosim.unit.errors import InputError
 
 #: Exit code after Ctrl-C, as shells have it.
@@ -53,7 +54,8 @@ def prove(
         return
     if resume and not (out / "ground" / "draw.yaml").is_file():
         raise InputError(out, "", "there is no proof to go on with here", "leave `--resume` away")
-    from evaluation.proof.ground import Draw, drawn_with, library_commit
+    refuse_unwritable(out)
+    from evaluation.proof.ground import Draw, drawn_with, library_commit, make_cases
     from evaluation.proof.proof import Effort, Folder
     from evaluation.proof.proof import prove as run
     from evaluation.proof.workers import workers
@@ -61,7 +63,10 @@ def prove(
     if baselines:
         _check_packages()
     draw = Draw(cases, seed, _names(kinds), _names(setups))
+    if so_far and not (out / "ground" / "draw.yaml").is_file():
+        raise InputError(out, "", "there is no proof here that could be scored", "leave `--so-far` away")
     try:
+        make_cases(out / "ground", draw)  # what is refused needs no workers
         with workers(jobs or _cores(), cluster) as crew:
             results = run(Folder(out), draw, crew, Effort(limit, baselines, so_far))
     except KeyboardInterrupt:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -70,7 +71,14 @@ def make_cases(folder: Path, draw: Draw) -> list[str]:
     else:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / _LIBRARY).write_text(library_commit() + "\n", encoding="utf-8")
-        _prove(folder, draw)
+        try:
+            _prove(folder, draw)
+        except InputError:  # nothing was drawn: nothing is left behind
+            (folder / _LIBRARY).unlink()
+            for empty in (folder, folder.parent):
+                with suppress(OSError):
+                    empty.rmdir()
+            raise
         note.write_text(yaml.safe_dump(wanted, sort_keys=False))
     return sorted(p.name for p in (folder / "cases").iterdir())
 

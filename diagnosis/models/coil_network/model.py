@@ -21,7 +21,7 @@ from diagnosis.models.coil_network.kernel.probes import Probe, flat_probe_sensit
 from diagnosis.models.coil_network.kernel.sensitivities import flat_sensitivities, shared_outputs
 from diagnosis.models.coil_network.priors import daily_priors, own_priors, stated_priors
 from diagnosis.models.coil_network.rig_scales import rig_scales
-from diagnosis.models.coil_network.runs import Run, check_rig, clocks, deviation, network_quantity
+from diagnosis.models.coil_network.runs import Run, check_rig, clocks, deviation, network_quantity, own_name
 from diagnosis.models.coil_network.term_at import term_at
 from diagnosis.models.coil_network.translate import translate
 from diagnosis.models.protocol import ModelBase
@@ -80,7 +80,7 @@ class CoilNetworkModel(ModelBase):
             check_rig(translation.layout, translations[0].layout, recording)
         for recording in recordings:  # what it cannot compare is said before it is compiled
             for channel in recording.channels.values():
-                network_quantity(channel.target, translations[0].layout, recording)
+                network_quantity(own_name(channel.target, translations[0]), translations[0].layout, recording)
         self.network = CoilNetwork(translations[0].layout, [*network_inputs.CANDIDATES, *catalogue])
         self._candidates = {t.identifier: t for t in catalogue}
         self._titles = labels(recordings)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.components import FabricComponent
+from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.models.coil_network.free import Clocks
@@ -18,7 +20,7 @@ from diagnosis.models.coil_network.kernel.sensitivities import sharing_plan
 from diagnosis.models.coil_network.kernel.steps import choose_step
 from diagnosis.models.coil_network.kernel.whiten import Whitening
 from diagnosis.models.coil_network.priors import stated_priors
-from diagnosis.models.coil_network.translate import Translation
+from diagnosis.models.coil_network.translate import NoCoilNetwork, Translation, translate
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.usage import near_switch
@@ -77,7 +79,7 @@ class Run:
     ) -> None:
         self.translation = translation
         layout = translation.layout
-        entries = [(c, *network_quantity(c.target, layout, recording)) for c in recording.channels.values()]
+        entries = _entries(translation, recording)
         _refuse_doubles(entries, recording)
         self.times: dict[str, Array] = {}
         for channel, quantity, _ in entries:
@@ -182,6 +184,59 @@ def clocks(runs: Sequence[Run]) -> Clocks:
 def deviation(channel: Channel) -> float:
     """Noise and rounding together."""
     return float(np.hypot(channel.deviation, channel.quantum / np.sqrt(12.0) if channel.is_deviation_given else 0.0))
+
+
+#: Variables of a circuit to the names under which a network has them; variables of coils have their own name.
+_OF_CIRCUIT = {
+    "string_current": ("string", "current"),
+    "supply_current": ("supply", "current"),
+    "terminal_voltage": ("supply", "voltage"),
+}
+
+
+def own_name(target: Target, translation: Translation) -> Target:
+    """A variable of a component by the name of the network: `heaters.temperature[1]` is `coil[1].temperature`.
+
+    Args:
+        target: What a channel measures.
+        translation: The scenario as a network.
+
+    Returns:
+        The same target where the network has no such variable; `network_quantity` refuses it.
+    """
+    if target.kind not in (translation.actuator, translation.circuit, translation.load):
+        return target
+    if target.kind == translation.circuit and target.quantity in _OF_CIRCUIT:
+        kind, quantity = _OF_CIRCUIT[target.quantity]
+        return Target(kind, target.element, quantity) if len(target.element) == (kind == "string") else target
+    if len(target.element) == 1 and target.quantity in QUANTITIES and QUANTITIES[target.quantity].axis == "coil":
+        return Target("coil", target.element, target.quantity)
+    return target
+
+
+def refuse_unknown(scenario: Scenario, recording: Recording) -> None:
+    """Refuse channels that a diagnosis of this scenario could not compare, before anything is simulated.
+
+    Args:
+        scenario: Under the conditions of the recording.
+        recording: What was measured.
+
+    Raises:
+        InputError: The scenario is a network of coils, and a channel is none of its quantities, or two are the same.
+    """
+    if any(isinstance(c, FabricComponent) for c in scenario.components.values()):
+        return  # it has channels that no network has
+    try:
+        translation = translate(scenario)
+    except NoCoilNetwork:
+        return
+    _refuse_doubles(_entries(translation, recording), recording)
+
+
+def _entries(translation: Translation, recording: Recording) -> list[tuple[Channel, str, int]]:
+    """Channels, each with its quantity of the network and its element."""
+    named = [(c, own_name(c.target, translation)) for c in recording.channels.values()]
+    return [(c, *network_quantity(target, translation.layout, recording)) for c, target in named]
 
 
 def network_quantity(target: Target, layout: CoilNetworkLayout, recording: Recording) -> tuple[str, int]:
