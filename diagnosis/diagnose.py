@@ -48,6 +48,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.report.user_units import written_units
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
+from diagnosis.search.shares import titled
 from diagnosis.search.structure import structure
 from diagnosis.ways import is_cheap, other_ways
 
@@ -172,6 +173,7 @@ def diagnose(
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), isinstance(model, FabricModel))
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
+    reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None
     if not options.is_brief:
         on_progress("finding out what these channels can tell apart")
@@ -185,7 +187,7 @@ def diagnose(
     )
     diagnosis = Diagnosis(
         verdict=word,
-        statement=headline(word, found, right, why_open(outcome, found, right, tried, doubts), doubts, units),
+        statement=headline(word, found, right, reasons, doubts, units),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,

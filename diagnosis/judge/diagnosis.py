@@ -11,6 +11,11 @@ from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.location import Location, Proposal, Remainder, Waveform
 from diagnosis.judge.next_experiment import NextExperiment
 
+#: A parameter that moved by more prior deviations than this is reported.
+MOVED = 2.0
+#: Prior deviations from which a fitted parameter is no measurement: its prior holds it, or another law is missing.
+FAR = 3.0
+
 
 class Verdict(Enum):
     """What the recordings say about the model."""
@@ -376,7 +381,10 @@ class Moved:
         unit: Its unit; 1 of a factor.
         amount: How far it was moved, or by which factor.
         is_factor: Whether it was multiplied by `amount`; else `amount` was added.
-        deviations: How far that is in deviations of what is usual or stated.
+        deviations: How far that is in deviations of what is usual or stated (its prior).
+        value: The number itself, SI; NaN where it is not known.
+        value_unit: Its unit.
+        is_at_bound: Whether it is at the bound of its fit, so that it would have gone farther.
     """
 
     name: str
@@ -384,6 +392,14 @@ class Moved:
     amount: float
     is_factor: bool
     deviations: float
+    value: float = math.nan
+    value_unit: str = ""
+    is_at_bound: bool = False
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether its value may be read as a measurement: it is neither at its bound nor far from its prior."""
+        return not self.is_at_bound and abs(self.deviations) < FAR
 
 
 @dataclass(frozen=True)
@@ -485,7 +501,8 @@ class Diagnosis:
         false_alarm_rate: Probability that chance alone gives the first finding its gain.
         structure_before: Largest standardised sum of residuals left after recalibration.
         structure_after: The same with the findings.
-        recalibration: Parameters of the model that moved by more than two prior deviations.
+        recalibration: Parameters of the model that was judged that are more than two prior deviations from the
+            scenario's values, or at their bounds.
         isolability: What these channels can tell apart.
         amended_model: Path of the amended scenario, or None.
         seconds: Wall time.

@@ -24,6 +24,8 @@ from diagnosis.report.sentences import (
     doubt_text,
     effort,
     improvement,
+    moved_heading,
+    moved_most,
     moved_text,
     readings_text,
     searched,
@@ -114,6 +116,8 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
     facts = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
     facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     facts.append(("Searched", searched(diagnosis)))
+    if far := moved_most(diagnosis, Units(diagnosis.units)):
+        facts.append(("Parameters", far))
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
@@ -288,10 +292,11 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
-    moved = [moved_text(m, Units(diagnosis.units)) for m in diagnosis.recalibration]
+    units = Units(diagnosis.units)
+    moved = [moved_text(m, units) for m in diagnosis.recalibration]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))
     if moved:
-        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]
+        parts += [element("p", moved_heading(diagnosis)), listing(moved)]
     return _section("How sure", *parts)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.text import Text
 
-from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
+from diagnosis.judge.diagnosis import MOVED, Diagnosis, Finding, Verdict
 from diagnosis.judge.next_experiment import NextExperiment
 from diagnosis.report.display import clean, number
 from diagnosis.report.fits import STAGES, Row, rows
@@ -18,6 +18,7 @@ from diagnosis.report.sentences import (
     doubt_text,
     effort,
     improvement,
+    moved_most,
     moved_text,
     searched,
     structure,
@@ -94,6 +95,8 @@ def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
     decides = what_decides(diagnosis)
     if decides:
         yield from _wrapped("decide   ", decides, width, 8)
+    if far := moved_most(diagnosis, units, _STATEMENTS):
+        yield from _wrapped("moved    ", far, width, 6)
     yield from _wrapped("better   ", improvement(diagnosis), width, 4)
     yield from _fit(diagnosis, width, rest)
     yield from _wrapped("searched ", searched(diagnosis), width, 4)
@@ -101,10 +104,18 @@ def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
     for left in diagnosis.left[:_STATEMENTS]:
         yield from _wrapped("left in  ", remainder(left, units), width, 2)
-    for moved in diagnosis.recalibration[:_STATEMENTS]:
-        yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
+    yield from _moved(diagnosis, width, rest, units)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 2)
+
+
+def _moved(diagnosis: Diagnosis, width: int, rest: str, units: Units) -> Iterator[str]:
+    """Parameters that moved and may be read as measurements; those that may not stand above."""
+    measured = [m for m in diagnosis.recalibration if m.is_measured]
+    for moved in measured[:_STATEMENTS]:
+        yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
+    if len(measured) > _STATEMENTS:
+        yield f"         and {len(measured) - _STATEMENTS} more by more than {MOVED:g} prior deviations, in {rest}"
 
 
 def _next(experiment: NextExperiment) -> str:
