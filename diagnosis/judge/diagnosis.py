@@ -231,6 +231,7 @@ class ChannelFit:
         samples: Samples that were used.
         scatter: Standard deviation by which the simulation scatters by itself (contacts) [unit of the channel]; it is
             part of the deviation that residuals are divided by.
+        is_noise_stated: Whether the recording states the noise; else it was estimated from neighbouring readings.
     """
 
     recording: str
@@ -242,6 +243,7 @@ class ChannelFit:
     whiteness: dict[str, float]
     samples: int = 0
     scatter: float = 0.0
+    is_noise_stated: bool = True
 
 
 @dataclass(frozen=True)
@@ -341,6 +343,7 @@ class Left:
         chi_square: Per reading.
         limit: Noise alone exceeds it in one of a thousand diagnoses.
         scatter: Root mean square of what is left as far as it changes from one reading to the next [unit].
+        is_noise_stated: Whether the recording states this noise; else it was estimated from neighbouring readings.
     """
 
     recording: str
@@ -351,6 +354,7 @@ class Left:
     chi_square: float
     limit: float
     scatter: float = 0.0
+    is_noise_stated: bool = True
 
 
 @dataclass(frozen=True)
@@ -430,6 +434,7 @@ class Adequacy:
             is off, whatever was set aside here.
         needs_parameter_error: Whether noise alone would reject the model, and noise with the error of the fitted
             parameters does not.
+        noises_stated: How many channels state their noise, of how many: each channel of each recording of the basis.
     """
 
     basis: str
@@ -451,6 +456,7 @@ class Adequacy:
     has_scatter: bool = False
     met: tuple[Met, ...] = ()
     needs_parameter_error: bool = False
+    noises_stated: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True)

@@ -131,9 +131,22 @@ def _basis(adequacy: Adequacy) -> str:
     return f"{adequacy.basis}," if "," in adequacy.basis else adequacy.basis
 
 
+def noise_of(adequacy: Adequacy) -> str:
+    """Where the noise comes from that readings are compared with."""
+    if adequacy.is_noise_stated:
+        return "the stated noise of the sensors"
+    stated, channels = adequacy.noises_stated
+    if stated:
+        return (
+            f"the noise of the sensors (stated for {stated} of {channels} channels, estimated from the scatter of "
+            "neighbouring readings for the others)"
+        )
+    return "the scatter of neighbouring readings (no noise was stated)"
+
+
 def _noise(adequacy: Adequacy, is_fitted: bool = True) -> str:
     """What the readings agree within; of a model as it is no number was fitted."""
-    noise = "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    noise = noise_of(adequacy)
     noise += " and the scatter of the contacts" if adequacy.has_scatter else ""
     return f"{noise} and the error of the fitted parameters" if is_fitted and adequacy.needs_parameter_error else noise
 
@@ -193,9 +206,12 @@ def _percent(share: float) -> str:
 def _cause(adequacy: Adequacy, has_more: bool) -> str:
     """Why something stays."""
     if adequacy.is_irregular:
+        worst = adequacy.worst
+        is_stated = adequacy.is_noise_stated if worst is None else worst.is_noise_stated
+        source = "is stated" if is_stated else "was estimated from neighbouring readings"
         return (
-            "as much as it changes from one reading to the next: noise is larger than it is taken to be, or single "
-            "readings are wild"
+            f"as much as it changes from one reading to the next: noise is larger than {source}, or single readings are "
+            "wild"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
     return f"something {'else ' if has_more else ''}is missing or wrong{slow}"
@@ -208,7 +224,8 @@ def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:
     factor, unit = units.difference(worst.unit)
     size = f"{number(factor * worst.rmse, 2)} {unit}".strip()
     times = worst.rmse / worst.noise if worst.noise > 0.0 else float("inf")
-    return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise"
+    source = "that is stated" if worst.is_noise_stated else "estimated from neighbouring readings"
+    return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise {source}"
 
 
 def day_of(adequacy: Adequacy, units: Units = IN_SI) -> str:

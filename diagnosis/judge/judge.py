@@ -29,6 +29,7 @@ from diagnosis.judge.diagnosis import (
 )
 from diagnosis.judge.doubts import MEASURED, accuses, far_starts, faults, is_physics, late_responses
 from diagnosis.judge.events import between_samples, event_of, local_estimates, since
+from diagnosis.judge.headline import noise_of
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
@@ -206,8 +207,8 @@ def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
     which = "readings" if adequacy.is_rejected else "training readings"
     if adequacy.is_irregular:
         return [
-            f"the {which} reject the model by the noise that was stated or estimated, but what is left scatters from "
-            "one reading to the next, as a larger noise or single wild readings do"
+            f"the {which} reject the model by {noise_of(adequacy)}, but what is left scatters from one reading to the "
+            "next, as a larger noise or single wild readings do"
         ]
     return [f"the {which} reject the model{unexplained}"]
 

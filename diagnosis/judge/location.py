@@ -130,6 +130,8 @@ class Remainder:
         limit: Size of z that noise alone passes in one of a hundred recordings.
         unit: SI unit of the channel; empty of a group whose channels have several.
         mean: Mean of measured minus simulated in the window [unit]; NaN where it is not known.
+        noise: Where the noise of the channels comes from: `stated`, `estimated` from neighbouring readings, or `both`;
+            empty where it is not known.
     """
 
     channel: str
@@ -139,3 +141,4 @@ class Remainder:
     limit: float
     unit: str = ""
     mean: float = math.nan
+    noise: str = ""

@@ -19,6 +19,11 @@ _UNCONFIRMED = (
 )
 #: What would decide where the readings scatter more than their noise is taken to be.
 _NOISIER = "Correct `noise` of these channels in recording.yaml, or leave it out: then it is estimated. Diagnose again."
+#: The same where no noise was stated.
+_NOISIER_UNSTATED = (
+    "State `noise` of these channels in recording.yaml, from the data sheet or from readings at rest: it was estimated "
+    "from neighbouring readings. Diagnose again."
+)
 #: The same where stretches of the training judged.
 _UNJUDGED = (
     "Record another programme and hold that out: what is suggested is in the rig if it predicts that better, and "
@@ -47,7 +52,19 @@ def remainder(left: Remainder, units: Units = IN_SI) -> str:
     place = f"{clean(left.channel)}, {units.span(left.begin, left.end)}"
     told = mean_left(left, units)
     size = f"{told} on average, " if told else ""
-    return f"{place}: {size}at least {number(abs(left.z))} deviations, assumed noise below {number(left.limit)}"
+    return (
+        f"{place}: {size}standardised sum of residuals at least {number(abs(left.z))}; {_NOISE[left.noise]} alone "
+        f"stays below {number(left.limit)} in 99 of 100 recordings"
+    )
+
+
+#: What the residuals were divided by.
+_NOISE = {
+    "stated": "noise as stated",
+    "estimated": "noise as estimated from neighbouring readings",
+    "both": "noise as stated or, where it is not, as estimated from neighbouring readings",
+    "": "noise",
+}
 
 
 def mean_left(left: Remainder, units: Units) -> str:
@@ -77,7 +94,8 @@ def what_decides(diagnosis: Diagnosis) -> str:
             return _OF_ONE_RECORDING
         return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
-        return _NOISIER
+        worst = diagnosis.adequacy.worst
+        return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
 
 

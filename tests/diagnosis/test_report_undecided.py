@@ -65,7 +65,7 @@ def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_pat
     text = page_of(unexplained(), [series()], tmp_path)
     top = text[: text.index("Channels")]
     for part in (
-        "coil[2,5].temperature (steps), 30.0 to 42.0 s: at least 7.70 deviations, assumed noise below 4.90",
+        "coil[2,5].temperature (steps), 30.0 to 42.0 s: standardised sum of residuals at least 7.70; noise alone stays",
         "driven alone, coil[2,5] departs most (thermal)",
         "Repeat that recording: what comes back",
         "out/amended/scenario.yaml (recalibrated, nothing added)",

@@ -15,7 +15,7 @@ def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> 
     assert told == (
         "The model leaves out: contact resistance in a string, string[3]. The amended model explains 96 % of the "
         "mismatch in the held-out recordings (recalibration alone 81 %); 1.2 K of coil[2,5].temperature stays, 8.0 "
-        "times the noise: something else is missing or wrong. That takes for granted: room temperature of recording 1: "
+        "times the noise that is stated: something else is missing or wrong. That takes for granted: room temperature of recording 1: "
         "+0.310 K."
     )
 

@@ -82,8 +82,8 @@ def test_where_no_null_gains_its_price_a_gain_is_rarer_than_one_of_them() -> Non
 def test_a_model_without_numbers_to_fit_is_not_called_recalibrated() -> None:
     none = replace(ADEQUACY, is_recalibrated=False, explained=0.0, day=())
     assert how_right(none, False) == (
-        "The model as it is misses the held-out recordings; 1.2 K of coil[2,5].temperature stays, 8.0 times the noise: "
-        "something is missing or wrong."
+        "The model as it is misses the held-out recordings; 1.2 K of coil[2,5].temperature stays, 8.0 times the noise "
+        "that is stated: something is missing or wrong."
     )
     told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(), adequacy=none)
     assert model_note(told) == "as it was given: nothing fitted, nothing added"
