@@ -66,7 +66,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
         worst = min(cycle, key=lambda i: gains[i, columns[i]])
         text = (
             f"{takes}: so exchanged, the simulation explains at least "
-            f"{percent(fits[worst][columns[worst]].share)} of "
+            f"{percent(fits[worst][columns[worst]].share)} of the variance of "
             f"each, in place of {percent(fits[worst][worst].share)}. {WHICH}"
         )
         remedy = (

@@ -192,7 +192,8 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
                 Rival(
                     "other run",
                     "inputs" if compared.recording.inputs else "overrides",
-                    f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
+                    f"the programme of `{title}` explains {{other}} of the variance of these readings, their own "
+                    "{own}",
                     f"is the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
                     together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
                     _shares(mine),
@@ -232,14 +233,13 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
         text = (
             f"the response comes {abs(shift):.3g} s {way} than its programme, where at most {stated:.3g} s "
             f"are stated: "
-            "moved by that, it explains {other} of the readings, as it is {own}"
+            "moved by that, it explains {other} of the variance of the readings, as it is {own}"
         )
         remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
         return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
     text = (
-        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain "
-        f"{{other}} of "
-        "them, as it is {own}"
+        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain {{other}} of "
+        "their variance, as it is {own}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
@@ -271,7 +271,7 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
     text = (
         f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'}: so "
         f"corrected, the "
-        "programme explains {other} of the readings, as it is {own}"
+        "programme explains {other} of the variance of the readings, as it is {own}"
     )
     remedy = "compare two instants that both clocks know; correct the column of times or its unit"
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
@@ -316,8 +316,7 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
         return []
     text = (
         f"the readings change at about {listed(others)} s, where the programme does not: switches at free "
-        f"instants "
-        f"explain {{other}} of them, the programme (switches at {listed(switches)} s) {{own}}"
+        f"instants explain {{other}} of their variance, the programme (switches at {listed(switches)} s) {{own}}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])

@@ -188,7 +188,7 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
         share = "100 %" if is_whole else _percent(adequacy.explained)
-        text = f"{name} explains {share} of the mismatch in the {_basis(adequacy)}"
+        text = f"{name} explains {share} of the squared mismatch in the {_basis(adequacy)}"
         if has_more and adequacy.by_recalibration >= LEAST_SHARE:
             text += f" (recalibration alone {_percent(min(adequacy.by_recalibration, adequacy.explained))})"
         text += f"; what is left is not more than {noise}" if is_met else ""
@@ -210,8 +210,8 @@ def _cause(adequacy: Adequacy, has_more: bool) -> str:
         is_stated = adequacy.is_noise_stated if worst is None else worst.is_noise_stated
         source = "is stated" if is_stated else "was estimated from neighbouring readings"
         return (
-            f"as much as it changes from one reading to the next: noise is larger than {source}, or single readings are "
-            "wild"
+            f"as much as it changes from one reading to the next: noise is larger than {source}, or single readings "
+            "are wild"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
     return f"something {'else ' if has_more else ''}is missing or wrong{slow}"

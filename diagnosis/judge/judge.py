@@ -161,7 +161,7 @@ def why_open(
     reasons = _open_ones(found)
     reasons += [d.statement for d in doubts if d.kind == "still"]
     if any(f.is_accepted and is_physics(f) for f in found) and leaves_most(adequacy):
-        reasons.append("what improves the prediction has no name and leaves most of the mismatch")
+        reasons.append("what improves the prediction has no name and leaves most of the squared mismatch")
     if not searched.has_physics:
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
@@ -503,7 +503,10 @@ def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) 
 def _much_left(accepted: Accepted) -> str:
     left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
     share = 100.0 * left.excess / recalibrated.excess if recalibrated.excess > 0.0 else 100.0
-    return f"{share:.0f} % of the mismatch that recalibration leaves is still unexplained, so no name is certain"
+    return (
+        f"{share:.0f} % of the squared mismatch that recalibration leaves in the {accepted.basis} is still "
+        "unexplained, so no name is certain"
+    )
 
 
 def statement(name: str, place: str, standing: Standing, likely: Sequence[str]) -> str:

@@ -43,7 +43,9 @@ def test_programme_of_another_day(scenario: Scenario, tmp_path: Path) -> None:
     b = rig.write(tmp_path / "b", rig.FIRST, rig.readings(rig.SECOND))
     found = [d for d in doubts(scenario, a, b) if d.is_serious]
     assert {(d.kind, d.recording) for d in found} == {("other run", "a"), ("other run", "b")}
-    assert "the programme of `b` explains" in next(d for d in found if d.recording == "a").statement
+    told = next(d for d in found if d.recording == "a").statement
+    assert "the programme of `b` explains" in told
+    assert "% of the variance of these readings" in told
 
 
 def test_scenario_s_programme_is_not_what_was_done(scenario: Scenario, tmp_path: Path) -> None:

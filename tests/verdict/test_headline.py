@@ -14,9 +14,9 @@ def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> 
     told = headline(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
     assert told == (
         "The model leaves out: contact resistance in a string, string[3]. The amended model explains 96 % of the "
-        "mismatch in the held-out recordings (recalibration alone 81 %); 1.2 K of coil[2,5].temperature stays, 8.0 "
-        "times the noise that is stated: something else is missing or wrong. That takes for granted: room temperature of recording 1: "
-        "+0.310 K."
+        "squared mismatch in the held-out recordings (recalibration alone 81 %); 1.2 K of coil[2,5].temperature stays, "
+        "8.0 times the noise that is stated: something else is missing or wrong. That takes for granted: room "
+        "temperature of recording 1: +0.310 K."
     )
 
 
@@ -45,7 +45,7 @@ def test_what_recalibration_does_is_not_credited_to_laws() -> None:
 def test_noise_alone_is_said_to_be_no_more_than_noise() -> None:
     quiet = replace(ADEQUACY, is_rejected=False, explained=0.999, day=())
     assert how_right(quiet, True) == (
-        "The amended model explains more than 99 % of the mismatch in the held-out recordings (recalibration "
+        "The amended model explains more than 99 % of the squared mismatch in the held-out recordings (recalibration "
         "alone 81 %); what is left is not more than the stated noise of the sensors."
     )
     assert how_right(quiet, False).startswith("The recalibrated model explains")

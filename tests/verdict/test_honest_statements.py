@@ -102,7 +102,7 @@ def test_a_model_that_is_late_at_switches_is_no_noise() -> None:
 def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
     noisy = replace(ADEQUACY, is_irregular=True, day=())
     assert "something else is missing" not in how_right(noisy, False)
-    assert "noise is larger than it is taken to be" in how_right(noisy, False)
+    assert "noise is larger than is stated" in how_right(noisy, False)
 
 
 @pytest.mark.parametrize(
@@ -255,12 +255,12 @@ def test_a_law_without_a_name_that_leaves_most_of_the_mismatch_says_nothing_of_t
     assert verdict(outcome, [unnamed], replace(right, is_rejected=False), searched) is Verdict.UNNAMED_PHYSICS
     reasons = why_open(outcome, [unnamed], right, searched)
     is_open = word is Verdict.CANNOT_TELL
-    assert (reasons[0] == "what improves the prediction has no name and leaves most of the mismatch") is is_open
+    assert (reasons[0] == "what improves the prediction has no name and leaves most of the squared mismatch") is is_open
     told = headline(word, [unnamed], right, reasons)
     assert ("The model leaves out" in told) is not is_open
     assert told.startswith("It cannot be told what is missing or wrong: what improves the prediction has") is is_open
     assert ("What improves the prediction the rig, a sensor or an input may do: an effect without" in told) is is_open
-    assert f"The amended model explains {100.0 * explained:.0f} % of the mismatch" in told
+    assert f"The amended model explains {100.0 * explained:.0f} % of the squared mismatch" in told
 
 
 def test_whether_something_is_missing_is_open_only_where_the_readings_do_not_reject_the_model() -> None:
