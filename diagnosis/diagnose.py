@@ -24,7 +24,7 @@ from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
 from diagnosis.judge.gain import is_better
-from diagnosis.judge.headline import headline
+from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
@@ -188,6 +188,7 @@ def diagnose(
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, reasons, doubts, units),
+        notes=notes(word, found, right, reasons, doubts, units),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,

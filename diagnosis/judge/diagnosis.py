@@ -124,7 +124,7 @@ class Finding:
         channels: Channels in which it shows most.
         effect: Identifier in the catalogue, or of an unnamed term.
         is_named: Whether its standing is a name or a class of names.
-        statement: In plain words.
+        statement: In one or two sentences.
         law: Formula.
         parameters: Estimates.
         gain: Fall of -2 log posterior by it, all else kept.
@@ -500,7 +500,7 @@ class Diagnosis:
 
     Args:
         verdict: One word.
-        statement: In plain words.
+        statement: In one or two sentences.
         findings: Effects, the largest gain first.
         fit: Per channel.
         margin: Gain that an effect had to exceed.
@@ -532,6 +532,8 @@ class Diagnosis:
         doubts: What the check of the recordings before the search stumbled over.
         units: Units of channels and clocks as the user wrote them: terminal and report show quantities in them. All
             numbers here are SI; each stands beside its unit.
+        notes: What stands below the statement, a sentence each: further reasons, findings of which it says nothing,
+            and what is taken for granted of the day.
     """
 
     verdict: Verdict
@@ -563,6 +565,7 @@ class Diagnosis:
     searched: Searched = Searched()
     doubts: tuple[Doubt, ...] = ()
     units: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def accepted(self) -> tuple[Finding, ...]:

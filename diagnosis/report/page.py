@@ -86,7 +86,10 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         joined(
             [
                 _place_and_time(diagnosis, series, network),
-                *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
+                *(
+                    finding_section(n, f, units, diagnosis.verdict is Verdict.CANNOT_TELL)
+                    for n, f in enumerate(diagnosis.findings)
+                ),
                 *left[:is_first],
                 _figures(diagnosis, series),
                 waveform_section(diagnosis.waveforms),
@@ -143,6 +146,7 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
             " ",
             ADVICE[diagnosis.verdict],
         ),
+        listing(map(clean, diagnosis.notes)) if diagnosis.notes else "",
         element(
             "div",
             element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
@@ -180,7 +184,9 @@ def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
-    facts = [("Suggested", suggested(f, Units(diagnosis.units))) for f in diagnosis.suggestions]
+    units = Units(diagnosis.units)
+    facts = [("Accepted, not identified", f"{clean(f.statement)}; {when(f, units=units)}") for f in diagnosis.accepted]
+    facts += [("Suggested", suggested(f, units)) for f in diagnosis.suggestions]
     left = [remainder(r, Units(diagnosis.units)) for r in diagnosis.left[:_LEFT]]
     facts += [("What is left", _each(left))] if left else []
     alone = departing(diagnosis)

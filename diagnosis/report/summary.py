@@ -46,6 +46,8 @@ _STYLES = {
 _FINDINGS, _ROWS, _STATEMENTS = 2, 4, 2
 #: Lines of the statement: it is cut only where somebody gave titles of many lines.
 _STATEMENT = 14
+#: Lines of a note below it.
+_NOTE = 3
 
 
 def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.html") -> None:
@@ -62,6 +64,8 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
     top = Text(first)
     top.stylize(_STYLES[diagnosis.verdict], 0, len(head))
     lines = [top, *map(Text, others)]
+    for note in diagnosis.notes:
+        lines += map(Text, _wrapped("note     ", note, width, _NOTE))
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
     if thinning(diagnosis):
         foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
@@ -88,7 +92,7 @@ def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
         yield f"         and {more} more doubt{'s' if more > 1 else ''} in diagnosis.json"
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
-        yield from _finding(order, finding, width, units)
+        yield from _finding(order, finding, width, units, diagnosis.verdict is Verdict.CANNOT_TELL)
     more = len(diagnosis.findings) - len(told)
     if more > 0:
         yield f"  and {more} more in {rest}"
@@ -123,10 +127,12 @@ def _next(experiment: NextExperiment) -> str:
     return experiment.statement + where
 
 
-def _finding(order: int, finding: Finding, width: int, units: Units) -> Iterator[str]:
+def _finding(order: int, finding: Finding, width: int, units: Units, is_open: bool) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding, units=units), width, 1)
     prefix = "" if finding.is_accepted else "suggested, not accepted: "
+    if finding.is_accepted and is_open:
+        prefix = "improves the prediction, not identified: "
     yield from _wrapped("  what   ", prefix + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
     told = [
