@@ -117,7 +117,7 @@ class Finding:
     """One effect that the model lacks.
 
     Args:
-        unit: electrical, thermal, stiffness, mechanical or measurement.
+        unit: electrical, thermal, stiffness, mechanical, measurement or other.
         place: For people: `string[3]`, `all coils`.
         elements: Coils, strings or channels concerned, counted from 1.
         intervals: Times [s] in which it shows.
@@ -464,7 +464,7 @@ class Domain:
     """Laws of one domain that were tried.
 
     Args:
-        name: electrical, thermal, stiffness, mechanical or measurement.
+        name: electrical, thermal, stiffness, mechanical, measurement or other.
         laws: How many.
         generic: How many of them have no name.
         places: Places at which they were tried.

@@ -28,7 +28,7 @@ class Location:
     """One line of the table of places: a residual of a unit that was driven alone with recorded inputs.
 
     Args:
-        unit: electrical, thermal, stiffness, mechanical or measurement.
+        unit: electrical, thermal, stiffness, mechanical, measurement or other.
         equation: The balance or law that the residual is one of: `heat balance`, `Ohm's law of a string`.
         element: `coil[2,5]`, `string[3]`, `all coils`.
         channel: Channel or group of channels in which it shows most.
