@@ -133,8 +133,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
         text = (
-            f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be "
-            f"told apart"
+            f"the response comes late: a clock shift of {_size(found)} or a lag of {found.lag:.3g} s cannot be told "
+            "apart"
         )
         return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
     return []
@@ -184,9 +184,17 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
     return Doubt(*where, text, remedy, False, *over, is_far=True)
 
 
+def _size(found: Shift) -> str:
+    """How far a clock is off, with its interval."""
+    factor, unit = (100.0 * found.rate, "%") if found.is_rate else (1.0, "s")
+    sign = 1.0 if found.size >= 0.0 else -1.0
+    low, high = sorted(sign * factor * v for v in found.interval)
+    return f"{factor * abs(found.size):.3g} {unit} ({low:.3g} to {high:.3g} {unit}, 95 %)"
+
+
 def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float], what: str) -> Doubt:
     """The doubt where something else explains as much: the search knows it."""
-    off = f"run {found.percent:.2g} % wrong" if found.is_rate else f"be {abs(found.size):.3g} s off"
+    off = f"run wrong by {_size(found)}" if found.is_rate else f"be off by {_size(found)}"
     text = f"the readings' clock seems to {off}, or {what}: these cannot be told apart"
     remedy = "compare two instants that both clocks know"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
@@ -194,10 +202,9 @@ def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float],
 
 def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
     """The doubt where one channel alone is off: the search knows such a fault, so that it is no other experiment."""
-    off = f"{found.percent:.2g} %" if found.is_rate else f"{abs(found.size):.3g} s"
     text = (
-        f"the times of one channel seem to be off by {off}: its own clock, or that of the recording, for no other "
-        f"channel shows the same"
+        f"the times of one channel seem to be off by {_size(found)}: its own clock, or that of the recording, for "
+        "no other channel shows the same"
     )
     remedy = "compare two instants that both clocks know, or state the channel's `offset_bound`"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)

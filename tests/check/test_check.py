@@ -111,7 +111,10 @@ def test_a_clock_that_is_off(scenario: Scenario, tmp_path: Path, late: float) ->
     a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + late)
     (found,) = [d for d in doubts(scenario, a) if d.is_serious]
     assert found.kind == "dead time"
-    assert f"{'later' if late > 0 else 'earlier'} than its programme" in found.statement
+    assert f"{'later' if late > 0 else 'earlier'} than its programme (" in found.statement
+    low, high = map(float, re.findall(r"\(([\d.]+) to ([\d.]+) s, 95 %\)", found.statement)[0])
+    assert low <= abs(late) <= high
+    assert high - low < abs(late)
 
 
 def test_a_clock_within_its_stated_bound_is_no_doubt(scenario: Scenario, tmp_path: Path) -> None:
