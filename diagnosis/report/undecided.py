@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
-from diagnosis.judge.doubts import is_of_an_interval
+from diagnosis.judge.doubts import is_of_an_interval, waits
 from diagnosis.judge.location import Remainder
 from diagnosis.report.display import clean, number, words
 from diagnosis.report.sentences import when, where
@@ -13,10 +13,12 @@ from diagnosis.report.user_units import IN_SI, Units
 
 #: What would decide about findings that other readings do not confirm.
 _UNCONFIRMED = (
-    "Record a training programme once more, with the rig as it is now, and hold that out. If what is suggested "
-    "predicts it worse too, the rig has changed since the training; if better, the law holds for that programme alone "
-    "and stands for something else."
+    "Record a programme of the training once more and hold that out. If what is suggested predicts the repeat worse "
+    "too, it does not hold beyond the recordings that it was fitted to; why not (chance, the day, the rig) stays open. "
+    "If better, it holds for that programme and not for what was held out here: its form is then in doubt."
 )
+#: The same where findings wait for something that the check of the recordings saw.
+_FIRST = "Clear first what the check of the recordings saw, see the reason beside each suggestion; then diagnose again."
 #: What would decide where the readings scatter more than their noise is taken to be.
 _NOISIER = "Correct `noise` of these channels in recording.yaml, or leave it out: then it is estimated. Diagnose again."
 #: The same where no noise was stated.
@@ -92,6 +94,8 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.suggestions:
         if all(is_of_an_interval(f) for f in diagnosis.suggestions):
             return _OF_ONE_RECORDING
+        if all(waits(f) for f in diagnosis.suggestions):
+            return _FIRST
         return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
         worst = diagnosis.adequacy.worst
