@@ -24,7 +24,7 @@ from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
 from diagnosis.judge.gain import is_better
-from diagnosis.judge.headline import headline
+from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
@@ -46,6 +46,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.report.user_units import written_units
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
+from diagnosis.search.shares import titled
 from diagnosis.search.structure import structure
 from diagnosis.ways import is_cheap, other_ways
 
@@ -173,6 +174,7 @@ def diagnose(
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
+    reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None
     if not options.is_brief:
         on_progress("finding out what these channels can tell apart")
@@ -184,7 +186,8 @@ def diagnose(
     first, left = (model.plain.residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
-        statement=headline(word, found, right, why_open(outcome, found, right, tried, doubts), doubts, units),
+        statement=headline(word, found, right, reasons, doubts, units),
+        notes=notes(word, found, right, reasons, doubts, units),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,

@@ -138,8 +138,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
         text = (
-            f"the response comes late: a clock shift of {found.size:.3g} s or a lag of {found.lag:.3g} s cannot be "
-            f"told apart"
+            f"the response comes late: a clock shift of {_size(found)} or a lag of {found.lag:.3g} s cannot be told "
+            "apart"
         )
         return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
     return []
@@ -189,12 +189,20 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
     return Doubt(*where, text, remedy, False, *over, is_far=True)
 
 
+def _size(found: Shift) -> str:
+    """How far a clock is off, with its interval."""
+    factor, unit = (100.0 * found.rate, "%") if found.is_rate else (1.0, "s")
+    sign = 1.0 if found.size >= 0.0 else -1.0
+    low, high = sorted(sign * factor * v for v in found.interval)
+    return f"{factor * abs(found.size):.3g} {unit} ({low:.3g} to {high:.3g} {unit}, 95 %)"
+
+
 def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float], what: str) -> Doubt:
     """The doubt where something else explains as much: the search knows it."""
     way = "later" if found.size > 0.0 else "earlier"
-    off = f"the response seems to come {abs(found.size):.3g} s {way} than {compared.drive}"
+    off = f"the response seems to come {way} than {compared.drive} by {_size(found)}"
     if found.is_rate:
-        off = f"the readings' clock seems to run {found.percent:.2g} % wrong"
+        off = f"the readings' clock seems to run wrong by {_size(found)}"
     text = f"{off}, or {what}: these cannot be told apart"
     remedy = "compare two instants that both clocks know"
     return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
@@ -205,13 +213,12 @@ def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) 
     asking = asked(compared)
     names = " and ".join(b.channel.name for b in asking)
     if found.is_rate:
-        text = f"the times of {names} seem to run {found.percent:.2g} % wrong: its own clock, or that of the recording"
+        text = f"the times of {names} seem to be off by {_size(found)}: its own clock, or that of the recording"
     else:
-        low, high = sorted(abs(v) for v in found.interval)
         way, causes = ("later", ", or a dead time") if found.size > 0.0 else ("earlier", "")
         text = (
-            f"the response of {names} comes {abs(found.size):.3g} s {way} than {compared.drive} ({low:.3g} to "
-            f"{high:.3g} s, 95 %): the clock of the channel, of the input or of the recording{causes}"
+            f"the response of {names} comes {way} than {compared.drive} by {_size(found)}: the clock of the channel, "
+            f"of the input or of the recording{causes}"
         )
     more = "no other channel can confirm it" if len(asking) == 1 else "not every channel shows the same"
     text = f"{text}; {more}"

@@ -90,7 +90,7 @@ def edge_doubts(compared: Compared) -> list[Doubt]:
     share = float(np.median([explained(b, b).share for b in asked(compared)]))
     is_followed = explains(0.0, share)
     if not is_followed:  # behind any lags, of any size: what a rig does of itself comes beside its programme
-        text += f"; the programme explains {percent(share)} of these readings"
+        text += f"; the programme explains {percent(share)} of the variance of these readings"
     z = float(np.sqrt(2.0 * np.log(found.odds)))
     over = compared.begin, compared.end, z
     return [

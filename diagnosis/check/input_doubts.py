@@ -149,7 +149,10 @@ def _doubt(
         f"the recorded input {how(one)}, compared with the programme of {whose}; they differ in "
         f"{percent(one.share)} of the time; the simulation uses the recorded one"
     )
-    explain = f"the programme explains {percent(shares[1])} of the readings, the recorded input {percent(shares[0])}"
+    explain = (
+        f"the programme explains {percent(shares[1])} of the variance of the readings, the recorded input "
+        f"{percent(shares[0])}"
+    )
     if is_wrong:
         text += f"; but the readings follow the programme: {explain}"
         remedy = f"is the column of `inputs.{one.name}` of another run or clock? Correct it, or leave it out"

@@ -176,8 +176,8 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
     if found <= limit or not explains(same.share, other.share):
         return []
     text = (
-        f"the readings fall where the simulation rises: turned over it explains {percent(other.share)} of them, "
-        f"as it is {percent(same.share)}"
+        f"the readings fall where the simulation rises: turned over it explains {percent(other.share)} of their "
+        f"variance, as it is {percent(same.share)}"
     )
     remedy = "is the sensor or the column of opposite sign? Correct the table, or the scenario's direction"
     return [

@@ -75,7 +75,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
         worst = min(gaining, key=lambda i: gains[i, columns[i]])
         text = (
             f"{takes}: so exchanged, the simulation explains at least "
-            f"{percent(fits[worst][columns[worst]].share)} of "
+            f"{percent(fits[worst][columns[worst]].share)} of the variance of "
             f"{'each' if len(gaining) == len(cycle) else members[worst].channel.name}, in place of "
             f"{percent(fits[worst][worst].share)}. {WHICH}"
         )

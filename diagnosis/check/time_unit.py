@@ -51,7 +51,7 @@ def time_unit_doubts(compared: Compared) -> list[Doubt]:
     text = (
         f"the recording lasts {span:.3g} s, and the programme switches from {switches[0]:.3g} to "
         f"{switches[-1]:.3g} s: with "
-        f"{name} corrected it explains {percent(share)} of the readings, as it is {percent(own)}"
+        f"{name} corrected it explains {percent(share)} of the variance of the readings, as it is {percent(own)}"
     )
     return [
         Doubt(

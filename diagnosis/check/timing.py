@@ -192,7 +192,8 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
                 Rival(
                     "other run",
                     "inputs" if compared.recording.inputs else "overrides",
-                    f"the programme of `{title}` explains {{other}} of these readings, their own {{own}}",
+                    f"the programme of `{title}` explains {{other}} of the variance of these readings, their own "
+                    "{own}",
                     f"is the programme that of `{title}`? Exchange them, or correct `overrides` and `inputs`",
                     together(asked, mine, np.array(gains)) - 2.0 * np.log(len(others)),
                     _shares(mine),
@@ -220,8 +221,10 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     best = max(tried, key=lambda one: one[0])
     if best[0] > critical(4.0):  # it will be told: more exactly than on the grid
         near = best[1] * (sizes[1] / sizes[0]) ** np.linspace(-1.0, 1.0, FINER)
-        best = max([best, *map(moved, near.tolist())], key=lambda one: one[0])
+        tried += map(moved, near.tolist())
+        best = max([best, *tried], key=lambda one: one[0])
     gained, shift, fits = best
+    low, high = _interval([(g, s) for g, s, _ in tried], shift)
     if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
         return []
     ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
@@ -230,19 +233,32 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     if abs(shift) < np.min(np.diff(ends)) or _shares(fits) > 1.0 - DISCREPANCY**2:
         stated = max(b.channel.offset_bound for b in leads)
         text = (
-            f"the response comes {abs(shift):.3g} s {way} than {compared.drive}, where at most {stated:.3g} s "
-            f"are stated: "
-            "moved by that, it explains {other} of the readings, as it is {own}"
+            f"the response comes {abs(shift):.3g} s {way} than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), "
+            f"where at most {stated:.3g} s are stated: "
+            "moved by that, it explains {other} of the variance of the readings, as it is {own}"
         )
         remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
         return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
     text = (
-        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} it would explain "
-        f"{{other}} of "
-        "them, as it is {own}"
+        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} ({low:.3g} to {high:.3g} s, "
+        "95 %) it would explain {other} of their variance, as it is {own}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _interval(tried: Sequence[tuple[float, float]], best: float) -> tuple[float, float]:
+    """Sizes that the 95 % quantile of chi-square allows, without their sign, as far as the next ones that were tried.
+
+    Args:
+        tried: Gain in -2 log likelihood and size of all that were tried.
+        best: The size that gains most.
+    """
+    gains = {abs(size): gained for gained, size in tried if size * best > 0.0}
+    sizes = sorted(gains)
+    level = gains[abs(best)] - chi_square_beyond(0.05, 1)
+    inside = [n for n, size in enumerate(sizes) if gains[size] > level]
+    return sizes[max(inside[0] - 1, 0)], sizes[min(inside[-1] + 1, len(sizes) - 1)]
 
 
 def _direct_gain(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> float:
@@ -260,18 +276,17 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
         return []
     sizes = np.geomspace(least, FASTEST, FACTORS)
     price = 2.0 * np.log(2.0 * FACTORS)
-    best: tuple[float, float, list[Fit]] | None = None
+    tried = []
     for size in (*-sizes[::-1], *sizes):
         fits = [explained(b, b, b.times / (1.0 + size)) for b in leads]
         found = together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price
-        if best is None or found > best[0]:
-            best = found, float(size), fits
-    assert best is not None
-    gained, size, fits = best
+        tried.append((found, float(size), fits))
+    gained, size, fits = max(tried, key=lambda one: one[0])
+    low, high = (100.0 * v for v in _interval([(g, s) for g, s, _ in tried], size))
     text = (
-        f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'}: so "
-        f"corrected, the "
-        "programme explains {other} of the readings, as it is {own}"
+        f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'} ({low:.2g} to "
+        f"{high:.2g} %, 95 %): so corrected, the "
+        "programme explains {other} of the variance of the readings, as it is {own}"
     )
     remedy = "compare two instants that both clocks know; correct the column of times or its unit"
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
@@ -316,8 +331,7 @@ def _switches(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -
         return []
     text = (
         f"the readings change at about {listed(others)} s, where the programme does not: switches at free "
-        f"instants "
-        f"explain {{other}} of them, the programme (switches at {listed(switches)} s) {{own}}"
+        f"instants explain {{other}} of their variance, the programme (switches at {listed(switches)} s) {{own}}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, or give the recorded input under `inputs`"
     shares = _shares([p[1] for p in pairs]), _shares([p[2] for p in pairs])

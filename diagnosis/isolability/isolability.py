@@ -192,7 +192,8 @@ def _by_size(shown: Sequence[Effect], alike: Sequence[Alike]) -> Iterable[str]:
         unit = effect.term.parameters[0].unit
         yield (
             f"{_plain(effect.term)} shows from {least:.2g}{f' {unit}' if unit != '1' else ''} on: all but "
-            f"{100 * effect.visibility:.2g} % of its change is also made by {effect.absorbed_by}."
+            f"{100 * effect.visibility:.2g} % of its change (root mean square, training) is also made by "
+            f"{effect.absorbed_by}."
         )
     for pair in alike[:MOST]:
         yield (

@@ -57,6 +57,7 @@ def adequacy(
             worst.chi_square,
             worst.limit,
             worst.scatter,
+            worst.is_noise_stated,
         ),
         rejected=(sum(c.is_rejected for c in now.channels), len(now.channels)),
         day=day,
@@ -70,6 +71,7 @@ def adequacy(
         has_scatter=has_scatter,
         met=met(accepted.after, readings),
         needs_parameter_error=now.needs_parameter_error,
+        noises_stated=(sum(c.is_deviation_given for c in readings.channels), len(readings.channels)),
     )
 
 

@@ -47,6 +47,7 @@ class ChannelAgreement:
         lasting: Root mean square of what is left without readings that stand out alone [unit]; `rmse` if none does.
         tested: Chi-square per reading that is compared with the limit, where that is another: with what the error of
             fitted numbers explains, and its price, see `diagnosis.judge.parameter_error`.
+        is_noise_stated: Whether the recording states the noise; else it was estimated from neighbouring readings.
     """
 
     channel: str
@@ -60,6 +61,7 @@ class ChannelAgreement:
     scatter: float = 0.0
     lasting: float | None = None
     tested: float | None = None
+    is_noise_stated: bool = True
 
     @property
     def statistic(self) -> float:
@@ -204,6 +206,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
                 noise * scatter,
                 noise * _lasting(own, scatter),
                 None if tested is None else float(tested.channels[n]) / count,
+                channel.is_deviation_given,
             )
         )
         squares += total

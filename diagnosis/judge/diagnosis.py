@@ -11,6 +11,11 @@ from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.location import Location, Proposal, Remainder, Waveform
 from diagnosis.judge.next_experiment import NextExperiment
 
+#: A parameter that moved by more prior deviations than this is reported.
+MOVED = 2.0
+#: Prior deviations from which a fitted parameter is no measurement: its prior holds it, or another law is missing.
+FAR = 3.0
+
 
 class Verdict(Enum):
     """What the recordings say about the model."""
@@ -112,14 +117,14 @@ class Finding:
     """One effect that the model lacks.
 
     Args:
-        unit: electrical, thermal, stiffness, mechanical or measurement.
+        unit: electrical, thermal, stiffness, mechanical, measurement or other.
         place: For people: `string[3]`, `all coils`.
         elements: Coils, strings or channels concerned, counted from 1.
         intervals: Times [s] in which it shows.
         channels: Channels in which it shows most.
         effect: Identifier in the catalogue, or of an unnamed term.
         is_named: Whether its standing is a name or a class of names.
-        statement: In plain words.
+        statement: In one or two sentences.
         law: Formula.
         parameters: Estimates.
         gain: Fall of -2 log posterior by it, all else kept.
@@ -226,6 +231,7 @@ class ChannelFit:
         samples: Samples that were used.
         scatter: Standard deviation by which the simulation scatters by itself (contacts) [unit of the channel]; it is
             part of the deviation that residuals are divided by.
+        is_noise_stated: Whether the recording states the noise; else it was estimated from neighbouring readings.
     """
 
     recording: str
@@ -237,6 +243,7 @@ class ChannelFit:
     whiteness: dict[str, float]
     samples: int = 0
     scatter: float = 0.0
+    is_noise_stated: bool = True
 
 
 @dataclass(frozen=True)
@@ -336,6 +343,7 @@ class Left:
         chi_square: Per reading.
         limit: Noise alone exceeds it in one of a thousand diagnoses.
         scatter: Root mean square of what is left as far as it changes from one reading to the next [unit].
+        is_noise_stated: Whether the recording states this noise; else it was estimated from neighbouring readings.
     """
 
     recording: str
@@ -346,6 +354,7 @@ class Left:
     chi_square: float
     limit: float
     scatter: float = 0.0
+    is_noise_stated: bool = True
 
 
 @dataclass(frozen=True)
@@ -376,7 +385,10 @@ class Moved:
         unit: Its unit; 1 of a factor.
         amount: How far it was moved, or by which factor.
         is_factor: Whether it was multiplied by `amount`; else `amount` was added.
-        deviations: How far that is in deviations of what is usual or stated.
+        deviations: How far that is in deviations of what is usual or stated (its prior).
+        value: The number itself, SI; NaN where it is not known.
+        value_unit: Its unit.
+        is_at_bound: Whether it is at the bound of its fit, so that it would have gone farther.
     """
 
     name: str
@@ -384,6 +396,14 @@ class Moved:
     amount: float
     is_factor: bool
     deviations: float
+    value: float = math.nan
+    value_unit: str = ""
+    is_at_bound: bool = False
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether its value may be read as a measurement: it is neither at its bound nor far from its prior."""
+        return not self.is_at_bound and abs(self.deviations) < FAR
 
 
 @dataclass(frozen=True)
@@ -414,6 +434,7 @@ class Adequacy:
             is off, whatever was set aside here.
         needs_parameter_error: Whether noise alone would reject the model, and noise with the error of the fitted
             parameters does not.
+        noises_stated: How many channels state their noise, of how many: each channel of each recording of the basis.
     """
 
     basis: str
@@ -435,6 +456,7 @@ class Adequacy:
     has_scatter: bool = False
     met: tuple[Met, ...] = ()
     needs_parameter_error: bool = False
+    noises_stated: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True)
@@ -442,7 +464,7 @@ class Domain:
     """Laws of one domain that were tried.
 
     Args:
-        name: electrical, thermal, stiffness, mechanical or measurement.
+        name: electrical, thermal, stiffness, mechanical, measurement or other.
         laws: How many.
         generic: How many of them have no name.
         places: Places at which they were tried.
@@ -478,14 +500,15 @@ class Diagnosis:
 
     Args:
         verdict: One word.
-        statement: In plain words.
+        statement: In one or two sentences.
         findings: Effects, the largest gain first.
         fit: Per channel.
         margin: Gain that an effect had to exceed.
         false_alarm_rate: Probability that chance alone gives the first finding its gain.
         structure_before: Largest standardised sum of residuals left after recalibration.
         structure_after: The same with the findings.
-        recalibration: Parameters of the model that moved by more than two prior deviations.
+        recalibration: Parameters of the model that was judged that are more than two prior deviations from the
+            scenario's values, or at their bounds.
         isolability: What these channels can tell apart.
         amended_model: Path of the amended scenario, or None.
         seconds: Wall time.
@@ -509,6 +532,8 @@ class Diagnosis:
         doubts: What the check of the recordings before the search stumbled over.
         units: Units of channels and clocks as the user wrote them: terminal and report show quantities in them. All
             numbers here are SI; each stands beside its unit.
+        notes: What stands below the statement, a sentence each: further reasons, findings of which it says nothing,
+            and what is taken for granted of the day.
     """
 
     verdict: Verdict
@@ -540,6 +565,7 @@ class Diagnosis:
     searched: Searched = Searched()
     doubts: tuple[Doubt, ...] = ()
     units: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def accepted(self) -> tuple[Finding, ...]:

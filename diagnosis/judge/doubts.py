@@ -19,6 +19,9 @@ _HARDLY = (
 )
 #: Kind of doubt to what has to be done about it before physics can be told; all others are faults.
 _FIRST = {"start": "the start has to be stated", "dead time": "the times have to be checked"}
+_CLEARED = "the fault has to be cleared"
+#: Begin of the reason why a finding is suggested that waits for such a doubt.
+_WAITS = "first"
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
 OF_A_STRETCH = ("sensor", "input")
 
@@ -92,8 +95,8 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
     left = [d for d in open_ones if not any(is_explained(d, f) for f in accepted)]
     if not left:
         return told
-    what = _FIRST.get(left[0].kind, "the fault has to be cleared")
-    why = f"first {what}: {left[0].recording}, {left[0].subject}: {left[0].statement.rstrip('.')}"
+    what = _FIRST.get(left[0].kind, _CLEARED)
+    why = f"{_WAITS} {what}: {left[0].recording}, {left[0].subject}: {left[0].statement.rstrip('.')}"
     return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
 
 
@@ -101,6 +104,11 @@ def is_explained(doubt: Doubt, finding: Finding) -> bool:
     """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording."""
     is_there = not finding.effect.endswith(_IN_INTERVAL) or finding.recording in ("", doubt.recording)
     return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
+
+
+def waits(finding: Finding) -> bool:
+    """Whether a finding is not accepted because a doubt about a recording has to be cleared first."""
+    return any(d.startswith(f"{_WAITS} {what}:") for d in finding.doubts for what in (*_FIRST.values(), _CLEARED))
 
 
 def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:

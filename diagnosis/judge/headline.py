@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
 from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
@@ -36,7 +37,7 @@ def headline(
     doubts: Sequence[Doubt] = (),
     units: Units = IN_SI,
 ) -> str:
-    """Both answers: what was found, and how right the model is now.
+    """Both answers in one or two sentences: what was found, and how right the model is now; `notes` has the rest.
 
     Args:
         verdict: One word.
@@ -48,42 +49,90 @@ def headline(
     """
     if verdict is Verdict.RECORDING_FAULT:
         return _not_comparable(of_another_experiment(doubts))
-    of_the_rig = [f for f in found if f.is_accepted and is_physics(f)]
-    at_fault = [f for f in found if f.is_accepted and not is_physics(f)]
-    is_told = verdict in (Verdict.MISSING_PHYSICS, Verdict.UNNAMED_PHYSICS)
-    physics = _listed(of_the_rig if is_told else [])
-    measured = _listed([f for f in at_fault if accuses(f)])
-    unsure = [f for f in at_fault if not accuses(f)]
-    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is named, and nothing else
-        unsure = [f for f in unsure if not any(is_explained(d, f) for d in faults(doubts)[:SEEN])]
-    described = _listed([*([] if is_told else of_the_rig), *unsure])
-    suggested = _listed([f for f in found if not f.is_accepted])
-    if any(f.statement in suggested for f in found if f.is_accepted):
-        suggested = f"one more law beside these: {suggested}"
+    named = _named(verdict, found, doubts)
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within "
         f"{_noise(adequacy, is_fitted=False)}.",
         Verdict.RECALIBRATED: f"The model agrees with the {_basis(adequacy)} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(measured, doubts)}.",
-        Verdict.MISSING_PHYSICS: f"The model leaves out: {physics}.",
-        Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {physics}.",
-        Verdict.CANNOT_TELL: f"It cannot be told {_open(adequacy)}: {'; '.join(reasons)}.",
+        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(named.measured, doubts)}.",
+        Verdict.MISSING_PHYSICS: f"The model leaves out: {named.physics}.",
+        Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {named.physics}.",
+        Verdict.CANNOT_TELL: f"It cannot be told {_open(adequacy)}: {reasons[0] if reasons else ''}.",
     }[verdict]
-    parts = [first]
-    if physics and measured:
-        parts.append(f"Besides, a sensor or an input is at fault: {measured}.")
-    if described:
-        what = "What" if verdict is Verdict.CANNOT_TELL else "What else"
-        parts.append(f"{what} improves the prediction the rig, a sensor or an input may do: {described}.")
-    if suggested:
-        parts.append(f"Suggested by the training recordings alone, not accepted: {suggested}.")
-    if verdict not in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        parts.append(how_right(adequacy, bool(of_the_rig), units, bool(at_fault)))
-    elif adequacy.day:
-        parts.append(f"That takes for granted: {day_of(adequacy, units)}.")
-    return " ".join(parts)
+    if verdict in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
+        return first
+    is_of_rig = any(f.is_accepted and is_physics(f) for f in found)
+    is_of_sensor = any(f.is_accepted and not is_physics(f) for f in found)
+    return f"{first} {how_right(adequacy, is_of_rig, units, is_of_sensor)}"
+
+
+def notes(
+    verdict: Verdict,
+    found: Sequence[Finding],
+    adequacy: Adequacy | None,
+    reasons: Sequence[str] = (),
+    doubts: Sequence[Doubt] = (),
+    units: Units = IN_SI,
+) -> tuple[str, ...]:
+    """What stands below the headline, a sentence each: further reasons, findings beside it, the day; see `headline`."""
+    if verdict is Verdict.RECORDING_FAULT or adequacy is None:
+        return ()
+    named, told = _named(verdict, found, doubts), []
+    if verdict is Verdict.CANNOT_TELL:
+        told += [f"A further reason: {reason.rstrip('.')}." for reason in reasons[1:]]
+    if named.physics and named.measured:
+        told.append(f"Besides, a sensor or an input is at fault: {named.measured}.")
+    if named.described:
+        if verdict is Verdict.CANNOT_TELL:
+            told.append(
+                f"Accepted, as it improves the prediction of the {_basis(adequacy)} but not identified, so it does "
+                f"not decide: {named.described}. The rig, a sensor or an input may do that."
+            )
+        else:
+            told.append(f"What else improves the prediction the rig, a sensor or an input may do: {named.described}.")
+    if named.suggested:
+        told.append(f"Suggested by the training recordings alone, not accepted: {named.suggested}.")
+    if adequacy.day:
+        told.append(f"That takes for granted: {day_of(adequacy, units)}.")
+    return tuple(told)
+
+
+@dataclass(frozen=True)
+class _Named:
+    """Findings by what is said of them, listed; empty where there is none.
+
+    Args:
+        physics: Of the rig, where the verdict is that they are missing.
+        measured: Of sensors and inputs that are at fault.
+        described: Accepted, of which neither is said.
+        suggested: Not accepted.
+    """
+
+    physics: str
+    measured: str
+    described: str
+    suggested: str
+
+
+def _named(verdict: Verdict, found: Sequence[Finding], doubts: Sequence[Doubt]) -> _Named:
+    of_the_rig = [f for f in found if f.is_accepted and is_physics(f)]
+    at_fault = [f for f in found if f.is_accepted and not is_physics(f)]
+    is_told = verdict in (Verdict.MISSING_PHYSICS, Verdict.UNNAMED_PHYSICS)
+    measured = _listed([f for f in at_fault if accuses(f)])
+    unsure = [f for f in at_fault if not accuses(f)]
+    if verdict is Verdict.MEASUREMENT_FAULT and not measured:  # what the check saw is named, and nothing else
+        unsure = [f for f in unsure if not any(is_explained(d, f) for d in faults(doubts)[:SEEN])]
+    suggested = _listed([f for f in found if not f.is_accepted])
+    if any(f.statement in suggested for f in found if f.is_accepted):
+        suggested = f"one more law beside these: {suggested}"
+    return _Named(
+        _listed(of_the_rig if is_told else []),
+        measured,
+        _listed([*([] if is_told else of_the_rig), *unsure]),
+        suggested,
+    )
 
 
 def _open(adequacy: Adequacy) -> str:
@@ -131,9 +180,22 @@ def _basis(adequacy: Adequacy) -> str:
     return f"{adequacy.basis}," if "," in adequacy.basis else adequacy.basis
 
 
+def noise_of(adequacy: Adequacy) -> str:
+    """Where the noise comes from that readings are compared with."""
+    if adequacy.is_noise_stated:
+        return "the stated noise of the sensors"
+    stated, channels = adequacy.noises_stated
+    if stated:
+        return (
+            f"the noise of the sensors (stated for {stated} of {channels} channels, estimated from the scatter of "
+            "neighbouring readings for the others)"
+        )
+    return "the scatter of neighbouring readings (no noise was stated)"
+
+
 def _noise(adequacy: Adequacy, is_fitted: bool = True) -> str:
     """What the readings agree within; of a model as it is no number was fitted."""
-    noise = "the stated noise of the sensors" if adequacy.is_noise_stated else "the scatter of neighbouring readings"
+    noise = noise_of(adequacy)
     noise += " and the scatter of the contacts" if adequacy.has_scatter else ""
     return f"{noise} and the error of the fitted parameters" if is_fitted and adequacy.needs_parameter_error else noise
 
@@ -175,14 +237,13 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
         share = "100 %" if is_whole else _percent(adequacy.explained)
-        text = f"{name} explains {share} of the mismatch in the {_basis(adequacy)}"
+        text = f"{name} explains {share} of the squared mismatch in the {_basis(adequacy)}"
         if has_more and adequacy.by_recalibration >= LEAST_SHARE:
             text += f" (recalibration alone {_percent(min(adequacy.by_recalibration, adequacy.explained))})"
         text += f"; what is left is not more than {noise}" if is_met else ""
     if not is_met and adequacy.worst is not None:
         text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more)}"
-    given = f" That takes for granted: {day_of(adequacy, units)}." if adequacy.day else ""
-    return f"{text}.{given}"
+    return f"{text}."
 
 
 def _percent(share: float) -> str:
@@ -193,9 +254,12 @@ def _percent(share: float) -> str:
 def _cause(adequacy: Adequacy, has_more: bool) -> str:
     """Why something stays."""
     if adequacy.is_irregular:
+        worst = adequacy.worst
+        is_stated = adequacy.is_noise_stated if worst is None else worst.is_noise_stated
+        source = "is stated" if is_stated else "was estimated from neighbouring readings"
         return (
-            "as much as it changes from one reading to the next: noise is larger than it is taken to be, or single "
-            "readings are wild"
+            f"as much as it changes from one reading to the next: noise is larger than {source}, or single readings "
+            "are wild"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
     return f"something {'else ' if has_more else ''}is missing or wrong{slow}"
@@ -208,7 +272,8 @@ def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:
     factor, unit = units.difference(worst.unit)
     size = f"{number(factor * worst.rmse, 2)} {unit}".strip()
     times = worst.rmse / worst.noise if worst.noise > 0.0 else float("inf")
-    return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise"
+    source = "that is stated" if worst.is_noise_stated else "estimated from neighbouring readings"
+    return f"{size} of {clean(worst.channel)} stays, {number(times, 2)} times the noise {source}"
 
 
 def day_of(adequacy: Adequacy, units: Units = IN_SI) -> str:

@@ -82,6 +82,7 @@ def channel_fits(
                     chi_square,
                     whiteness,
                     int(np.count_nonzero(series.used)),
+                    is_noise_stated=series.channel.is_deviation_given,
                 )
             )
     return found

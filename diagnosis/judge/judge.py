@@ -13,6 +13,7 @@ from diagnosis.faults.law import OF_INPUTS
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
+    MOVED,
     Adequacy,
     Alternative,
     Doubt,
@@ -28,17 +29,18 @@ from diagnosis.judge.diagnosis import (
 )
 from diagnosis.judge.doubts import MEASURED, accuses, far_starts, faults, is_physics, late_responses
 from diagnosis.judge.events import between_samples, event_of, local_estimates, since
+from diagnosis.judge.headline import noise_of
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
 from diagnosis.judge.unfitted import has_bins, raw_residuals
 from diagnosis.models.protocol import DiagnosisModel
-from diagnosis.report.display import words
+from diagnosis.report.display import listed, parameter_words, words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
-from diagnosis.search.problem import Term
+from diagnosis.search.problem import Parameter, Term
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.shares import departures, titled
 
@@ -57,10 +59,12 @@ DOUBTFUL, UNEXPLAINED = 1.5, 0.03
 BURIED, MOST_LEFT = 2.0, 0.1
 #: Share of what recalibration leaves that a law without a name has to explain to be of the rig.
 HALF = 0.5
-#: A parameter that moved by more prior deviations than this is reported.
-MOVED = 2.0
 #: A parameter that moved by more than this is no calibration: chance does that in one of 16,000.
 STRAINED = 4.0
+#: Share of the bound of a parameter from which it counts as being at it.
+AT_BOUND = 0.99
+#: Parameters that are named in one sentence.
+NAMED = 6
 #: Why a law has no name beside one that has none.
 _BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
 #: Factor on an interval from which it is said that a number depends on a law that is not identified.
@@ -98,7 +102,8 @@ def verdict(
         return Verdict.MEASUREMENT_FAULT
     if why_open(outcome, found, adequacy, searched, doubts):
         return Verdict.CANNOT_TELL
-    is_needed = moved or adequacy.is_nominal_rejected or adequacy.day
+    is_moved = any(abs(m.deviations) > MOVED for m in moved)
+    is_needed = is_moved or adequacy.is_nominal_rejected or adequacy.day
     return Verdict.RECALIBRATED if is_needed else Verdict.CONSISTENT
 
 
@@ -129,11 +134,24 @@ def _has_stopgap(accepted: Sequence[Finding]) -> bool:
 
 
 def why_open(
-    outcome: Outcome, found: Sequence[Finding], adequacy: Adequacy, searched: Searched, doubts: Sequence[Doubt] = ()
+    outcome: Outcome,
+    found: Sequence[Finding],
+    adequacy: Adequacy,
+    searched: Searched,
+    doubts: Sequence[Doubt] = (),
+    names: Sequence[str] = (),
 ) -> tuple[str, ...]:
     """Why it cannot be told whether something is missing, or what; empty if the model agrees.
 
     It is asked where no physics is accepted, or none that has a name and could not as well be of a sensor.
+
+    Args:
+        outcome: What the search found.
+        found: Findings, accepted and suggested.
+        adequacy: How right the accepted model is.
+        searched: What was searched.
+        doubts: About the recordings.
+        names: Of the parameters of the model, in their order; without them parameters are counted only.
     """
     if far_starts(doubts):
         return (_start(far_starts(doubts)[0]),)
@@ -142,7 +160,7 @@ def why_open(
     reasons = _open_ones(found)
     reasons += [d.statement for d in doubts if d.kind == "still"]
     if any(f.is_accepted and is_physics(f) for f in found) and leaves_most(adequacy):
-        reasons.append("what improves the prediction has no name and leaves most of the mismatch")
+        reasons.append("what improves the prediction has no name and leaves most of the squared mismatch")
     if not searched.has_physics:
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
@@ -158,11 +176,17 @@ def why_open(
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
-    strained = int(np.sum(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED))
-    if strained:
-        those = "a parameter" if strained == 1 else f"{strained} parameters"
-        reasons.append(f"{those} had to move by more than {STRAINED:.0f} times the stated uncertainty")
+    strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED)
+    if len(strained):
+        reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
     return tuple(reasons)
+
+
+def _strained(names: Sequence[str], count: int) -> str:
+    """That recalibration alone moved parameters far, and which; other laws in the model may leave them nearer."""
+    those = "1 parameter" if count == 1 else f"{count} parameters"
+    which = f": {listed(names, NAMED)}" if names else ""
+    return f"recalibration alone, with no law added, moves {those} by more than {STRAINED:.0f} prior deviations{which}"
 
 
 def _open_ones(found: Sequence[Finding]) -> list[str]:
@@ -182,8 +206,8 @@ def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
     which = "readings" if adequacy.is_rejected else "training readings"
     if adequacy.is_irregular:
         return [
-            f"the {which} reject the model by the noise that was stated or estimated, but what is left scatters from "
-            "one reading to the next, as a larger noise or single wild readings do"
+            f"the {which} reject the model by {noise_of(adequacy)}, but what is left scatters from one reading to the "
+            "next, as a larger noise or single wild readings do"
         ]
     return [f"the {which} reject the model{unexplained}"]
 
@@ -479,7 +503,10 @@ def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) 
 def _much_left(accepted: Accepted) -> str:
     left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
     share = 100.0 * left.excess / recalibrated.excess if recalibrated.excess > 0.0 else 100.0
-    return f"{share:.0f} % of the mismatch that recalibration leaves is still unexplained, so no name is certain"
+    return (
+        f"{share:.0f} % of the squared mismatch that recalibration leaves in the {accepted.basis} is still "
+        "unexplained, so no name is certain"
+    )
 
 
 def statement(name: str, place: str, standing: Standing, likely: Sequence[str]) -> str:
@@ -603,18 +630,40 @@ def _channels(model: DiagnosisModel, effect: Array) -> tuple[str, ...]:
     return tuple(model.layout.names[i] for i in order[:12] if strength[i] > 0.1 * strength[order[0]])
 
 
+def _fitted_value(parameter: Parameter, amount: float) -> float:
+    """The number itself; NaN of an offset from 0 and of a factor over elements, which have no other value."""
+    if parameter.nominal == 0.0 or parameter.unit in ("", "1"):
+        return float("nan")
+    return parameter.nominal * float(np.exp(amount)) if parameter.is_relative else parameter.nominal + amount
+
+
 def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -> tuple[Moved, ...]:
-    """Parameters that moved by more than `MOVED` prior deviations, the farthest first; recordings by their titles."""
+    """Parameters that moved by more than `MOVED` prior deviations or to their bound, the farthest first.
+
+    Args:
+        model: Model of the training recordings.
+        fit: Of it.
+        titles: Of the recordings: parameters of one recording are called by its title.
+    """
     known = {p.name: p for p in model.parameters}
-    found = [
-        Moved(
-            titled(known[name], titles),
-            "1" if known[name].is_relative else known[name].unit,
-            float(np.exp(amount)) if known[name].is_relative else amount,
-            known[name].is_relative,
-            float(z),
+    bounds = np.array([p.bounds for p in model.parameters]) * fit.widths
+    at_bound = {p.name for p, z, most in zip(model.parameters, fit.point.base, bounds) if abs(z) >= AT_BOUND * most}
+    found = []
+    for name, (amount, z) in departures(model.parameters, fit.point.base).items():
+        p = known[name]
+        is_held = name in at_bound or (p.own is not None and p.own.number in at_bound)
+        if not (abs(z) > MOVED or is_held):
+            continue
+        found.append(
+            Moved(
+                titled(p, titles),
+                "1" if p.is_relative else p.unit,
+                float(np.exp(amount)) if p.is_relative else amount,
+                p.is_relative,
+                float(z),
+                _fitted_value(p, amount),
+                p.unit,
+                is_held,
+            )
         )
-        for name, (amount, z) in departures(model.parameters, fit.point.base).items()
-        if abs(z) > MOVED
-    ]
     return tuple(sorted(found, key=lambda m: -abs(m.deviations)))

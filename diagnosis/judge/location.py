@@ -28,7 +28,7 @@ class Location:
     """One line of the table of places: a residual of a unit that was driven alone with recorded inputs.
 
     Args:
-        unit: electrical, thermal, stiffness, mechanical or measurement.
+        unit: electrical, thermal, stiffness, mechanical, measurement or other.
         equation: The balance or law that the residual is one of: `heat balance`, `Ohm's law of a string`.
         element: `coil[2,5]`, `string[3]`, `all coils`.
         channel: Channel or group of channels in which it shows most.
@@ -130,6 +130,8 @@ class Remainder:
         limit: Size of z that noise alone passes in one of a hundred recordings.
         unit: SI unit of the channel; empty of a group whose channels have several.
         mean: Mean of measured minus simulated in the window [unit]; NaN where it is not known.
+        noise: Where the noise of the channels comes from: `stated`, `estimated` from neighbouring readings, or `both`;
+            empty where it is not known.
     """
 
     channel: str
@@ -139,3 +141,4 @@ class Remainder:
     limit: float
     unit: str = ""
     mean: float = math.nan
+    noise: str = ""

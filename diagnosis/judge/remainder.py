@@ -40,7 +40,7 @@ def remainders(
             s.end,
             s.z,
             limit,
-            *(_mean(residuals, layout, members, s, channels) if is_known else ()),
+            *((*_mean(residuals, layout, members, s, channels), _noise(members, channels)) if is_known else ()),
         )
         for s, members in strong[:_TOLD]
     )
@@ -57,6 +57,12 @@ def _mean(
         return "", float("nan")
     sizes = np.array([deviation(c) for c in channels])[np.asarray(layout.channel, dtype=int)[chosen]]
     return units.pop(), float(np.mean(residuals[chosen] * sizes))
+
+
+def _noise(members: Array, channels: Sequence[Channel]) -> str:
+    """Where the noise of some channels comes from."""
+    found = {channels[int(n)].is_deviation_given for n in members}
+    return "both" if len(found) > 1 else "stated" if True in found else "estimated"
 
 
 def _alone(residuals: Array, layout: Layout, members: Array, name: str) -> Structure:

@@ -93,8 +93,21 @@ def closed(model: Model, fit: Fit) -> tuple[Location, ...]:
         chosen = np.array([model.layout.units[int(c)] == unit for c in model.layout.channel])
         left = structure(np.where(chosen, fit.residuals, 0.0), model.layout)
         equation = WHOLE
-        found.append(Location(unit, equation, left.channels, left.channels, left.begin, left.end, left.z, left.limit))
+        found.append(
+            Location(
+                _called(unit, model), equation, left.channels, left.channels, left.begin, left.end, left.z, left.limit
+            )
+        )
     return tuple(sorted(found, key=lambda location: -abs(location.z) / location.limit))
+
+
+def _called(unit: str, model: Model) -> str:
+    """The part of a model as it is told: what is in no other part is mechanical only where its channels are."""
+    targets = [s.channel.target for run in getattr(model, "runs", ()) for s in run.series]
+    if unit != "mechanical" or len(targets) != len(model.layout.units):
+        return unit
+    own = [t for t, u in zip(targets, model.layout.units) if u == unit]
+    return unit if all(t.is_mechanical for t in own) else "other"
 
 
 def unit_tests(model: Fitted, titles: Sequence[str], seed: int = 0) -> list[UnitTest]:

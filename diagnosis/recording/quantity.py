@@ -45,6 +45,9 @@ _DOMAINS = {
     "ohm": "electrical",
     "N/m": "stiffness",
 }
+#: SI units and names of quantities of a component that only a mechanism has.
+_MOVING = ("N", "N*m", "rad", "rad/s", "rad/s^2", "m/s^2")
+_MOTION = ("position", "displacement", "deflection", "extension", "velocity", "speed")
 #: Quantities of a component whose name says what they are: its `x` or `y` may be anything.
 _TELLING = {name: unit for name, unit in SI_UNITS.items() if name not in ("x", "y", "z")}
 _INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
@@ -84,6 +87,13 @@ class Target:
     def domain(self) -> str:
         """Part of a model whose output it is: electrical, thermal, stiffness or mechanical."""
         return _DOMAINS.get(self.si_unit, "mechanical")
+
+    @property
+    def is_mechanical(self) -> bool:
+        """Whether it is known to belong to a mechanism: a length of a component may be the level of a tank."""
+        if not self.is_component:
+            return self.domain == "mechanical"
+        return self.si_unit in _MOVING or (self.si_unit in ("m", "m/s") and self.quantity in _MOTION)
 
     @property
     def is_component(self) -> bool:

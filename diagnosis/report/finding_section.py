@@ -13,15 +13,17 @@ from diagnosis.report.sentences import ambiguity, decisive, fall, what, when, wh
 from diagnosis.report.user_units import IN_SI, Units
 
 
-def finding_section(order: int, finding: Finding, units: Units = IN_SI) -> Html:
+def finding_section(order: int, finding: Finding, units: Units = IN_SI, is_open: bool = False) -> Html:
     """Section of a finding.
 
     Args:
         order: Its place among the findings, from 0; gives its colour.
         finding: What was found.
         units: In which quantities are shown.
+        is_open: Whether the verdict is that nothing can be told: then no finding is one of the rig or of a sensor.
     """
-    title = f"Finding {order + 1}" if finding.is_accepted else f"Suggestion {order + 1}, not accepted"
+    accepted = f"Finding {order + 1}" + (", not identified" if is_open else "")
+    title = accepted if finding.is_accepted else f"Suggestion {order + 1}, not accepted"
     facts = [
         ("Where", where(finding)),
         ("When", when(finding, 12, units)),

@@ -35,7 +35,8 @@ def fit_section(
         "Before: the model as the scenario has it. Recalibrated: its own parameters fitted. After: with the findings. "
         "A chi-square per sample of about 1 is noise alone. Whiteness is the largest standardised sum of residuals "
         "over a window of time. A row of several channels gives the root mean square of their RMSE, the mean of their "
-        "chi-square and the largest whiteness."
+        "chi-square and the largest whiteness. Squared mismatch, where a share of it is said: residuals squared, in "
+        "deviations of the noise, less what noise alone gives."
     )
     if all(len({f.chi_square.get(s) for s in STAGES}) == 1 for f in fits):
         note = (

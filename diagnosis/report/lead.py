@@ -54,9 +54,11 @@ def told(one: Series, fit: ChannelFit, units: Units) -> str:
     sizes = [number(factor * fit.rmse[stage]) for stage in _stages(one)]
     noise = number(factor * float(np.sqrt(np.nanmean(np.square(one.deviation)))))
     quantity = clean(one.channel).rpartition(".")[2].replace("_", " ")
+    source = "stated" if fit.is_noise_stated else "estimated from neighbouring readings"
     return (
         f"{quantity} error {' → '.join(sizes)} {unit}".rstrip()
         + f" (RMSE), noise of its sensor {noise} {unit}".rstrip()
+        + f" ({source})"
     )
 
 

@@ -24,6 +24,8 @@ from diagnosis.report.sentences import (
     doubt_text,
     effort,
     improvement,
+    moved_heading,
+    moved_most,
     moved_text,
     readings_text,
     searched,
@@ -84,7 +86,10 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         joined(
             [
                 _place_and_time(diagnosis, series, network),
-                *(finding_section(n, f, units) for n, f in enumerate(diagnosis.findings)),
+                *(
+                    finding_section(n, f, units, diagnosis.verdict is Verdict.CANNOT_TELL)
+                    for n, f in enumerate(diagnosis.findings)
+                ),
                 *left[:is_first],
                 _figures(diagnosis, series),
                 waveform_section(diagnosis.waveforms),
@@ -114,6 +119,8 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
     facts = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
     facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     facts.append(("Searched", searched(diagnosis)))
+    if far := moved_most(diagnosis, Units(diagnosis.units)):
+        facts.append(("Parameters", far))
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
     if diagnosis.amended_model:
@@ -139,6 +146,7 @@ def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
             " ",
             ADVICE[diagnosis.verdict],
         ),
+        listing(map(clean, diagnosis.notes)) if diagnosis.notes else "",
         element(
             "div",
             element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
@@ -176,7 +184,9 @@ def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
-    facts = [("Suggested", suggested(f, Units(diagnosis.units))) for f in diagnosis.suggestions]
+    units = Units(diagnosis.units)
+    facts = [("Accepted, not identified", f"{clean(f.statement)}; {when(f, units=units)}") for f in diagnosis.accepted]
+    facts += [("Suggested", suggested(f, units)) for f in diagnosis.suggestions]
     left = [remainder(r, Units(diagnosis.units)) for r in diagnosis.left[:_LEFT]]
     facts += [("What is left", _each(left))] if left else []
     alone = departing(diagnosis)
@@ -288,10 +298,11 @@ def _rests_on(diagnosis: Diagnosis) -> Html:
 
 
 def _certainty(diagnosis: Diagnosis) -> Html:
-    moved = [moved_text(m, Units(diagnosis.units)) for m in diagnosis.recalibration]
+    units = Units(diagnosis.units)
+    moved = [moved_text(m, units) for m in diagnosis.recalibration]
     parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
     if diagnosis.differences:
         parts.append(element("p", _differ(diagnosis)))
     if moved:
-        parts += [element("p", "Recalibration moved by more than two prior deviations:"), listing(moved)]
+        parts += [element("p", moved_heading(diagnosis)), listing(moved)]
     return _section("How sure", *parts)

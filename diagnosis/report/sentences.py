@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
-from diagnosis.judge.diagnosis import Diagnosis, Doubt, Finding, Moved, Standing, Used, Verdict
+from diagnosis.judge.diagnosis import FAR, MOVED, Diagnosis, Doubt, Finding, Moved, Standing, Used, Verdict
 from diagnosis.report.display import UNKNOWN, clean, duration, listed, number, percent, user_unit, words
 from diagnosis.report.display import moved as shown_move
 from diagnosis.report.fits import STAGES, mean_chi_square, plain_channel
@@ -175,10 +176,40 @@ def thinning(diagnosis: Diagnosis) -> str:
 
 
 def moved_text(moved: Moved, units: Units = IN_SI) -> str:
-    """How far a number was moved: by which factor, or what was added."""
-    far = f"{number(abs(moved.deviations), 2)} times its uncertainty"
+    """How far a number was moved, its value where that is known, and whether that is no measurement."""
     preferred = user_unit(moved.unit, units.written)
-    return f"{shown_move(moved.name, moved.amount, moved.is_factor, moved.unit, preferred)} ({far})"
+    told = shown_move(moved.name, moved.amount, moved.is_factor, moved.unit, preferred)
+    if math.isfinite(moved.value):
+        told += f", that is {units.text(moved.value, moved.value_unit, is_difference=False)}"
+    far = f"{number(abs(moved.deviations), 2)} prior deviations"
+    if moved.is_at_bound:
+        far += ", at its bound"
+    why = "" if moved.is_measured else ": no measurement of it"
+    return f"{told} ({far}{why})"
+
+
+def moved_most(diagnosis: Diagnosis, units: Units = IN_SI, most: int = 3) -> str:
+    """Parameters that ended at their bound or far from their prior; empty where none did."""
+    far = [m for m in diagnosis.recalibration if not m.is_measured]
+    if not far:
+        return ""
+    which = "1 parameter" if len(far) == 1 else f"{len(far)} parameters"
+    told = "; ".join(moved_text(m, units) for m in far[:most])
+    more = f"; and {len(far) - most} more" if len(far) > most else ""
+    return (
+        f"{which} of the model ended at a bound or at least {FAR:g} prior deviations from the scenario's value, where "
+        f"a fitted value is no measurement: {told}{more}"
+    )
+
+
+def moved_heading(diagnosis: Diagnosis) -> str:
+    """What the list of moved parameters holds, and how many."""
+    count = len(diagnosis.recalibration)
+    which = "1 parameter is" if count == 1 else f"{count} parameters are"
+    return (
+        f"In the model that was judged {which} more than {MOVED:g} prior deviations from the scenario's value, or at a "
+        "bound:"
+    )
 
 
 def doubt_text(doubt: Doubt) -> str:

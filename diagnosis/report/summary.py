@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.text import Text
 
-from diagnosis.judge.diagnosis import Diagnosis, Finding, Verdict
+from diagnosis.judge.diagnosis import MOVED, Diagnosis, Finding, Verdict
 from diagnosis.judge.next_experiment import NextExperiment
 from diagnosis.report.display import clean, number
 from diagnosis.report.fits import STAGES, Row, rows
@@ -18,6 +18,7 @@ from diagnosis.report.sentences import (
     doubt_text,
     effort,
     improvement,
+    moved_most,
     moved_text,
     searched,
     structure,
@@ -45,6 +46,8 @@ _STYLES = {
 _FINDINGS, _ROWS, _STATEMENTS = 2, 4, 2
 #: Lines of the statement: it is cut only where somebody gave titles of many lines.
 _STATEMENT = 14
+#: Lines of a note below it.
+_NOTE = 3
 
 
 def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.html") -> None:
@@ -61,6 +64,8 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
     top = Text(first)
     top.stylize(_STYLES[diagnosis.verdict], 0, len(head))
     lines = [top, *map(Text, others)]
+    for note in diagnosis.notes:
+        lines += map(Text, _wrapped("note     ", note, width, _NOTE))
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
     if thinning(diagnosis):
         foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
@@ -87,13 +92,15 @@ def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
         yield f"         and {more} more doubt{'s' if more > 1 else ''} in diagnosis.json"
     told = (*diagnosis.accepted, *diagnosis.suggestions)[:_FINDINGS]
     for order, finding in enumerate(told, start=1):
-        yield from _finding(order, finding, width, units)
+        yield from _finding(order, finding, width, units, diagnosis.verdict is Verdict.CANNOT_TELL)
     more = len(diagnosis.findings) - len(told)
     if more > 0:
         yield f"  and {more} more in {rest}"
     decides = what_decides(diagnosis)
     if decides:
         yield from _wrapped("decide   ", decides, width, 8)
+    if far := moved_most(diagnosis, units, _STATEMENTS):
+        yield from _wrapped("moved    ", far, width, 6)
     yield from _wrapped("better   ", improvement(diagnosis), width, 4)
     yield from _fit(diagnosis, width, rest)
     yield from _wrapped("searched ", searched(diagnosis), width, 4)
@@ -101,10 +108,18 @@ def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
     yield from _wrapped("left     ", structure(diagnosis), width, 2)
     for left in diagnosis.left[:_STATEMENTS]:
         yield from _wrapped("left in  ", remainder(left, units), width, 2)
-    for moved in diagnosis.recalibration[:_STATEMENTS]:
-        yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
+    yield from _moved(diagnosis, width, rest, units)
     for statement in diagnosis.isolability.statements[:_STATEMENTS]:
         yield from _wrapped("channels ", statement, width, 2)
+
+
+def _moved(diagnosis: Diagnosis, width: int, rest: str, units: Units) -> Iterator[str]:
+    """Parameters that moved and may be read as measurements; those that may not stand above."""
+    measured = [m for m in diagnosis.recalibration if m.is_measured]
+    for moved in measured[:_STATEMENTS]:
+        yield from _wrapped("moved    ", moved_text(moved, units), width, 2)
+    if len(measured) > _STATEMENTS:
+        yield f"         and {len(measured) - _STATEMENTS} more by more than {MOVED:g} prior deviations, in {rest}"
 
 
 def _next(experiment: NextExperiment) -> str:
@@ -112,10 +127,12 @@ def _next(experiment: NextExperiment) -> str:
     return experiment.statement + where
 
 
-def _finding(order: int, finding: Finding, width: int, units: Units) -> Iterator[str]:
+def _finding(order: int, finding: Finding, width: int, units: Units, is_open: bool) -> Iterator[str]:
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding, units=units), width, 1)
     prefix = "" if finding.is_accepted else "suggested, not accepted: "
+    if finding.is_accepted and is_open:
+        prefix = "improves the prediction, not identified: "
     yield from _wrapped("  what   ", prefix + what(finding), width, 2)
     yield from _wrapped("  law    ", finding.law, width, 2)
     told = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from diagnosis.judge.diagnosis import Diagnosis, Finding, Standing, Verdict
-from diagnosis.judge.doubts import is_of_an_interval
+from diagnosis.judge.doubts import is_of_an_interval, waits
 from diagnosis.judge.location import Remainder
 from diagnosis.report.display import clean, number, words
 from diagnosis.report.sentences import when, where
@@ -13,12 +13,19 @@ from diagnosis.report.user_units import IN_SI, Units
 
 #: What would decide about findings that other readings do not confirm.
 _UNCONFIRMED = (
-    "Record a training programme once more, with the rig as it is now, and hold that out. If what is suggested "
-    "predicts it worse too, the rig has changed since the training; if better, the law holds for that programme alone "
-    "and stands for something else."
+    "Record a programme of the training once more and hold that out. If what is suggested predicts the repeat worse "
+    "too, it does not hold beyond the recordings that it was fitted to; why not (chance, the day, the rig) stays open. "
+    "If better, it holds for that programme and not for what was held out here: its form is then in doubt."
 )
+#: The same where findings wait for something that the check of the recordings saw.
+_FIRST = "Clear first what the check of the recordings saw, see the reason beside each suggestion; then diagnose again."
 #: What would decide where the readings scatter more than their noise is taken to be.
 _NOISIER = "Correct `noise` of these channels in recording.yaml, or leave it out: then it is estimated. Diagnose again."
+#: The same where no noise was stated.
+_NOISIER_UNSTATED = (
+    "State `noise` of these channels in recording.yaml, from the data sheet or from readings at rest: it was estimated "
+    "from neighbouring readings. Diagnose again."
+)
 #: The same where stretches of the training judged.
 _UNJUDGED = (
     "Record another programme and hold that out: what is suggested is in the rig if it predicts that better, and "
@@ -47,7 +54,19 @@ def remainder(left: Remainder, units: Units = IN_SI) -> str:
     place = f"{clean(left.channel)}, {units.span(left.begin, left.end)}"
     told = mean_left(left, units)
     size = f"{told} on average, " if told else ""
-    return f"{place}: {size}at least {number(abs(left.z))} deviations, assumed noise below {number(left.limit)}"
+    return (
+        f"{place}: {size}standardised sum of residuals at least {number(abs(left.z))}; {_NOISE[left.noise]} alone "
+        f"stays below {number(left.limit)} in 99 of 100 recordings"
+    )
+
+
+#: What the residuals were divided by.
+_NOISE = {
+    "stated": "noise as stated",
+    "estimated": "noise as estimated from neighbouring readings",
+    "both": "noise as stated or, where it is not, as estimated from neighbouring readings",
+    "": "noise",
+}
 
 
 def mean_left(left: Remainder, units: Units) -> str:
@@ -75,9 +94,12 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.suggestions:
         if all(is_of_an_interval(f) for f in diagnosis.suggestions):
             return _OF_ONE_RECORDING
+        if all(waits(f) for f in diagnosis.suggestions):
+            return _FIRST
         return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
-        return _NOISIER
+        worst = diagnosis.adequacy.worst
+        return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
 
 

@@ -130,7 +130,7 @@ class Term:
     Args:
         identifier: Name in the catalogue; unnamed laws have one too.
         place: For example `string[3]`, `coil[2,5]`, `all coils`, `supply`.
-        unit: electrical, thermal, stiffness, mechanical or measurement.
+        unit: electrical, thermal, stiffness, mechanical, measurement or other.
         parameters: The first is the strength: at 0 the term is absent.
         is_named: Whether it is an effect with a name.
         law: Formula.

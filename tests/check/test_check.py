@@ -43,7 +43,9 @@ def test_programme_of_another_day(scenario: Scenario, tmp_path: Path) -> None:
     b = rig.write(tmp_path / "b", rig.FIRST, rig.readings(rig.SECOND))
     found = [d for d in doubts(scenario, a, b) if d.is_serious]
     assert {(d.kind, d.recording) for d in found} == {("other run", "a"), ("other run", "b")}
-    assert "the programme of `b` explains" in next(d for d in found if d.recording == "a").statement
+    told = next(d for d in found if d.recording == "a").statement
+    assert "the programme of `b` explains" in told
+    assert "% of the variance of these readings" in told
 
 
 def test_scenario_s_programme_is_not_what_was_done(scenario: Scenario, tmp_path: Path) -> None:
@@ -109,7 +111,10 @@ def test_a_clock_that_is_off(scenario: Scenario, tmp_path: Path, late: float) ->
     a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST), times=rig.instants() + late)
     (found,) = [d for d in doubts(scenario, a) if d.is_serious]
     assert found.kind == "dead time"
-    assert f"{'later' if late > 0 else 'earlier'} than its programme" in found.statement
+    assert f"{'later' if late > 0 else 'earlier'} than its programme (" in found.statement
+    low, high = map(float, re.findall(r"\(([\d.]+) to ([\d.]+) s, 95 %\)", found.statement)[0])
+    assert low <= abs(late) <= high
+    assert high - low < abs(late)
 
 
 def test_a_clock_within_its_stated_bound_is_no_doubt(scenario: Scenario, tmp_path: Path) -> None:

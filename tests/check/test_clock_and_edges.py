@@ -12,9 +12,9 @@ import pytest
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Compared, compare, lagged
-from diagnosis.check.clock_shift import clock_shift, direct_gain, event_gain, shift_doubts, timed_channel
+from diagnosis.check.clock_shift import Shift, _size, clock_shift, direct_gain, event_gain, shift_doubts, timed_channel
 from diagnosis.check.edges import edge_doubts, edges
-from diagnosis.check.timing import timing_doubts
+from diagnosis.check.timing import _interval, timing_doubts
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
 
@@ -94,6 +94,18 @@ def test_a_clock_that_is_seconds_off(scenario: Scenario, tmp_path: Path, late: f
     else:
         assert (doubt.is_serious, doubt.is_far) == (False, True)
         assert "cannot be told apart" in doubt.statement
+
+
+@pytest.mark.parametrize("is_rate", [False, True])
+def test_a_clock_that_is_off_is_told_with_its_interval(is_rate: bool) -> None:
+    found = Shift(-8.0, (-10.0, -5.5), 3.0, 50.0, 40.0, 1.0, 30.0, True, 0.002 if is_rate else 0.0)
+    assert _size(found) == ("1.6 % (1.1 to 2 %, 95 %)" if is_rate else "8 s (5.5 to 10 s, 95 %)")
+
+
+def test_the_interval_of_a_shift_holds_what_the_likelihood_allows_and_reaches_the_next_that_were_tried() -> None:
+    tried = [(50.0 - (size - 10.0) ** 2, size) for size in (2.0, 4.0, 7.0, 8.5, 9.5, 10.0, 11.0, 13.0, 20.0)]
+    assert _interval([*tried, (40.0, -3.0)], 10.0) == (7.0, 13.0)  # 8.5 to 11 are within 3.84
+    assert _interval([(-g, -s) for g, s in [(-5.0, 2.0), (-9.0, 3.0), (-1.0, 4.0)]], -3.0) == (2.0, 4.0)
 
 
 @pytest.mark.parametrize("lags", [(10.0, 10.0), (5.0, 5.0, 5.0), (20.0, 20.0), (4.0, 8.0, 30.0)])

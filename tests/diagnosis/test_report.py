@@ -212,7 +212,7 @@ def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
     assert isinstance(stream, io.StringIO)
     assert "next     Staircase for 60 s would decide. Scenario: out/next_experiment/scenario.yaml" in stream.getvalue()
     assert (
-        "left in  coil[4,4].temperature, 30.0 to 42.0 s: at least 7.70 deviations, assumed noise below 4.90"
+        "left in  coil[4,4].temperature, 30.0 to 42.0 s: standardised sum of residuals at least 7.70; noise"
         in stream.getvalue()
     )
 
@@ -293,8 +293,8 @@ def test_the_summary_has_law_interval_fit_and_false_alarms() -> None:
     assert "held out, coil temperature: RMSE 2.70 -> 1.20 -> 0.300 K" in text
     assert "noise alone gives the first gain in 0.2 % of searches" in text
     assert "thermal: 30 laws (12 without a name) at 37 places; not tried: `plant` (fmu) offers no place" in text
-    assert "convection: 1.08 times the scenario's value (2.4 times its uncertainty)" in text
-    assert "shift: -1.60 K (3.0 times its uncertainty)" in text
+    assert "convection: 1.08 times the scenario's value (2.4 prior deviations)" in text
+    assert "shift: -1.60 K (3.0 prior deviations: no measurement of it)" in text
     assert "the model's own reference resistance: the voltage of one coil decides" in text
 
 

@@ -47,7 +47,9 @@ def answer() -> Diagnosis:
 
 def test_the_number_is_in_the_unit_of_the_user_and_names_the_noise(answer: Diagnosis) -> None:
     line = told(channel("string[2].current", True), answer.fit[1], Units(("mA",)))
-    assert line == "current error 9.88 → 1.98 mA (RMSE), noise of its sensor 2.00 mA"
+    assert line == "current error 9.88 → 1.98 mA (RMSE), noise of its sensor 2.00 mA (stated)"
+    unstated = told(channel("string[2].current", True), replace(answer.fit[1], is_noise_stated=False), Units(("mA",)))
+    assert unstated.endswith("noise of its sensor 2.00 mA (estimated from neighbouring readings)")
 
 
 def test_the_worst_held_out_channel_is_taken_and_training_only_where_nothing_was_held_out(answer: Diagnosis) -> None:

@@ -65,7 +65,7 @@ def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_pat
     text = page_of(unexplained(), [series()], tmp_path)
     top = text[: text.index("Channels")]
     for part in (
-        "coil[2,5].temperature (steps), 30.0 to 42.0 s: at least 7.70 deviations, assumed noise below 4.90",
+        "coil[2,5].temperature (steps), 30.0 to 42.0 s: standardised sum of residuals at least 7.70; noise alone stays",
         "driven alone, coil[2,5] departs most (thermal)",
         "Repeat that recording: what comes back",
         "out/amended/scenario.yaml (recalibrated, nothing added)",
@@ -88,7 +88,7 @@ def test_what_is_not_accepted_is_told_as_a_suggestion_and_not_as_found(tmp_path:
     for part in (
         "Suggestedsensor lag; measurement: coil[1,2].temperature (coil[1,2]); seen 10.0 to 95.0 s",
         WHY,
-        "Record a training programme once more",
+        "Record a programme of the training once more",
         "out/amended/scenario.yaml (recalibrated, nothing added)",
     ):
         assert part in top, part
@@ -108,7 +108,7 @@ def test_the_summary_says_why_and_what_would_decide(told: Diagnosis, width: int)
     assert len(lines) <= LINES
     assert max(map(len, lines)) <= width
     whole = " ".join(" ".join(lines).split())
-    assert ("belongs to the rig" if not told.findings else "stands for something else.") in whole
+    assert ("belongs to the rig" if not told.findings else "its form is then in doubt.") in whole
     if told.findings:
         assert "suggested, not accepted: sensor lag" in whole
 
@@ -118,7 +118,9 @@ def test_an_experiment_that_was_designed_takes_the_place_of_a_repeat(tmp_path: P
     assert "Staircase for 60 s would decide." in text
     assert "Repeat that recording" not in text
     # What the held-out recordings reject is not among the rivals of an experiment: both are reported.
-    assert "Record a training programme" in page_of(replace(rejected(), next_experiment=EXPERIMENT), [], tmp_path)
+    assert "Record a programme of the training" in page_of(
+        replace(rejected(), next_experiment=EXPERIMENT), [], tmp_path
+    )
 
 
 def test_what_an_effect_cannot_be_told_from_stands_at_the_top(tmp_path: Path) -> None:

@@ -83,10 +83,10 @@ def test_a_level_is_asked_for_the_clock_too(tmp_path: Path, seed: int, late: int
     """Only temperatures and flows were: an input that was logged 20 s late became a gain of a sensor."""
     (doubt,) = shift_doubts(rig(tmp_path, seed, late))
     assert not doubt.is_serious  # one channel alone: which clock it is it cannot say
-    assert f"s {'earlier' if late > 0 else 'later'} than its recorded input" in doubt.statement
+    assert f"comes {'earlier' if late > 0 else 'later'} than its recorded input by " in doubt.statement
     assert ("dead time" in doubt.statement) == (late < 0)
     assert "no other channel can confirm it" in doubt.statement
-    size = float(doubt.statement.split(" comes ")[1].split(" s ")[0])
+    size = float(doubt.statement.split(" input by ")[1].split(" s ")[0])
     assert size == pytest.approx(20.0, abs=3.0)
 
 

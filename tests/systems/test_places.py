@@ -72,12 +72,13 @@ def test_a_loss_takes_energy_and_a_spring_may_push_or_pull(folder: Path) -> None
     found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
     assert found["dry_friction", "der(v)"].term.parameters[0].lower == 0.0
     assert found["cubic_spring", "der(v)"].term.parameters[0].lower < 0.0
+    assert found["cubic_spring", "der(v)"].term.unit == "mechanical"
 
 
 def test_a_level_has_an_outflow_and_no_friction(folder: Path) -> None:
     found = _fits(_TANK, folder)
     assert ("free_outflow", "der(h)") in found
-    assert found["free_outflow", "der(h)"].term.unit == "mechanical"  # a level is a length
+    assert found["free_outflow", "der(h)"].term.unit == "other"  # a level is a length, and no mechanism
     assert not {"dry_friction", "stiffness"} & {name for name, _ in found}
 
 

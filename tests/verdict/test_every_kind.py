@@ -76,7 +76,7 @@ def keeps_what_it_says(told: Diagnosis) -> None:
         assert "agrees" not in told.statement
     assert not right.is_rejected or "reject" in told.statement or "is missing or wrong" in told.statement
     assert right.is_rejected or "is missing or wrong" not in told.statement
-    assert ("noise" in told.statement) <= right.is_noise_stated or "times the noise" in told.statement
+    assert ("the stated noise" in told.statement) <= right.is_noise_stated
     for finding in told.findings:
         assert finding.probability >= max((a.probability for a in finding.alternatives), default=0.0) - 1e-9
         if finding.is_accepted:

@@ -4,32 +4,42 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rich.console import Console
+
 from diagnosis.judge.diagnosis import Standing, Verdict
-from diagnosis.judge.headline import headline, how_right
+from diagnosis.judge.headline import headline, how_right, notes
+from diagnosis.report.network import Network
+from diagnosis.report.page import page
 from diagnosis.report.sentences import where
-from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG
+from diagnosis.report.summary import print_summary
+from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 
 
 def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> None:
     told = headline(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
     assert told == (
         "The model leaves out: contact resistance in a string, string[3]. The amended model explains 96 % of the "
-        "mismatch in the held-out recordings (recalibration alone 81 %); 1.2 K of coil[2,5].temperature stays, 8.0 "
-        "times the noise: something else is missing or wrong. That takes for granted: room temperature of recording 1: "
-        "+0.310 K."
+        "squared mismatch in the held-out recordings (recalibration alone 81 %); 1.2 K of coil[2,5].temperature stays, "
+        "8.0 times the noise that is stated: something else is missing or wrong."
     )
+    (day,) = notes(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
+    assert day == "That takes for granted: room temperature of recording 1: +0.310 K."
 
 
 def test_a_fault_beside_physics_is_no_physics() -> None:
     told = headline(Verdict.MISSING_PHYSICS, [LAG, CONTACT], ADEQUACY)
-    assert told.startswith("The model leaves out: contact resistance in a string, string[3]. Besides, a sensor or an")
-    assert "sensor lag, coil[1,2].temperature" in told
+    assert told.startswith(
+        "The model leaves out: contact resistance in a string, string[3]. The amended model explains"
+    )
+    besides = notes(Verdict.MISSING_PHYSICS, [LAG, CONTACT], ADEQUACY)[0]
+    assert besides == "Besides, a sensor or an input is at fault: sensor lag, coil[1,2].temperature."
 
 
 def test_a_law_of_a_sensor_without_a_name_blames_no_sensor() -> None:
     """A lag that is bent to what else is missing may as well be heat that is stored in the rig."""
     unnamed = replace(LAG, standing=Standing.UNNAMED, is_named=False)
     told = headline(Verdict.MISSING_PHYSICS, [unnamed, CONTACT], ADEQUACY)
+    told = " ".join([told, *notes(Verdict.MISSING_PHYSICS, [unnamed, CONTACT], ADEQUACY)])
     assert "at fault" not in told
     assert "the rig, a sensor or an input may do: sensor lag, coil[1,2].temperature." in told
     assert where(unnamed).startswith("described at measurement: ")
@@ -45,7 +55,7 @@ def test_what_recalibration_does_is_not_credited_to_laws() -> None:
 def test_noise_alone_is_said_to_be_no_more_than_noise() -> None:
     quiet = replace(ADEQUACY, is_rejected=False, explained=0.999, day=())
     assert how_right(quiet, True) == (
-        "The amended model explains more than 99 % of the mismatch in the held-out recordings (recalibration "
+        "The amended model explains more than 99 % of the squared mismatch in the held-out recordings (recalibration "
         "alone 81 %); what is left is not more than the stated noise of the sensors."
     )
     assert how_right(quiet, False).startswith("The recalibrated model explains")
@@ -58,7 +68,7 @@ def test_a_model_that_got_worse_says_so() -> None:
 
 def test_of_many_suggestions_the_first_are_named_and_the_others_counted() -> None:
     many = [replace(LAG, is_accepted=False, statement=f"effect {n}") for n in range(5)]
-    told = headline(Verdict.CANNOT_TELL, many, ADEQUACY, ["the readings reject the model"])
+    told = notes(Verdict.CANNOT_TELL, many, ADEQUACY, ["the readings reject the model"])[0]
     assert "not accepted: effect 0; effect 1; effect 2; and 2 more." in told
 
 
@@ -129,6 +139,39 @@ def test_a_fault_that_the_check_saw_is_told_once() -> None:
     )
     told = headline(Verdict.MEASUREMENT_FAULT, [bent], ADEQUACY, doubts=[seen])
     assert told.startswith("A sensor or an input is at fault: coil[1,2].temperature of steps: the sensor stood still.")
-    assert "What else improves" not in told
+    assert not any("What else improves" in n for n in notes(Verdict.MEASUREMENT_FAULT, [bent], ADEQUACY, doubts=[seen]))
     elsewhere = replace(bent, channels=("coil[1,1].temperature",))
-    assert "What else improves" in headline(Verdict.MEASUREMENT_FAULT, [elsewhere], ADEQUACY, doubts=[seen])
+    assert "What else improves" in notes(Verdict.MEASUREMENT_FAULT, [elsewhere], ADEQUACY, doubts=[seen])[0]
+
+
+def test_a_headline_has_two_sentences_at_most_and_the_rest_stands_below() -> None:
+    """Four reasons, two findings and a suggestion made a headline of nine lines."""
+    unnamed = replace(LAG, standing=Standing.UNNAMED, is_named=False)
+    guess = replace(CONTACT, is_accepted=False)
+    reasons = ["the readings reject the model", "the recalibrated parameters predict worse", "a third"]
+    told = headline(Verdict.CANNOT_TELL, [unnamed, guess], ADEQUACY, reasons)
+    assert told.startswith("It cannot be told what is missing or wrong: the readings reject the model. The model with")
+    assert told.count(". ") == 1
+    assert notes(Verdict.CANNOT_TELL, [unnamed, guess], ADEQUACY, reasons) == (
+        "A further reason: the recalibrated parameters predict worse.",
+        "A further reason: a third.",
+        "Accepted, as it improves the prediction of the held-out recordings but not identified, so it does not decide: "
+        "sensor lag, coil[1,2].temperature. The rig, a sensor or an input may do that.",
+        "Suggested by the training recordings alone, not accepted: contact resistance in a string, string[3].",
+        "That takes for granted: room temperature of recording 1: +0.310 K.",
+    )
+
+
+def test_cannot_tell_says_of_accepted_findings_that_they_are_not_identified() -> None:
+    unnamed = replace(LAG, standing=Standing.UNNAMED, is_named=False)
+    why = notes(Verdict.CANNOT_TELL, [unnamed], ADEQUACY, ["the readings reject the model"])
+    told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(unnamed,), notes=why)
+    text = page(told, [], Network(()))
+    assert "<dt>Accepted, not identified</dt><dd>sensor lag, coil[1,2].temperature" in text
+    assert "Finding 1, not identified" in text
+    assert "<li>Accepted, as it improves" in text
+    console = Console(width=100, record=True)
+    print_summary(told, console)
+    shown = " ".join(console.export_text().split())
+    assert "note Accepted, as it improves the prediction" in shown
+    assert "what improves the prediction, not identified: " in shown

@@ -14,7 +14,7 @@ from diagnosis.judge.agreement import agreement
 from diagnosis.judge.diagnosis import Doubt, Estimate, Standing, Verdict
 from diagnosis.judge.doubts import doubted
 from diagnosis.judge.events import between_samples
-from diagnosis.judge.headline import headline, how_right
+from diagnosis.judge.headline import headline, how_right, notes
 from diagnosis.judge.judge import (
     _is_beside_unnamed,
     _is_of_either,
@@ -102,7 +102,7 @@ def test_a_model_that_is_late_at_switches_is_no_noise() -> None:
 def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
     noisy = replace(ADEQUACY, is_irregular=True, day=())
     assert "something else is missing" not in how_right(noisy, False)
-    assert "noise is larger than it is taken to be" in how_right(noisy, False)
+    assert "noise is larger than is stated" in how_right(noisy, False)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_a_larger_noise_is_no_missing_effect_in_the_headline() -> None:
 def test_a_larger_noise_is_told_of_the_readings_that_show_it(is_rejected: bool, which: str) -> None:
     noisy = replace(ADEQUACY, is_irregular=True, is_rejected=is_rejected, is_training_rejected=True)
     (told,) = _rejections(noisy, "")
-    assert told.startswith(f"{which} the model by the noise")
+    assert told.startswith(f"{which} the model by the stated noise")
 
 
 def test_a_larger_noise_is_corrected_and_no_recording_is_repeated_for_it() -> None:
@@ -129,8 +129,9 @@ def test_faults_without_a_name_in_a_model_that_is_wrong_accuse_no_sensor() -> No
     assert is_stopgap([stopgap])
     assert not is_stopgap([stopgap, LAG])
     told = headline(Verdict.CANNOT_TELL, [stopgap], ADEQUACY, ["the readings reject the model"])
-    assert "is at fault" not in told
-    assert "the rig, a sensor or an input may do" in told
+    below = " ".join(notes(Verdict.CANNOT_TELL, [stopgap], ADEQUACY, ["the readings reject the model"]))
+    assert "is at fault" not in told + below
+    assert "The rig, a sensor or an input may do that" in below
 
 
 def test_physics_waits_until_a_far_start_is_stated() -> None:
@@ -210,9 +211,10 @@ def test_a_class_of_a_sensor_and_of_the_rig_accuses_neither() -> None:
     rig = replace(CONTACT, standing=Standing.CLASS, ambiguous_with=("sensor_bias",), is_of_either=True)
     for one in (sensor, rig):
         told = headline(Verdict.CANNOT_TELL, [one], ADEQUACY, ["the readings reject the model"])
-        assert "is at fault" not in told
-        assert "leaves out" not in told
-        assert "the rig, a sensor or an input may do" in told
+        below = " ".join(notes(Verdict.CANNOT_TELL, [one], ADEQUACY))
+        assert "is at fault" not in told + below
+        assert "leaves out" not in told + below
+        assert "The rig, a sensor or an input may do that" in below
         assert is_stopgap([one])
     both = headline(Verdict.MISSING_PHYSICS, [replace(CONTACT, statement="a loose contact"), sensor], ADEQUACY)
     assert both.startswith("The model leaves out: a loose contact.")
@@ -255,12 +257,13 @@ def test_a_law_without_a_name_that_leaves_most_of_the_mismatch_says_nothing_of_t
     assert verdict(outcome, [unnamed], replace(right, is_rejected=False), searched) is Verdict.UNNAMED_PHYSICS
     reasons = why_open(outcome, [unnamed], right, searched)
     is_open = word is Verdict.CANNOT_TELL
-    assert (reasons[0] == "what improves the prediction has no name and leaves most of the mismatch") is is_open
+    assert (reasons[0] == "what improves the prediction has no name and leaves most of the squared mismatch") is is_open
     told = headline(word, [unnamed], right, reasons)
     assert ("The model leaves out" in told) is not is_open
     assert told.startswith("It cannot be told what is missing or wrong: what improves the prediction has") is is_open
-    assert ("What improves the prediction the rig, a sensor or an input may do: an effect without" in told) is is_open
-    assert f"The amended model explains {100.0 * explained:.0f} % of the mismatch" in told
+    below = " ".join(notes(word, [unnamed], right, reasons))
+    assert ("does not decide: an effect without a name, coils. The rig, a sensor or an" in below) is is_open
+    assert f"The amended model explains {100.0 * explained:.0f} % of the squared mismatch" in told
 
 
 def test_whether_something_is_missing_is_open_only_where_the_readings_do_not_reject_the_model() -> None:
@@ -306,4 +309,5 @@ def test_a_sensor_is_not_accused_of_what_a_law_without_a_name_does_in_its_readin
     assert verdict(outcome, [CONTACT, sensor], right, searched) is Verdict.MISSING_PHYSICS
     told = headline(Verdict.CANNOT_TELL, [creep, sensor], right, why_open(outcome, [creep, sensor], right, searched))
     assert "by a law of a sensor or an input, but not identified" in told
-    assert "the rig, a sensor or an input may do: an effect without a name; sensor lag" in told
+    below = " ".join(notes(Verdict.CANNOT_TELL, [creep, sensor], right))
+    assert "does not decide: an effect without a name; sensor lag" in below

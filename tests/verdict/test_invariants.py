@@ -138,7 +138,7 @@ def test_a_null_agrees_and_says_by_which_noise() -> None:
     within = "The model as it is agrees with the held-out recordings within"
     assert told.statement == f"{within} the stated noise of the sensors."
     estimated = answer(Lines(0.0 * TIME, 1, is_given=False), Lines(0.0 * TIME, 2, is_given=False))
-    assert estimated.statement == f"{within} the scatter of neighbouring readings."
+    assert estimated.statement == f"{within} the scatter of neighbouring readings (no noise was stated)."
 
 
 def test_a_noise_that_is_stated_too_small_is_no_agreement() -> None:

@@ -16,6 +16,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.check.check import check_recordings
 from diagnosis.faults.model import with_faults
 from diagnosis.judge.diagnosis import Domain, Estimate, Searched, Verdict
+from diagnosis.judge.doubts import doubted
 from diagnosis.judge.headline import headline, how_right
 from diagnosis.judge.judge import why_open
 from diagnosis.judge.location import WHOLE, Location
@@ -32,7 +33,7 @@ from diagnosis.report.undecided import departing, model_note, what_decides
 from diagnosis.search.problem import Point
 from diagnosis.search.score import Scoring
 from diagnosis.search.structure import Structure
-from tests.diagnosis.report_examples import ADEQUACY, CONTACT, LAG, diagnosis
+from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 from tests.search.line_model import TIME
 from tests.verdict.lines import Lines
 
@@ -82,8 +83,8 @@ def test_where_no_null_gains_its_price_a_gain_is_rarer_than_one_of_them() -> Non
 def test_a_model_without_numbers_to_fit_is_not_called_recalibrated() -> None:
     none = replace(ADEQUACY, is_recalibrated=False, explained=0.0, day=())
     assert how_right(none, False) == (
-        "The model as it is misses the held-out recordings; 1.2 K of coil[2,5].temperature stays, 8.0 times the noise: "
-        "something is missing or wrong."
+        "The model as it is misses the held-out recordings; 1.2 K of coil[2,5].temperature stays, 8.0 times the noise "
+        "that is stated: something is missing or wrong."
     )
     told = replace(diagnosis(Verdict.CANNOT_TELL), findings=(), adequacy=none)
     assert model_note(told) == "as it was given: nothing fitted, nothing added"
@@ -131,10 +132,19 @@ def test_another_recording_does_not_decide_about_a_fault_of_one() -> None:
     open_one = diagnosis(Verdict.CANNOT_TELL)
     fault, physics = replace(FAULT, is_accepted=False), replace(CONTACT, is_accepted=False)
     assert "second sensor" in what_decides(replace(open_one, findings=(fault,)))
-    assert "with the rig as it is now" in what_decides(replace(open_one, findings=(physics,)))
+    told = what_decides(replace(open_one, findings=(physics,)))
+    assert told.startswith("Record a programme of the training once more and hold that out.")
+    assert "has changed" not in told  # nothing shows that
     trained = tuple(f for f in open_one.fit if not f.is_held_out)
     alone = what_decides(replace(open_one, findings=(physics,), fit=trained))
     assert alone.startswith("Record another programme and hold that out")
+
+
+def test_what_waits_for_a_start_is_not_sent_to_another_recording() -> None:
+    start = replace(DOUBT, kind="start", is_serious=False, is_far=True, statement="begins at 35 degC")
+    (waiting,) = doubted([CONTACT], [start])
+    told = what_decides(replace(diagnosis(Verdict.CANNOT_TELL), findings=(waiting,)))
+    assert told.startswith("Clear first what the check of the recordings saw")
 
 
 def test_a_fast_oscillation_is_no_noise() -> None:

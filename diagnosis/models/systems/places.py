@@ -321,7 +321,7 @@ def _fit(
         _check(own, placed, to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
-    domain = domain_of(target.unit)
+    domain = domain_of(target.unit, own)
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
@@ -397,13 +397,37 @@ def _form(placed: Placed) -> str:
     return text + "".join(f"; {s.rate}" for s in placed.states)
 
 
-def domain_of(unit: str) -> str:
-    """Part of physics that a unit belongs to."""
-    dimension = parse_unit(unit).dimensionality
+def domain_of(unit: str, own: Places) -> str:
+    """Part of physics that a unit belongs to; `other` where a length or a rate belongs to no mechanism.
+
+    The level of a tank is a length, and its FMU has nothing that moves. All lengths of an FMU are of one part.
+
+    Args:
+        unit: Of the quantity that a law acts on.
+        own: Quantities of its FMU.
+    """
     for domain, units in _DOMAINS.items():
-        if any(dimension == parse_unit(u).dimensionality for u in units):
-            return domain
+        if _has_dimension(unit, units):
+            return domain if domain != "mechanical" or _is_mechanism(own) else "other"
     return "signal"
+
+
+def _is_mechanism(own: Places) -> bool:
+    """Whether an FMU has a velocity, a force, a torque or an angle."""
+    every = (*own.states.values(), *own.inputs.values(), *own.outputs.values())
+    return bool(own.velocity_of) or any(
+        _has_dimension(q.unit, _MOVING) or any(word in q.unit for word in _ANGLES) for q in every
+    )
+
+
+def _has_dimension(unit: str, units: Sequence[str]) -> bool:
+    dimension = parse_unit(unit).dimensionality
+    return any(dimension == parse_unit(u).dimensionality for u in units)
+
+
+#: Units that only a mechanism has, and words in units of angles, which have no dimension.
+_MOVING = ("m/s", "N", "m/s^2")
+_ANGLES = ("rad", "deg/", "rpm", "rev")
 
 
 _DOMAINS = {
