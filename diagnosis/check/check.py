@@ -10,6 +10,7 @@ import xarray as xr
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
 from diagnosis.check.clock_shift import shift_doubts
+from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.readings import reading_doubts
@@ -71,7 +72,7 @@ def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:
     swaps = swap_doubts(one)
     if timing or swaps:
         return timing if not swaps or (timing and timing[0].z > max(d.z for d in swaps)) else swaps
-    return sign_doubts(one) or shift_doubts(one) or edge_doubts(one) or switch_doubts(one)
+    return copied_doubts(one, others) or sign_doubts(one) or shift_doubts(one) or edge_doubts(one) or switch_doubts(one)
 
 
 def _outside(one: Compared) -> list[Doubt]:

@@ -45,6 +45,7 @@ class Gain:
         shown: Root mean square by which the two predictions differ in the channel where they differ most, in deviations
             of the noise.
         worse: Channels (`channel of recording`) that are predicted significantly worse.
+        rising: Channels of which more is left, by no more than chance.
     """
 
     total: float
@@ -54,6 +55,7 @@ class Gain:
     scatter: float
     shown: float
     worse: tuple[str, ...]
+    rising: tuple[str, ...] = ()
 
     @property
     def doubt(self) -> float:
@@ -108,8 +110,8 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
     reverse = _summed(second, first, readings.block)
     scatter = _scatter(loss(first) - loss(second), readings)
-    worse = worse_channels(without.residuals, with_it.residuals, readings)
-    return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse)
+    worse, rising = worse_channels(without.residuals, with_it.residuals, readings)
+    return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse, rising)
 
 
 def stands_alone(residuals: Array, readings: Readings) -> AnyArray:
@@ -155,8 +157,8 @@ def _scatter(fell: Array, readings: Readings) -> float:
     return float(np.sqrt(len(sums)) * np.std(sums, ddof=1)) if len(sums) >= FEWEST else float("inf")
 
 
-def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[str, ...]:
-    """Channels whose prediction gets worse by more than chance and by more than a twentieth.
+def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Channels whose prediction gets worse by more than a twentieth: by more than chance, and by no more than that.
 
     Args:
         before: Residuals of the first model, shape (readings,).
@@ -164,16 +166,17 @@ def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[str
         readings: What they belong to.
     """
     count = len(readings.channels)
-    found = []
+    found: tuple[list[str], list[str]] = [], []
     for number, channel in enumerate(readings.channels):
         own = readings.channel == number
         if not own.any():
             continue
         fell, white, error = _summed(after[own], before[own], readings.block[own])
         is_sure = fell > max(LEAST + 2.0 * np.log(count), ERRORS * max(white, error))
-        if is_sure and _size(after[own]) > WORSE * _size(before[own]):
-            found.append(f"{channel.name} of {readings.titles[readings.of_channel[number]]}")
-    return tuple(found)
+        if _size(after[own]) > WORSE * _size(before[own]):
+            name = f"{channel.name} of {readings.titles[readings.of_channel[number]]}"
+            found[0 if is_sure else 1].append(name)
+    return tuple(found[0]), tuple(found[1])
 
 
 def _size(residuals: Array) -> float:

@@ -426,7 +426,7 @@ def _finding(
         confused_with=dict(candidate.confused_with),
         standing=standing,
         is_accepted=is_accepted,
-        doubts=(*accepted.reasons.get(term, ()), *doubts, *(_beyond(accepted) if is_accepted else ())),
+        doubts=(*accepted.reasons.get(term, ()), *doubts, *(_limits(accepted, term) if is_accepted else ())),
         recording=titles[recording],
         held_out_gain=accepted.gains[term].total if term in accepted.gains else float("nan"),
         members=members,
@@ -482,6 +482,13 @@ def _elsewhere(accepted: Accepted) -> str:
     wherever that state comes again.
     """
     return f"the {accepted.basis} reject the model with it: a law that acts there may be what it stands for"
+
+
+def _limits(accepted: Accepted, term: Term) -> tuple[str, ...]:
+    """What does not hold of an accepted law although it is accepted."""
+    rising = accepted.gains[term].rising if term in accepted.gains else ()
+    told = (f"with it more is left of {listed(rising, 3)}, by no more than chance",) if rising else ()
+    return (*told, *_beyond(accepted))
 
 
 def _beyond(accepted: Accepted) -> tuple[str, ...]:

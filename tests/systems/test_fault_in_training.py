@@ -147,3 +147,22 @@ def test_the_columns_of_two_outputs_in_one_unit_are_seen_to_be_exchanged(room: P
     wrong, right = (check_recordings(scenario, [load_recording(room / n)]) for n in ("wrong", "right"))
     assert [d.kind for d in wrong if d.is_serious] == ["swapped"]
     assert right == ()
+
+
+def test_an_input_column_that_was_copied_from_another_recording_is_told(room: Path) -> None:
+    """Neither another run's programme nor a shift explains the readings then: the right column is nowhere."""
+    other = week(1, slice(0, 0), 0.0, room / "first")
+    week(3, slice(0, 0), 0.0, room / "second", other)
+    scenario = load_scenario(room / "scenario.yaml")
+    found = check_recordings(scenario, [load_recording(room / n) for n in ("first", "second")])
+    serious = [d for d in found if d.is_serious]
+    assert [(d.recording, d.subject) for d in serious] == [("second", "radiator.heating")]
+    assert "to the last digit" in serious[0].statement
+
+
+def test_a_programme_that_was_run_twice_is_no_copy(room: Path) -> None:
+    """The same heating on another day, with other weather."""
+    own = week(1, slice(0, 0), 0.0, room / "first")
+    week(1, slice(0, 0), 0.0, room / "again", own)
+    scenario = load_scenario(room / "scenario.yaml")
+    assert check_recordings(scenario, [load_recording(room / n) for n in ("first", "again")]) == ()

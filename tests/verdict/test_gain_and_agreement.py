@@ -92,6 +92,19 @@ def test_a_channel_that_another_one_pays_for_is_told():
     assert found.worse == ("coil[2].temperature of steps",)
 
 
+def test_a_channel_that_rises_by_no_more_than_chance_is_told_too():
+    """The same sum falls; of the second channel 1.1 times as much is left, by an error that lasts for long."""
+    noise = np.random.default_rng(0).standard_normal((2, COUNT))
+    wave, slow = np.sin(np.linspace(0.0, 30.0, COUNT)), np.sin(np.linspace(0.0, 3.0, COUNT)) ** 8
+    before = np.concatenate([noise[0] + 4.0 * wave, 0.3 * noise[1] + 3.0 * slow])
+    after = np.concatenate([noise[0], 0.3 * noise[1] + 3.3 * slow])
+    found = gain(Predicted(before, before), Predicted(after, after), readings(2))
+    assert found.total > found.needed
+    assert found.worse == ()
+    assert found.rising == ("coil[2].temperature of steps",)
+    assert gain(Predicted(after, after), Predicted(before, before), readings(2)).rising == ()
+
+
 def test_noise_is_rejected_in_one_of_a_thousand_and_the_limit_is_that_of_chi_square():
     limit = agreement(np.zeros(COUNT), readings()).limit
     assert 1.0 - chdtr(COUNT, COUNT * limit) == pytest.approx(LEVEL, rel=1e-6)
