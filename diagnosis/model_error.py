@@ -200,8 +200,7 @@ def distinct(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
     found: dict[tuple[object, ...], Term] = {}
     for term in terms:
         spot = model.where(term)[1]
-        mask = getattr(spot, "mask", None)
-        key = (term.identifier, spot.label if mask is None else np.asarray(mask).tobytes(), getattr(spot, "day", None))
+        key = (term.identifier, spot.label if spot.mask is None else np.asarray(spot.mask).tobytes(), spot.day)
         found.setdefault(key, term)
     return list(found.values())
 
@@ -223,7 +222,7 @@ def plain_terms(model: DiagnosisModel, terms: Sequence[Term]) -> list[Term]:
         for t in terms
         if t.is_named
         and not any(p.is_instant for p in t.parameters)
-        and getattr(model.where(t)[0], "scope", "rig") == "rig"
+        and not model.where(t)[0].is_of_a_day
         and (t.unit != "measurement" or stated.get(t.identifier, False))
     ]
 

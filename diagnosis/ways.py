@@ -67,7 +67,7 @@ def _holds_always(model: DiagnosisModel, term: Term) -> bool:
     """Whether a term is there in every recording from its begin to its end, so that any of them can show it."""
     if term.recording is not None or any(p.is_instant for p in term.parameters):
         return False
-    return getattr(model.where(term)[1], "day", None) is None
+    return model.where(term)[1].day is None
 
 
 def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, DiagnosisModel]:

@@ -146,19 +146,6 @@ def zero_stretches(edges: Array, zero: np.ndarray[tuple[int, ...], np.dtype[np.b
 
 
 @dataclass(frozen=True)
-class FaultPlace:
-    """See `diagnosis.models.protocol.Spot`.
-
-    Args:
-        label: Channel or input, and its recording where there are several.
-        channels: Numbers of the channels that it shows in; None: any may show it.
-    """
-
-    label: str
-    channels: tuple[int, ...] | None = None
-
-
-@dataclass(frozen=True)
 class Span:
     """When a fault may be.
 

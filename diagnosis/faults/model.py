@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, STUCK, WHOLLY, FaultPlace, fault_term
+from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, STUCK, WHOLLY, fault_term
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
-from diagnosis.models.protocol import DiagnosisModel, Effect, Scaled, Spot, unscaled
+from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term, strength_slopes
@@ -117,7 +117,7 @@ class FaultyModel(WrappedModel):
         if term.recording is None:
             return super().where(term)
         readings = self.sensor_terms.get(term)
-        return _LAWS[term.identifier], FaultPlace(term.place, None if readings is None else (readings.number,))
+        return _LAWS[term.identifier], Labelled(term.place, None if readings is None else (readings.number,))
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""

@@ -146,8 +146,7 @@ def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisM
         term: Any term.
         model: Model of the recordings that were fitted, wrapped or not.
     """
-    place = model.where(term)[1]
-    channels = getattr(place, "channels", None) if term.recording is not None else None
+    channels = model.where(term)[1].channels if term.recording is not None else None
     if not channels or len(channels) != 1:
         return tuple(estimates)
     layout = model.layout

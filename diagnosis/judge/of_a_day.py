@@ -37,11 +37,10 @@ def is_shown_there_alone(
         return True
     effect, place = model.where(term)
     is_event = any(p.is_instant for p in term.parameters)
-    is_of_a_day = bool(getattr(effect, "is_of_a_day", False))
-    if not is_event and not is_of_a_day:
+    if not is_event and not effect.is_of_a_day:
         return False
     if judge is None:
-        return is_of_a_day and (is_event or getattr(place, "day", None) is not None)
+        return effect.is_of_a_day and (is_event or place.day is not None)
     return not judge.is_moved_by(term, values)
 
 

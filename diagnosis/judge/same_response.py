@@ -78,7 +78,7 @@ def _is_same_law(model: DiagnosisModel, one: Term, other: Term) -> bool:
 
     A generic law that does what a law of the catalogue does at the same place is that law.
     """
-    first, second = (getattr(model.where(t)[1], "mask", None) for t in (one, other))
+    first, second = (model.where(t)[1].mask for t in (one, other))
     is_one = one.identifier == other.identifier or (one.is_named and not other.is_named)
     return is_one and first is not None and second is not None and bool(np.array_equal(first, second))
 

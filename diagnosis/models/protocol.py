@@ -52,6 +52,11 @@ class Effect(Protocol):
         """Identifiers that data often cannot tell from it, with what decides."""
         ...
 
+    @property
+    def is_of_a_day(self) -> bool:
+        """Whether it belongs to the day in which it sets in, and does not last."""
+        ...
+
 
 class Spot(Protocol):
     """Where a law acts."""
@@ -60,6 +65,44 @@ class Spot(Protocol):
     def label(self) -> str:
         """For people."""
         ...
+
+    @property
+    def mask(self) -> AnyArray | None:
+        """Weight of its strength at every element, shape (elements,); None where places have no elements."""
+        ...
+
+    @property
+    def day(self) -> object:
+        """The day on which it acts alone (`diagnosis.models.timeline.Day`); None: on every one."""
+        ...
+
+    @property
+    def channels(self) -> tuple[int, ...] | None:
+        """Numbers of the channels that alone can show it; None: any may."""
+        ...
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """A place with a name and no elements, on every day.
+
+    Args:
+        label: For people.
+        channels: See `Spot`.
+    """
+
+    label: str
+    channels: tuple[int, ...] | None = None
+
+    @property
+    def mask(self) -> AnyArray | None:
+        """None."""
+        return None
+
+    @property
+    def day(self) -> object:
+        """None."""
+        return None
 
 
 class Series(Protocol):

@@ -25,6 +25,11 @@ class UnitLaw:
     confused_with: Mapping[str, str] = field(default_factory=dict)
 
     @property
+    def is_of_a_day(self) -> bool:
+        """Never: what a unit lacks it lacks every day."""
+        return False
+
+    @property
     def law(self) -> str:
         """Formula."""
         return self.place.term.law

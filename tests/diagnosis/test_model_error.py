@@ -10,12 +10,14 @@ import pytest
 
 from diagnosis import model_error
 from diagnosis.model_error import search_with_model_error
+from diagnosis.models.protocol import Labelled
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel, correlation_time, inflation
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Settings, search
 from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
 from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
+from tests.verdict.lines import Law
 
 TIMES = np.linspace(0.0, 10.0, 200)
 LAYOUT = Layout(np.zeros(200, dtype=int), TIMES, ("bath.temperature",), ("thermal",))
@@ -137,8 +139,8 @@ class Rig(LineModel):
     def groups(self) -> dict[str, np.ndarray]:
         return {}
 
-    def where(self, found: Term) -> tuple[None, SimpleNamespace]:
-        return None, SimpleNamespace(label=found.place)
+    def where(self, found: Term) -> tuple[Law, Labelled]:
+        return Law(found.identifier, found.law, {}), Labelled(found.place)
 
 
 def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_again(

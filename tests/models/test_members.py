@@ -187,6 +187,19 @@ def test_a_term_moves_residuals_by_its_strength(model: DiagnosisModel) -> None:
     assert not model.is_moved_by(unknown, ())
 
 
+def test_laws_and_places_answer_what_is_asked_of_them(model: DiagnosisModel) -> None:
+    days = () if model.timeline is None else model.timeline.days
+    for term in (*model.terms(), *model.faults()):
+        effect, spot = model.where(term)
+        assert effect.name
+        assert isinstance(effect.is_of_a_day, bool)
+        assert effect.is_of_a_day or term.recording is None
+        assert spot.label
+        assert spot.mask is None or np.asarray(spot.mask).ndim == 1
+        assert spot.day is None or spot.day in days
+        assert set(spot.channels or ()) <= set(range(len(model.layout.names)))
+
+
 def test_who_judged_is_said_in_words(model: DiagnosisModel) -> None:
     assert model.judged_by(nominal(model))
 

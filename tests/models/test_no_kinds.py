@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Spot
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("diagnosis", "chainmail", "cosim")
@@ -18,7 +18,9 @@ MODELS = "diagnosis.models"
 ALLOWED: Mapping[str, str] = {}
 #: The search takes the smallest models too (`diagnosis.search.problem.Model`): what is faster is optional there.
 OPTIONAL = "diagnosis/search/"
-MEMBERS = {n for n in (*vars(DiagnosisModel), *DiagnosisModel.__annotations__) if not n.startswith("_")} | {"inner"}
+#: Members of models, runs, laws and places that are asked for as they are; scenarios have some of these names too.
+MEMBERS = {n for kind in (DiagnosisModel, RecordedRun, Effect, Spot) for n in vars(kind) if not n.startswith("_")}
+MEMBERS = (MEMBERS | {"inner", "layout", "scope"}) - {"terms", "runs", "name", "label", "law"}
 
 
 def module_of(path: Path) -> str:
@@ -99,7 +101,7 @@ def switches(module: str, tree: ast.AST, elsewhere: set[str]) -> list[str]:
             and isinstance(node.func, ast.Name)
             and node.func.id in ("hasattr", "getattr")
             and isinstance(node.args[1], ast.Constant)
-            and node.args[1].value in MEMBERS - {"parameters", "terms", "runs"}  # scenarios and runs have such too
+            and node.args[1].value in MEMBERS
             and not module.replace(".", "/").startswith(OPTIONAL)
         ):
             found.append(f"{module}:{node.lineno} asks for a member {node.args[1].value}")
@@ -137,6 +139,7 @@ def test_wrappers_of_other_packages_are_known() -> None:
         "from diagnosis.faults.given import GivenFaults\nassert isinstance(x, GivenFaults)",
         "while hasattr(model, 'inner'):\n    model = model.inner",
         "getattr(model, 'can_be_fitted', True)",
+        "getattr(model.where(term)[1], 'mask', None)",
     ],
 )
 def test_a_switch_that_is_put_back_is_seen(source: str) -> None:
@@ -149,7 +152,7 @@ def test_a_switch_that_is_put_back_is_seen(source: str) -> None:
         "from diagnosis.recording.series import Series\nisinstance(x, Series)",
         "from cosim.components import FmuComponent\nisinstance(x, FmuComponent)",
         "model.can_be_fitted",
-        "getattr(place, 'mask', None)",
+        "getattr(sensor, 'rate', None)",
     ],
 )
 def test_what_asks_no_model_is_left_alone(source: str) -> None:

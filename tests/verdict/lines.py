@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.protocol import ModelBase
+from diagnosis.models.protocol import Labelled, ModelBase
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from diagnosis.search.problem import Own, Point, Term
@@ -23,11 +23,7 @@ class Law:
     name: str
     law: str
     confused_with: Mapping[str, str]
-
-
-@dataclass(frozen=True)
-class Spot:
-    label: str
+    is_of_a_day: bool = False
 
 
 @dataclass(frozen=True)
@@ -80,8 +76,8 @@ class Lines(LineModel, ModelBase):
     def terms(self) -> list[Term]:
         return list(TERMS)
 
-    def where(self, term: Term) -> tuple[Law, Spot]:
-        return Law(term.identifier, "y = y_0 + a * f", {}), Spot(term.place)
+    def where(self, term: Term) -> tuple[Law, Labelled]:
+        return Law(term.identifier, "y = y_0 + a * f", {}), Labelled(term.place)
 
     def shows_in(self, term: Term) -> None:
         return None

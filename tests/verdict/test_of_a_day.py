@@ -12,13 +12,14 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.of_a_day import STANDS_OUT, hidden_fault, is_shown_there_alone
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_readings, left_out_stretches
+from diagnosis.models.protocol import Labelled
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.structure import Structure, structure
 from tests.search.line_model import TIME, WAVE
-from tests.verdict.lines import NOISE, Law, Lines, Spot
+from tests.verdict.lines import NOISE, Law, Lines
 
 EDGES = tuple(TermParameter(n, "s", 0.0, 1.0, (), is_instant=True) for n in ("begin", "end"))
 #: A sensor that reads too much from 0.4 s to 0.5 s.
@@ -50,7 +51,7 @@ class Faulty(Lines):
         box = 0.0 if own is None else own[0] * ((own[1] <= TIME) & (own[2] >= TIME))
         return np.asarray(super().signal(plain) + box)
 
-    def where(self, term: Term) -> tuple[Law, Spot]:
+    def where(self, term: Term) -> tuple[Law, Labelled]:
         law, spot = super().where(term)
         is_of_a_day = term is FAULT or self.is_wave_of_a_day
         return (OfADay(law.name, law.law, {}), spot) if is_of_a_day else (law, spot)

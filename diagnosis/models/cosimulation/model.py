@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.cosimulation.unit_laws import laws_of
 from diagnosis.models.pendulum.model import TORQUE, PendulumModel, is_single_pendulum, without_scale
-from diagnosis.models.protocol import ComparedRun, ComparedSeries, ModelBase, compared_run
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.model import SystemLaws, SystemModel, laws_at
 from diagnosis.models.systems.places import Fit
@@ -28,13 +28,6 @@ from diagnosis.search.free_numbers import Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 from diagnosis.search.unit_law import UnitLaw
-
-
-@dataclass(frozen=True)
-class Component:
-    """A place: a component of the scenario."""
-
-    label: str
 
 
 class ClosedLoopModel(ModelBase):
@@ -142,10 +135,10 @@ class ClosedLoopModel(ModelBase):
         """Every output of a programme of every recording, as it may have been another within an interval."""
         return list(self.model.inputs)
 
-    def where(self, term: Term) -> tuple[UnitLaw, Component]:
+    def where(self, term: Term) -> tuple[UnitLaw, Labelled]:
         """Law and component of a term."""
         law = self._laws[term]
-        return law, Component(law.place.component)
+        return law, Labelled(law.place.component)
 
     def shows_in(self, term: Term) -> None:
         """A law of a unit is not local to a channel."""

@@ -18,14 +18,13 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.models.coil_network.kernel.places import Place
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
-from diagnosis.models.cosimulation.model import Component
 from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.models.fabric.bins import Binning
 from diagnosis.models.fabric.laws import fabric_laws
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_of
 from diagnosis.models.fabric.search import search_fabric
-from diagnosis.models.protocol import ComparedRun, ComparedSeries, ModelBase, compared_run
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -221,10 +220,10 @@ class FabricModel(ModelBase):
         """Every law that may be missing, at every place."""
         return [*(self.network.terms() if self.network else ()), *self._laws]
 
-    def where(self, term: Term) -> tuple[UnitLaw | CandidateTerm, Component | Place]:
+    def where(self, term: Term) -> tuple[UnitLaw | CandidateTerm, Labelled | Place]:
         """Effect and place of a term."""
         if term in self._laws:
-            return self._laws[term], Component(self.component)
+            return self._laws[term], Labelled(self.component)
         assert self.network is not None
         return self.network.where(term)
 

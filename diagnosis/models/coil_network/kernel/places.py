@@ -54,6 +54,11 @@ class Place:
     fixed: Mapping[str, float | Array] = field(default_factory=dict)
     day: object = None
 
+    @property
+    def channels(self) -> tuple[int, ...] | None:
+        """None: any channel may show it."""
+        return None
+
     def values(self, term: CandidateTerm, numbers: Mapping[str, float]) -> dict[str, float | Array]:
         """Parameters of `term` here for `CoilNetworkParameters.terms`, from one number for each that is fitted."""
         arrays: dict[str, float | Array] = {
