@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from cosim.alone import alone
 from cosim.commands import fmu
 from cosim.commands.compare import compare
 from cosim.commands.design import design
@@ -203,7 +204,8 @@ def _loaded(scenario: str, folder: RunFolder, resume: bool, changes: list[str]) 
         return load_scenario(folder.scenario)
     if is_imported:
         folder.refuse_existing()
-        return ssp.scenario_of(Path(scenario), folder.path / "imported", changes)
+        with alone(folder.path, "run"):  # it replaces what an earlier import left: nobody may be running it
+            return ssp.scenario_of(Path(scenario), folder.path / "imported", changes)
     return load_scenario(scenario, changes)
 
 

@@ -262,7 +262,10 @@ def writing(path: Path) -> Iterator[None]:
     except OSError as error:
         full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
         remedy = _MAKE_ROOM if full else "give a folder that can be written, `--out`"
-        raise InputError(path, "", f"it cannot be written: {error.strerror or error}", remedy) from error
+        why = error.strerror or str(error)
+        if error.errno in (errno.EEXIST, errno.ENOTDIR):
+            why = f"{path if path.is_file() else 'a part of its path'} is a file, not a folder"
+        raise InputError(path, "", f"it cannot be written: {why}", remedy) from error
     except RuntimeError as error:  # netCDF4 reports a full disk as "NetCDF: HDF error"
         if "HDF" not in str(error) and "space" not in str(error):
             raise

@@ -63,7 +63,8 @@ def _rows(file: Path) -> list[list[str]]:
     try:
         text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise InputError(file, "", f"it cannot be read: {error}", "give a CSV file in UTF-8") from error
+        why = getattr(error, "strerror", None) or error
+        raise InputError(file, "", f"it cannot be read: {why}", "give a CSV file in UTF-8") from error
     lines = [line for line in text.splitlines() if line.strip()]
     if len(lines) < 2:
         raise InputError(file, "", "it has fewer than two lines", "give a table with a header")

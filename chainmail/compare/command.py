@@ -18,6 +18,7 @@ from chainmail.compare.measures import measures
 from chainmail.compare.table import Columns, as_csv, as_json, as_markdown, show
 from chainmail.compare.variants import Variant, actuator_name, label_of, variant
 from chainmail.figures.draw import open_run
+from cosim.alone import alone
 from cosim.assemble import assemble
 from cosim.progress import Board, report_to, reporter
 from cosim.run import RunStopped, run
@@ -105,14 +106,13 @@ def compare(request: Request, out: Path | None = None) -> int:
             if name == names[-1] and not variants:  # none of them can be run: there is nothing to compare
                 raise
             problems[label_of(name)] = str(error)
-    with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    problems |= _run_all(variants, folder, request.jobs)
-    if INTERRUPTED in problems.values():
-        print(INTERRUPTED, file=sys.stderr)
-        return 130
-    notes = [f"{v.label} has no {', '.join(v.left_out)}: left out" for v in variants if v.left_out]
-    _report(folder, scenario.title, layout_of(scenario, component), labels, problems, notes)
+    with alone(folder, "comparison"):
+        problems |= _run_all(variants, folder, request.jobs)
+        if INTERRUPTED in problems.values():
+            print(INTERRUPTED, file=sys.stderr)
+            return 130
+        notes = [f"{v.label} has no {', '.join(v.left_out)}: left out" for v in variants if v.left_out]
+        _report(folder, scenario.title, layout_of(scenario, component), labels, problems, notes)
     return 1 if problems else 0
 
 

@@ -23,6 +23,7 @@ from chainmail.reproduce.scorecard import as_json, as_markdown, show
 from chainmail.reproduce.starts import rows_over_starts
 from chainmail.reproduce.stiffness import stiffness_rows
 from chainmail.reproduce.thermal import thermal_rows
+from cosim.alone import alone
 from cosim.components import FabricComponent, FmuComponent
 from cosim.progress import Board, report_to, reporter
 from cosim.run import Progress, RunStopped, record
@@ -144,8 +145,11 @@ def reproduce(out: Path, jobs: int, starts: int = 1, bands: int = 0) -> int:
         InputError: Bands are asked for that cannot be: of one start, or beside several starts in Bullet.
     """
     bands = _possible_bands(starts, bands)
-    with writing(out):
-        out.mkdir(parents=True, exist_ok=True)
+    with alone(out, "reproduction"):
+        return _reproduce(out, jobs, starts, bands)
+
+
+def _reproduce(out: Path, jobs: int, starts: int, bands: int) -> int:
     print(plan(out, jobs, starts, bands), file=sys.stderr, flush=True)
     problems = _run_all(out, jobs, [(name, starts, False) for name in RUNS])
     if not problems:

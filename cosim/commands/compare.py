@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from cosim.options import Changes, complete_scenario
+from cosim.unit.errors import InputError
 
 
 def compare(
@@ -34,4 +35,6 @@ def compare(
     from chainmail.compare.command import compare as compare_actuators
 
     names = tuple(name.strip() for name in actuators.split(",") if name.strip())
+    if actuators.strip() and not names:
+        raise InputError("--actuators", "", f"`{actuators}` names no actuator", "leave it out for all shipped ones")
     raise typer.Exit(compare_actuators(Request(scenario, names, fmi, component, jobs, tuple(changes or ())), out))

@@ -30,7 +30,7 @@ def example(
     known = _shipped()
     if name not in known:
         raise InputError(
-            name, "", f"there is no such example{did_you_mean(name, known)}", f"one of: {', '.join(known)}"
+            name or "NAME", "", f"there is no such example{did_you_mean(name, known)}", f"one of: {', '.join(known)}"
         )
     source = known[name]
     target = out or Path(source.name)

@@ -27,7 +27,7 @@ def begin(given: str, language: Language) -> Path:
     name = target.name
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or keyword.iskeyword(name):
         remedy = "use small letters, digits and underscores, a letter first, for example latex_coil"
-        raise InputError(given, "", f"`{name}` cannot name an actuator", remedy)
+        raise InputError(given or "NAME", "", f"`{name}` cannot name an actuator", remedy)
     if name in shipped_actuators():
         raise InputError(given, "", f"`{name}` is the name of a shipped actuator", "choose another name")
     if target.exists():

@@ -26,7 +26,8 @@ def extract(path: Path, into: Path) -> None:
             would write elsewhere, holds links, is encrypted, damaged or too large.
     """
     if not path.is_file():
-        raise InputError(path, "", "there is no such file", "give the path of an .ssp file")
+        what = "this is a folder" if path.is_dir() else "there is no such file"
+        raise InputError(path, "", what, "give the path of an .ssp file")
     if not zipfile.is_zipfile(path):
         raise InputError(path, "", "this is not an SSP", "an SSP is a zip archive; export it again")
     try:

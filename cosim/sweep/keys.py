@@ -7,6 +7,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from cosim.nearest import did_you_mean
+
 _INDEX = re.compile(r"\[(\d+)\]")
 #: Below these keys the rest of a path is one name: variables of FMUs have dots and brackets of their own.
 _NAMES = ("parameters", "start", "structure")
@@ -77,6 +79,10 @@ def _assign(data: Any, parts: list[str | int], value: Any, key: str) -> None:
         elif not isinstance(place, dict):
             raise ValueError(f"`{key}`: `{part}` cannot stand below a single value or a list")
         elif part not in place and not is_last and isinstance(parts[number + 1], int):
+            top = parts[1] if parts[0] == "components" and len(parts) > 1 else parts[0]
+            if number and top not in data and top not in (data.get("components") or {}):
+                known = [*data, *(data.get("components") or {})]
+                raise ValueError(f"`{key}`: there is no key or component `{top}`{did_you_mean(str(top), known)}")
             there = ", ".join(map(str, place)) or "nothing"
             raise ValueError(f"`{key}`: there is no list `{part}` (there: {there})")
         elif not is_last and part not in place:

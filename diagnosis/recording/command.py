@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
+from cosim.alone import alone
 from cosim.loading import load_scenario
 from cosim.options import Changes, complete_scenario
 from cosim.run_folder import RunFolder, refuse_unwritable
@@ -49,15 +50,21 @@ def record(
             raise InputError("--video", "", "a camera has neither --channels nor --sensor", "leave them out")
         _render(scenario, out, video, seed, changes or [])
         return
+    if (out / "recording.yaml").exists():
+        raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
+    refuse_unwritable(out)
+    with alone(out, "recording"):
+        _read(scenario, out, channels, sensor, seed, changes or [])
+
+
+def _read(scenario: str, out: Path, channels: str, sensor: Path | None, seed: int, changes: list[str]) -> None:
+    """Readings of a run, or of a scenario that is run now."""
     from diagnosis.recording.done import conditions  # late: it loads every kind of unit
     from diagnosis.recording.fits import no_results
     from diagnosis.recording.readings import check_channels, read_results
     from diagnosis.recording.sensor import SensorFile, load_sensors
     from diagnosis.recording.write import Notes, write_recording
 
-    if (out / "recording.yaml").exists():
-        raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
-    refuse_unwritable(out)
     sensors = SensorFile() if sensor is None else load_sensors(sensor)
     if not Path(scenario).is_dir():  # a run may take long: what is wrong with the readings must not cost it
         base = load_scenario(scenario, changes or [])

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cosim.alone import alone
 from cosim.run_folder import refuse_unwritable
 from cosim.unit.errors import InputError
 
@@ -66,9 +67,10 @@ def prove(
     if so_far and not (out / "ground" / "draw.yaml").is_file():
         raise InputError(out, "", "there is no proof here that could be scored", "leave `--so-far` away")
     try:
-        make_cases(out / "ground", draw)  # what is refused needs no workers
-        with workers(jobs or _cores(), cluster) as crew:
-            results = run(Folder(out), draw, crew, Effort(limit, baselines, so_far))
+        with alone(out, "proof"):
+            make_cases(out / "ground", draw)  # what is refused needs no workers
+            with workers(jobs or _cores(), cluster) as crew:
+                results = run(Folder(out), draw, crew, Effort(limit, baselines, so_far))
     except KeyboardInterrupt:
         print(f"interrupted; what is done is kept: go on with the same command, `--out {out}`", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None

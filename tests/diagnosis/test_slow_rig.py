@@ -116,7 +116,7 @@ def test_its_diagnosis_is_right_and_a_second_one_at_once_is_refused(rig, shipped
     held_out = [f for f in found["fit"] if f["is_held_out"]]
     assert max(f["chi_square"]["after"] for f in held_out) < 1.25  # 510 readings: 4 deviations of their mean square
     assert [p.name for p in out.iterdir()] == ["diagnosis.json"]
-    assert ".diagnosis-at-work" not in capsys.readouterr().out
+    assert ".at-work" not in capsys.readouterr().out
 
 
 def test_a_full_disk_does_not_cost_the_answer(rig, shipped_fmus, monkeypatch, tmp_path, capsys):

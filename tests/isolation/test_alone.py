@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from cosim.alone import alone
+from cosim.alone import LOCK, alone
 from cosim.run import run
 from cosim.run_folder import RunFolder
 from cosim.unit.errors import InputError
@@ -19,7 +19,7 @@ def test_a_second_run_into_a_folder_is_refused_and_the_first_keeps_its_results(t
     loaded = scenario({"faulty": fmu("nap", "step")}, stop=20.0)
     out = tmp_path / "run"
     first = start("run", loaded.path, "--out", out)
-    while not (out / ".run-at-work").exists() and first.poll() is None:
+    while not (out / LOCK).exists() and first.poll() is None:
         time.sleep(0.01)
     for resume in (False, True):
         with pytest.raises(InputError, match="another run is at work in this folder"):
@@ -27,7 +27,7 @@ def test_a_second_run_into_a_folder_is_refused_and_the_first_keeps_its_results(t
     _, errors = first.communicate()
     assert first.returncode == 0, errors
     assert RunFolder(out).is_complete()
-    assert not (out / ".run-at-work").exists()
+    assert not (out / LOCK).exists()
     with pytest.raises(InputError, match="already holds a run"):
         run(loaded, out)
 
