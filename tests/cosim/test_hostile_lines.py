@@ -61,25 +61,8 @@ def test_a_command_line_that_nobody_means_is_refused(cosim, place, tmp_path, mon
 
 
 def test_there_are_lines_for_every_subcommand():
-<<<<<<< HEAD
-    names = [
-        "fmu",
-        "ssp",
-        "track",
-        "compare",
-        "reproduce",
-        "example",
-        "prove",
-        "play",
-        "recording",
-        "sweep",
-        "design",
-        "record",
-    ]
-=======
     names = {line.split()[0] for line in REFUSED}
     assert len(names) == 12
->>>>>>> hostile
     counted = {name: sum(line.startswith(f"{name} ") for line in REFUSED) for name in names}
     assert min(counted.values()) >= 6, counted
     assert len(REFUSED) >= 200
