@@ -163,6 +163,10 @@ class Ledger:
         """Runs on fresh starts with the scenario's own settings; raises BudgetSpent where too few are left."""
         return self._full([candidate] * len(starts), starts, "full")
 
+    def fine_batch(self, candidate: Candidate, starts: Sequence[int]) -> list[Entry]:
+        """Runs of the search from other starts with the scenario's own settings; raises BudgetSpent as `full_batch`."""
+        return self._full([candidate] * len(starts), starts, "fine")
+
     def _full(self, candidates: Sequence[Candidate], starts: Sequence[int], fidelity: str) -> list[Entry]:
         self._check(0, len(starts))
         return self._made(candidates, starts, [fidelity] * len(starts))

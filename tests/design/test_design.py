@@ -62,7 +62,7 @@ def test_closed_forms_are_those_of_the_co_simulation(tmp_path):
     found = run(_electrical(scenario_for(candidate, search.ledger.rig)))
     assert found.attrs["energy_electrical_J"] == pytest.approx(candidate.energy(search.ledger.rig), rel=1e-6)
     assert float(found["circuit.supply_power"].max()) == pytest.approx(candidate.power(search.ledger.rig), rel=1e-6)
-    assert 19.99 < found["circuit.supply_power"].max() < 20.0
+    assert 19.97 < found["circuit.supply_power"].max() < 19.99
     temperature = found["actuator.temperature"]
     end = candidate.pulses[0].end
     hot = temperature.sel(time=end, method="nearest").values.reshape(8, 6)
@@ -253,8 +253,39 @@ def test_the_cheapest_accepted_design_wins_and_the_front_holds_no_beaten_one(tmp
     text = report(search, outcome)
     assert "6 of 6" in text
     assert "0.61 to 1.00 at 90 %" in text
-    assert "power: 20 of 20 W" in text
+    assert "power: 19.98 of 20 W" in text
     assert "free rows heated to 62 degC instead" in text
+
+
+def test_a_design_that_barely_holds_from_one_start_is_not_the_end_of_a_search(tmp_path):
+    """Starts scatter by 4 mm: three rows have 29 mm from the first start and miss 30 mm from every third one."""
+    free = tuple(range(3, 9))
+    sags = {free[:n]: s for n, s in zip(range(7), (0.080, 0.070, 0.060, 0.029, 0.020, 0.018, 0.017))}
+    search = scripted(written(tmp_path, ("full: 20", "full: 60")), sags)
+    plain = search.ledger._made
+
+    def scattered(candidates, starts, fidelities):
+        made = plain(candidates, starts, fidelities)
+        moved = [_entry(e.fidelity, e.candidate, e.start, e.values[0] + 0.004 * ((e.start - 1) % 3)) for e in made]
+        search.ledger.entries[-len(made) :] = moved
+        return moved
+
+    search.ledger._made = scattered
+    outcome = search.run()
+    assert outcome.winner is not None
+    assert outcome.winner.rows == (3, 4, 5, 6)
+    assert search._room[0] == pytest.approx(1.2816 * 0.004, rel=1e-3)
+    assert search._room[1] == 0.0  # the power does not scatter
+    barely = search.ledger.judged(search.candidate((3, 4, 5)))
+    assert barely.is_met
+    assert not search._has_room(barely)
+
+
+def test_programmes_stay_below_a_limit_of_power_by_what_the_solver_of_the_circuit_may_err(tmp_path):
+    search = searched(written(tmp_path))
+    made = search.candidate((3, 4, 5))
+    power = sum(search._rig.rows[p.row - 1].power(p.voltage) for p in made.pulses)
+    assert 19.9 < power < 20.0 - 0.019
 
 
 def test_where_nothing_is_hot_enough_the_answer_says_what_came_nearest(tmp_path):
