@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -42,7 +43,7 @@ def new(
     if not found.channels:
         print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
     else:
-        print(f"read it, then: cosim recording check {out} --scenario {scenario}")
+        print(f"read it, then: cosim recording check {shlex.quote(str(out))} --scenario {shlex.quote(scenario)}")
 
 
 @app.command("import")
