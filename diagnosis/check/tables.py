@@ -17,7 +17,7 @@ from diagnosis.check.readings import measured_noise
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.usage import usage
 from diagnosis.report.display import Axis, instant
-from diagnosis.report.user_units import IN_SI, Units
+from diagnosis.report.user_units import IN_SI, Scale, Units
 
 #: Switches of a course that are listed.
 LISTED = 6
@@ -48,11 +48,16 @@ class Row:
     fit: tuple[str, str]
 
 
-def row(beside: Beside, units: Units) -> Row:
-    """Numbers of a channel, in the units that the recording was written in."""
+def row(beside: Beside, units: Units, clock: Scale) -> Row:
+    """Numbers of a channel, in the units that the recording was written in.
+
+    Args:
+        beside: The channel.
+        units: Those of the recording, that of the channel first.
+        clock: How times are shown.
+    """
     channel = beside.channel
     clipped = int(np.count_nonzero(channel.is_clipped))
-    clock = units.scale(float(channel.times[-1]), "s")
     scale, of_difference = units.axis(channel.values, channel.unit), units.difference(channel.unit)[1]
     if channel.unit == "1" and units.written and units.written[0] in PER_CENT:
         scale, of_difference = Axis(100.0, 0.0, "%"), "%"
@@ -61,7 +66,7 @@ def row(beside: Beside, units: Units) -> Row:
     return Row(
         channel.name,
         f"{len(channel.values)}" + (f", {clipped} at a limit" if clipped else ""),
-        f"{instant(clock(channel.times[0]))} to {instant(clock(channel.times[-1]))} {clock.unit}",
+        f"{instant(clock(channel.times[0]))} to {instant(clock(channel.times[-1]))}",
         f"{stated} / {factor * measured_noise(beside):.3g} {of_difference}",
         (_range(factor * channel.values + offset, unit), _simulated(beside, unit, factor, offset)),
         _fit(beside, of_difference, factor),
@@ -140,12 +145,20 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         console.print(f"\n[bold]{escape(one.recording.title)}[/] ({escape(str(one.recording.path))})")
         if one.note:
             console.print(escape(one.note))
-        table = Table(box=None)
+        table, clock = Table(box=None), one.units.scale(one.end, "s")
         table.add_column("channel", no_wrap=True)
-        for name in ("readings", "span", "noise stated / seen", "measured", "simulated", "corr.", "RMSE"):
+        for name in (
+            "readings",
+            f"span [{clock.unit}]",
+            "noise stated / seen",
+            "measured",
+            "simulated",
+            "corr.",
+            "RMSE",
+        ):
             table.add_column(name)
         for beside in one.channels.values():
-            r = row(beside, one.units_of(beside.channel.name))
+            r = row(beside, one.units_of(beside.channel.name), clock)
             table.add_row(escape(r.name), r.samples, r.span, r.noise, *r.ranges, *r.fit)
         console.print(table)
         for course in one.courses:
