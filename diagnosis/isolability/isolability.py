@@ -15,7 +15,6 @@ from diagnosis.models.coil_network.kernel.layout import QUANTITIES
 from diagnosis.models.coil_network.kernel.places import coil_label
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.wrappers.wrapped import WrappedModel
-from diagnosis.report.display import parameter_words
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Model, Term
 
@@ -200,7 +199,7 @@ def _by_size(shown: Sequence[Effect], alike: Sequence[Alike]) -> Iterable[str]:
         yield (
             f"{_plain(effect.term)} shows from {least:.2g}{f' {unit}' if unit != '1' else ''} on: all but "
             f"{100 * effect.visibility:.2g} % of its change (root mean square, training) is also made by "
-            f"{parameter_words(effect.absorbed_by)}."
+            f"{effect.absorbed_by}."
         )
     for pair in alike[:MOST]:
         yield (

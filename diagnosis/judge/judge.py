@@ -177,7 +177,7 @@ def why_open(
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
-    strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED)
+    strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED).tolist()
     if len(strained):
         reasons.append(_strained([parameter_words(names[i]) for i in strained] if names else [], len(strained)))
     return tuple(reasons)
