@@ -157,6 +157,11 @@ class Compared:
         """Units that the recording was written in: what is shown of it is shown in them."""
         return Units(self.recording.units)
 
+    def units_of(self, channel: str) -> Units:
+        """The same with the unit of one channel first: channels of one kind may be written in several units."""
+        own = dict(zip(self.recording.channels, self.recording.units)).get(channel)
+        return self.units if own is None else Units((own, *self.recording.units))
+
     @cached_property
     def begin(self) -> float:
         """First sample [s]."""

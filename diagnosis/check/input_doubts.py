@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -10,7 +11,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, compare
 from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
-from diagnosis.check.inputs import Course, InputComparison, compare_inputs, set_beside
+from diagnosis.check.inputs import MOST_SWITCHES, Course, InputComparison, compare_inputs, set_beside
 from diagnosis.check.timing import critical, leading, percent, within
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
@@ -128,11 +129,18 @@ def how(one: InputComparison) -> str:
     if not theirs:
         return f"has another course {where}; the programme is constant"
     if not mine:  # a column that changes at every reading has no switches
-        return f"has another course {where}; the programme switches {len(theirs)} times"
+        return f"has another course {where}; the programme switches {_count(theirs)}"
     return (
-        f"has another course {where}; it switches {len(mine)} times, the programme {len(theirs)} times, {met} of them "
-        f"together"
+        f"has another course {where}; the recorded course switches {_count(mine)}, the programme {_count(theirs)}, "
+        f"{met} of them together"
     )
+
+
+def _count(switches: Sequence[float]) -> str:
+    """How many times; no more than so many are kept of a course."""
+    if len(switches) >= MOST_SWITCHES:
+        return f"at least {MOST_SWITCHES} times"
+    return "once" if len(switches) == 1 else f"{len(switches)} times"
 
 
 def _where(one: InputComparison) -> str:

@@ -20,6 +20,8 @@ HELD = 0.02
 GRID = 4000
 #: Share of the recording that a shift or a factor may leave: switches are not instantaneous.
 LEFT = 0.02
+#: Switches of a course that are kept.
+MOST_SWITCHES = 50
 #: Share of switches that both have, from which on a programme is taken to be meant.
 MEANT = 0.5
 
@@ -258,6 +260,6 @@ def _shifted(
 
 
 def _switches(grid: Array, values: Array, tolerance: float) -> tuple[float, ...]:
-    """Instants at which a course changes by more than the tolerance [s], at most 50."""
+    """Instants at which a course changes by more than the tolerance [s], at most `MOST_SWITCHES`."""
     steps = np.flatnonzero(np.abs(np.diff(values)) > tolerance) + 1
-    return tuple(float(grid[k]) for k in steps[:50])
+    return tuple(float(grid[k]) for k in steps[:MOST_SWITCHES])

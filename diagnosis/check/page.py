@@ -59,8 +59,18 @@ def _doubt(doubt: Doubt) -> Html:
 
 
 def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
-    head = ("channel", "readings", "span [s]", "noise stated / seen", "measured", "simulated", "correlation", "RMSE")
-    rows = [row(b, one.units) for b in one.channels.values()]
+    clock = one.units.scale(one.end, "s")
+    head = (
+        "channel",
+        "readings",
+        f"span [{clock.unit}]",
+        "noise stated / seen",
+        "measured",
+        "simulated",
+        "correlation",
+        "RMSE",
+    )
+    rows = [row(b, one.units_of(b.channel.name), clock) for b in one.channels.values()]
     cells = [(r.name, r.samples, r.span, r.noise, *r.ranges, *r.fit) for r in rows]
     own = [d for d in doubts if d.recording == one.recording.title]
     note = [element("p", one.note)] if one.note else []
@@ -69,7 +79,7 @@ def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
         element("h2", one.recording.title),
         *note,
         table(head, cells),
-        listing([*(course_text(c) for c in one.courses), *(input_text(c) for c in compare_inputs(one))]),
+        listing([*(course_text(c, one.units) for c in one.courses), *(input_text(c) for c in compare_inputs(one))]),
         image(picture(one, own), f"measured beside simulated: {one.recording.title}"),
     )
 

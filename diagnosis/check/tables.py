@@ -16,8 +16,15 @@ from diagnosis.check.inputs import InputComparison, compare_inputs
 from diagnosis.check.readings import measured_noise
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.usage import usage
-from diagnosis.report.display import instant
-from diagnosis.report.user_units import Units
+from diagnosis.report.display import Axis, instant
+from diagnosis.report.user_units import IN_SI, Scale, Units
+
+#: Switches of a course that are listed.
+LISTED = 6
+#: Share of the range of a recorded course below which its typical change is no switch.
+SMALL = 0.1
+#: Units in which a pure number is shown by the hundred.
+PER_CENT = ("%", "percent")
 
 
 @dataclass(frozen=True)
@@ -41,18 +48,25 @@ class Row:
     fit: tuple[str, str]
 
 
-def row(beside: Beside, units: Units) -> Row:
-    """Numbers of a channel, in the units that the recording was written in."""
+def row(beside: Beside, units: Units, clock: Scale) -> Row:
+    """Numbers of a channel, in the units that the recording was written in.
+
+    Args:
+        beside: The channel.
+        units: Those of the recording, that of the channel first.
+        clock: How times are shown.
+    """
     channel = beside.channel
     clipped = int(np.count_nonzero(channel.is_clipped))
-    scale = units.axis(channel.values, channel.unit)
+    scale, of_difference = units.axis(channel.values, channel.unit), units.difference(channel.unit)[1]
+    if channel.unit == "1" and units.written and units.written[0] in PER_CENT:
+        scale, of_difference = Axis(100.0, 0.0, "%"), "%"
     unit, factor, offset = scale.unit, scale.factor, scale.offset
-    of_difference = units.difference(channel.unit)[1]
     stated = f"{factor * channel.deviation:.3g}" if channel.is_deviation_given else "-"
     return Row(
         channel.name,
         f"{len(channel.values)}" + (f", {clipped} at a limit" if clipped else ""),
-        f"{instant(channel.times[0])} to {instant(channel.times[-1])}",
+        f"{instant(clock(channel.times[0]))} to {instant(clock(channel.times[-1]))}",
         f"{stated} / {factor * measured_noise(beside):.3g} {of_difference}",
         (_range(factor * channel.values + offset, unit), _simulated(beside, unit, factor, offset)),
         _fit(beside, of_difference, factor),
@@ -79,8 +93,10 @@ def _fit(beside: Beside, unit: str, factor: float) -> tuple[str, str]:
     return correlation, f"{factor * error:.3g} {unit}"
 
 
-def course_text(course: Course) -> str:
+def course_text(course: Course, units: Units = IN_SI) -> str:
     """One line about what drives a rig.
+
+    A column that was logged changes with its readings; only what jumps has switches.
 
     >>> from diagnosis.check.beside import Course
     >>> import numpy as np
@@ -92,14 +108,29 @@ def course_text(course: Course) -> str:
     if low == high:
         return f"{course.name}: {origin}, {low:.4g} {course.unit} throughout"
     times = course.switches()
-    listed = ", ".join(instant(t) for t in times[:6]) + (f", ... ({len(times)} in all)" if len(times) > 6 else "")
-    return f"{course.name}: {origin}, {low:.4g} to {high:.4g} {course.unit}, switches at {listed} s"
+    about = f"{course.name}: {origin}, {low:.4g} to {high:.4g} {course.unit}"
+    steps = np.abs(np.diff(course.values))
+    step = float(np.median(steps[steps > 0.0]))
+    if course.is_recorded and len(times) > LISTED and step < SMALL * (high - low):
+        return f"{about}, changes with {len(times)} of its readings, by {step:.2g} {_difference(course.unit)} at a time"
+    scale = units.scale(float(times[-1]), "s")
+    listed = ", ".join(instant(scale(t)) for t in times[:LISTED])
+    more = f", ... ({len(times)} in all)" if len(times) > LISTED else ""
+    return f"{about}, switches at {listed}{more} {scale.unit}"
+
+
+def _difference(unit: str) -> str:
+    """Unit of a change: a change of 2 degC is 2 K."""
+    return {"degC": "K", "degF": "°F"}.get(unit, unit)
 
 
 def input_text(compared: InputComparison) -> str:
     """One line about a recorded input beside the programme."""
     whose = "stated by the recording" if compared.is_stated else "of the scenario"
-    return f"{compared.name}: the recorded input {how(compared)}; the simulation uses it, not the programme {whose}"
+    return (
+        f"{compared.name}: the recorded input {how(compared)}; the simulation uses the recorded input, not the "
+        f"programme {whose}"
+    )
 
 
 def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Console) -> None:
@@ -114,16 +145,24 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         console.print(f"\n[bold]{escape(one.recording.title)}[/] ({escape(str(one.recording.path))})")
         if one.note:
             console.print(escape(one.note))
-        table = Table(box=None)
+        table, clock = Table(box=None), one.units.scale(one.end, "s")
         table.add_column("channel", no_wrap=True)
-        for name in ("readings", "span [s]", "noise stated / seen", "measured", "simulated", "corr.", "RMSE"):
+        for name in (
+            "readings",
+            f"span [{clock.unit}]",
+            "noise stated / seen",
+            "measured",
+            "simulated",
+            "corr.",
+            "RMSE",
+        ):
             table.add_column(name)
         for beside in one.channels.values():
-            r = row(beside, one.units)
+            r = row(beside, one.units_of(beside.channel.name), clock)
             table.add_row(escape(r.name), r.samples, r.span, r.noise, *r.ranges, *r.fit)
         console.print(table)
         for course in one.courses:
-            console.print("  " + escape(course_text(course)))
+            console.print("  " + escape(course_text(course, one.units)))
         for compared in compare_inputs(one):
             console.print("  " + escape(input_text(compared)), soft_wrap=True)
         for used in usage(one.recording):

@@ -17,6 +17,7 @@ from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
 from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.report.display import likelihood
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term
@@ -259,7 +260,7 @@ def _judged(
     if data < LEAST:
         reasons.append(
             "only the priors support it: the training readings are met as well without it "
-            f"(-2 log likelihood falls by {data:.1f})"
+            f"(-2 log likelihood falls by {likelihood(data)})"
         )
     elif found.shown < SHOWN:
         reasons.append(
@@ -269,17 +270,18 @@ def _judged(
         reasons.append(f"with it the simulation stops or runs away before the end of the readings that judge ({where})")
     elif found.is_loss:
         reasons.append(
-            f"it predicts the readings that judge ({where}) worse: -2 log likelihood rises by {-found.total:.0f}"
+            f"it predicts the readings that judge ({where}) worse: "
+            f"-2 log likelihood rises by {likelihood(-found.total)}"
         )
     elif found.total <= 0.0:
         reasons.append(
             f"it does not predict the readings that judge ({where}) better: "
-            f"-2 log likelihood rises by {-found.total:.1f}"
+            f"-2 log likelihood rises by {likelihood(-found.total)}"
         )
     elif not found.is_gain:
         reasons.append(
             f"it does not predict the readings that judge ({where}) better by more than chance: "
-            f"-2 log likelihood falls by {found.total:.1f}, {found.needed:.1f} would be needed"
+            f"-2 log likelihood falls by {likelihood(found.total)}, {likelihood(found.needed)} would be needed"
         )
     if found.worse:
         reasons.append(_worse(found.worse))

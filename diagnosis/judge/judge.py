@@ -176,7 +176,7 @@ def why_open(
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
-    strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED)
+    strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED).tolist()
     if len(strained):
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
     return tuple(reasons)
@@ -408,6 +408,7 @@ def _finding(
         recording, intervals = term.recording, ((begin, end),)
     elif event is not None:
         recording, intervals = event.number, ((event.seconds, event.end),)
+    intervals = _within_readings(intervals, [s.channel.times for s in model.runs[recording].series])
     return Finding(
         unit=term.unit,
         place=place.label,
@@ -433,6 +434,16 @@ def _finding(
         judged_by=accepted.judged_by.get(term, accepted.basis),
         is_of_either=_is_of_either(model, term, likely),
     )
+
+
+def _within_readings(
+    intervals: Sequence[tuple[float, float]], times: Sequence[Array]
+) -> tuple[tuple[float, float], ...]:
+    """Intervals cut at the first and last reading: beyond these nobody looked."""
+    if not any(len(t) for t in times):
+        return tuple(intervals)
+    first, last = (float(f(t[k] for t in times if len(t))) for f, k in ((min, 0), (max, -1)))
+    return tuple((min(max(begin, first), last), max(min(end, last), first)) for begin, end in intervals)
 
 
 def _is_of_either(model: DiagnosisModel, term: Term, likely: Sequence[str]) -> bool:

@@ -69,6 +69,15 @@ def number(value: float, digits: int = 3) -> str:
     return f"{round(value, digits - 1 - size):.{max(digits - 1 - size, 0)}f}"
 
 
+def likelihood(value: float) -> str:
+    """A difference of log likelihoods: at most 1 decimal and 4 significant digits.
+
+    >>> likelihood(5.678), likelihood(987.65), likelihood(123456.7), likelihood(1234567.8)
+    ('5.7', '987.6', '123500', '1.235e+06')
+    """
+    return f"{value:.1f}" if abs(value) < 999.95 else number(value, 4)
+
+
 def instant(value: float, digits: int = 4) -> str:
     """A time without needless zeros, and without an exponent where people write none.
 
@@ -227,9 +236,13 @@ def parameter_words(name: str) -> str:
 
     >>> parameter_words("coil[2,1].capacity"), parameter_words("ambient_offset of recording 2")
     ('heat capacity of coil[2,1]', 'room temperature of recording 2')
+    >>> parameter_words("room.c_air")
+    'room.c_air'
     """
     text = clean(name)
     place, _, field = text.rpartition(".") if re.fullmatch(r"[^\s.]+\.\w+", text) else ("", "", text)
+    if place and field not in _PARAMETERS:  # of an FMU: as its scenario and its documents call it
+        return text
     own, of, rest = field.partition(" of ")
     told = _PARAMETERS.get(own, own.replace("_", " "))
     return f"{told} of {place}" if place else f"{told}{of}{rest}"

@@ -75,13 +75,17 @@ def ambiguity(finding: Finding) -> str:
 def searched(diagnosis: Diagnosis) -> str:
     """What was tried, by domain, and what could not be tried."""
     tried = [
-        f"{d.name}: {d.laws} laws ({d.generic} without a name) at {d.places} place{'s' if d.places != 1 else ''}"
+        f"{d.name}: {_counted(d.laws, 'law')} ({d.generic} without a name) at {_counted(d.places, 'place')}"
         for d in diagnosis.searched.domains
     ]
     parts = ["; ".join(tried) if tried else "no law was tried"]
     if diagnosis.searched.untried:
         parts.append("not tried: " + listed(list(diagnosis.searched.untried), 4))
     return "; ".join(parts)
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def decisive(finding: Finding) -> list[str]:
@@ -110,7 +114,7 @@ def improvement(diagnosis: Diagnosis) -> str:
 
 def _course(mean: Mapping[str, float]) -> str:
     if len({mean.get(stage) for stage in STAGES}) == 1:  # nothing was fitted
-        return f"{number(mean[STAGES[0]])} as the scenario is"
+        return f"{number(mean[STAGES[0]])} by the scenario as given (nothing was fitted)"
     return ", ".join(f"{number(mean[stage])} {_STAGE[stage]}" for stage in STAGES if stage in mean)
 
 

@@ -74,7 +74,8 @@ def keeps_what_it_says(told: Diagnosis) -> None:
         assert "agrees" in told.statement
     else:
         assert "agrees" not in told.statement
-    assert not right.is_rejected or "reject" in told.statement or "is missing or wrong" in told.statement
+    whole = " ".join([told.statement, *told.notes])
+    assert not right.is_rejected or "reject" in whole or "is missing or wrong" in whole
     assert right.is_rejected or "is missing or wrong" not in told.statement
     assert ("the stated noise" in told.statement) <= right.is_noise_stated
     for finding in told.findings:
@@ -338,4 +339,5 @@ def test_a_fabric_whose_finding_the_held_out_recording_rejects(tmp_path: Path) -
     told = diagnose(scenario, [training], [judge], Settings(nulls=1), options=Options(is_brief=True)).diagnosis
     keeps_what_it_says(told)
     assert not told.accepted
-    assert "scatter of the contacts" in told.statement or "reject" in told.statement
+    whole = " ".join([told.statement, *told.notes])
+    assert "scatter of the contacts" in whole or "reject" in whole

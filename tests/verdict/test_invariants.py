@@ -18,7 +18,7 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import Adequacy, Domain, Finding, Searched, Standing, Verdict
-from diagnosis.judge.headline import headline
+from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.judge import findings, recalibration, verdict, why_open
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_stretches
 from diagnosis.model_error import search_with_model_error
@@ -36,6 +36,7 @@ QUICK = Settings(nulls=1, most_terms=2)
 class Answer:
     word: Verdict
     statement: str
+    below: tuple[str, ...]
     found: tuple[Finding, ...]
     right: Adequacy
     accepted: Accepted
@@ -53,8 +54,9 @@ def answer(training: Lines, judge: Lines | None, tried: Searched = TRIED) -> Ans
     day = () if judge is None else moved_day(accepted.after, judge.parameters)
     right = adequacy(accepted, unfitted.readings, day)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base))
-    told = headline(word, found, right, why_open(outcome, found, right, tried))
-    return Answer(word, told, found, right, accepted, outcome, judge or training)
+    reasons = why_open(outcome, found, right, tried)
+    told, below = headline(word, found, right, reasons), notes(word, found, right, reasons)
+    return Answer(word, told, below, found, right, accepted, outcome, judge or training)
 
 
 @st.composite
@@ -83,7 +85,8 @@ def test_every_answer_keeps_what_it_says(signals: tuple[Array, Array], seed: int
     _the_headline_is_the_most_probable(told)
     _a_name_is_identified(told)
     if told.right.is_rejected:
-        assert "reject" in told.statement or "something else is missing" in told.statement or "worse" in told.statement
+        whole = " ".join([told.statement, *told.below])
+        assert "reject" in whole or "is missing or wrong" in whole or "worse" in whole
     if told.word is Verdict.CANNOT_TELL:
         assert told.statement.startswith("It cannot be told")
     if told.word is Verdict.MEASUREMENT_FAULT:

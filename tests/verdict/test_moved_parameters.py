@@ -58,7 +58,7 @@ def test_a_parameter_at_its_bound_is_no_measurement() -> None:
     assert not held.is_measured
     assert held.value == pytest.approx(20.0 * math.exp(0.15))
     assert moved_text(held) == (
-        "stiffness of rig: 1.16 times the scenario's value, that is 23.2 N/m (1.5 prior deviations, at its bound: no "
+        "rig.stiffness: 1.16 times the scenario's value, that is 23.2 N/m (1.5 prior deviations, at its bound: no "
         "measurement of it)"
     )
     assert not fitted(1.5, 6.0)
@@ -87,7 +87,7 @@ def test_the_report_says_at_its_top_which_values_are_no_measurements() -> None:
     told = replace(diagnosis(Verdict.RECALIBRATED), recalibration=moved)
     assert moved_most(told, Units()).startswith(
         "2 parameters of the model ended at a bound or at least 3 prior deviations from the scenario's value, where a "
-        "fitted value is no measurement: c of rig: 3.00 times the scenario's value, that is 60.0 N*s/m (5.5 prior"
+        "fitted value is no measurement: rig.c: 3.00 times the scenario's value, that is 60.0 N*s/m (5.5 prior"
     )
     text = page(told, [], Network(()))
     assert "<dt>Parameters</dt>" in text
