@@ -32,16 +32,18 @@ class InputChange:
         begin: [s].
         end: [s].
         is_added: Whether it acts where nothing is stated.
+        is_everywhere: Whether it is added to whatever is stated.
     """
 
     amount: float
     begin: float
     end: float
     is_added: bool = False
+    is_everywhere: bool = False
 
-    def key(self) -> tuple[str, str, str, bool]:
+    def key(self) -> tuple[str, str, str, bool, bool]:
         """Every number to its last bit."""
-        return self.amount.hex(), self.begin.hex(), self.end.hex(), self.is_added
+        return self.amount.hex(), self.begin.hex(), self.end.hex(), self.is_added, self.is_everywhere
 
     def shares(self, low: Array, step: float) -> Array:
         """Share of each macro-step that lies in the interval, shape (steps,).
@@ -63,6 +65,8 @@ class InputChange:
         shares = shares.reshape(-1, *[1] * (stated.ndim - 1))
         if not self.is_added:
             return np.asarray(stated * self.amount * shares)
+        if self.is_everywhere:
+            return np.asarray(self.amount * shares * np.ones_like(stated))
         return np.asarray(np.where(is_zero(stated), self.amount * shares, 0.0))
 
 

@@ -100,11 +100,19 @@ def moved_day(predicted: Predicted, parameters: Sequence[Parameter], titles: Seq
         titles: Of its recordings, in their order: a number says nothing to who gave recordings of two kinds.
     """
     known = {p.name: p for p in parameters}
-    return tuple(
+    told = {name: moved for name, moved in predicted.day.items() if abs(moved[1]) > TOLD}
+    found = [
         Moved(titled(known[name], titles), known[name].unit, amount, False, far)
-        for name, (amount, far) in predicted.day.items()
-        if abs(far) > TOLD
-    )
+        for name, (amount, far) in told.items()
+        if not known[name].is_within_row
+    ]
+    instants = [moved for name, moved in told.items() if known[name].is_within_row]
+    if instants:
+        amount, far = max(instants, key=lambda m: abs(m[1]))
+        count = f"{len(instants)} changes" if len(instants) > 1 else "1 change"
+        text = f"{count} of recorded inputs came between two rows of their table, at most by one row"
+        found.append(Moved(text, "s", amount, False, far))
+    return tuple(found)
 
 
 def _share(before: Agreement, after: Agreement) -> float:

@@ -670,7 +670,7 @@ def recalibration(model: DiagnosisModel, fit: Fit, titles: Sequence[str] = ()) -
     for name, (amount, z) in departures(model.parameters, fit.point.base).items():
         p = known[name]
         is_held = name in at_bound or (p.own is not None and p.own.number in at_bound)
-        if not (abs(z) > MOVED or is_held):
+        if p.is_within_row or not (abs(z) > MOVED or is_held):
             continue
         found.append(
             Moved(

@@ -137,6 +137,8 @@ class CosimModel:
             for f, z in zip(self.free, point.base)
             if (not f.is_own if number is None else f.belongs_to(number))
         ]
+        switches = [(f, z) for f, z in own if f.switch is not None]
+        own = [(f, z) for f, z in own if f.switch is None]
         parameters: dict[str, dict[str, PhysicalValue]] = {}
         lists: dict[str, dict[str, tuple[PhysicalValue, ...]]] = {}
         shifts: dict[str, dict[str, float]] = {}
@@ -149,7 +151,7 @@ class CosimModel:
                 lists.setdefault(component, {})[name] = tuple(PhysicalValue(v, found.unit) for v in found.values)
             else:
                 parameters.setdefault(component, {})[name] = PhysicalValue(found.values[0], found.unit)
-        faults: dict[str, dict[str, tuple[InputChange, ...]]] = {}
+        faults = _moved_switches(switches)
         for term, values in point.terms.items():
             if term.recording is not None:
                 component, output = self.inputs[term]
@@ -251,13 +253,27 @@ class CosimModel:
         same = [
             i
             for i, f in enumerate(self.free)
-            if f.is_own and (f.component, f.name) == (free.component, free.name) and f.belongs_to(number)
+            if f.is_own
+            and f.switch is None
+            and (f.component, f.name) == (free.component, free.name)
+            and f.belongs_to(number)
         ]
         elements = {self.free[i].element for i in same}
         if elements == {None}:
             return same
         known = self._numbers_of[number].of(free.component, free.name)
         return same if known is not None and elements == set(range(len(known.values))) else []
+
+
+def _moved_switches(switches: Iterable[tuple[Free, float]]) -> dict[str, dict[str, tuple[InputChange, ...]]]:
+    """Changes of recorded inputs that came earlier or later than their rows say, by component and output."""
+    found: dict[str, dict[str, tuple[InputChange, ...]]] = {}
+    for free, z in switches:
+        if free.switch is not None and z != 0.0:
+            own = found.setdefault(free.component, {})
+            change = free.switch.moved(free.parameter.deviation * z)
+            own[free.name] = (*own.get(free.name, ()), change)
+    return found
 
 
 class CompiledModel(CosimModel):

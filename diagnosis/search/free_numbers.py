@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Causality
 from cosim.unit.quantity import PhysicalValue, conversion
+from diagnosis.faults.programme import InputChange
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.units import si_unit
@@ -31,6 +33,14 @@ from diagnosis.search.shares import RIG_START, own_deviation, own_label, shared_
 #: (deviation of ln(value)): a few per cent, as of a careful rig. Masses are weighed; where a centre lies is worked out.
 USUAL: Mapping[str, Mapping[str, float]] = {"bullet_pendulum": {"mass": 0.015, "centre_distance": 0.05}}
 _ELEMENT = re.compile(r"^(?P<name>.*?)\[(?P<element>\d+)\]$")
+
+
+class Movable(Protocol):
+    """A change of an input that may have come earlier or later."""
+
+    def moved(self, earlier: float) -> InputChange:
+        """What acts beside the recorded course where the change came earlier by a time [s]."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -45,6 +55,7 @@ class Free:
         recordings: Numbers of the recordings that it belongs to alone (an initial state, a day's room), or None: all.
         element: Of a parameter that is a list, from 0; None: every element.
         is_list: Whether the parameter is a list.
+        switch: Change of a recorded input whose instant it moves; None: it is a number.
     """
 
     parameter: Parameter
@@ -53,6 +64,7 @@ class Free:
     recordings: frozenset[int] | None = None
     element: int | None = None
     is_list: bool = False
+    switch: Movable | None = None
 
     def belongs_to(self, recording: int) -> bool:
         """Whether it acts in a recording."""

@@ -60,6 +60,8 @@ class Parameter:
         own: Whose it is, where it belongs to some recordings alone.
         alike: Which others it is compared with, where it belongs to one of many equal elements.
         is_clock: Whether it is a delay or a lag of readings.
+        is_within_row: Whether it is the instant of a change of a recorded input, which lies between two rows of its
+            table: it says nothing of the rig, and wherever it ends it is what the table allows.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Parameter:
     own: Own | None = None
     alike: Alike | None = None
     is_clock: bool = False
+    is_within_row: bool = False
 
     @property
     def is_carried(self) -> bool:

@@ -27,6 +27,7 @@ from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
 from diagnosis.search.free_numbers import Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
+from diagnosis.search.switch_times import switch_times
 from diagnosis.search.unit_law import UnitLaw
 
 
@@ -86,7 +87,8 @@ class ClosedLoopModel(ModelBase):
             free = free_parameters(scenario, recordings)
             known = None if like is None else like.system_laws
             laws = known or laws_at(scenario, recordings, free, without)
-            model = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
+            instants = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
+            model = SystemModel(scenario, recordings, [*laws.usual, *free, *instants], laws.found, batches)
         except (NotFast, CompilerError) as reason:
             self.slow = str(reason)
             return False

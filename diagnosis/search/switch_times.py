@@ -1,0 +1,98 @@
+"""When a recorded input changed: somewhere between two rows of its table, which the table does not say.
+
+Each change of an input that holds its value has a number of its own, in its recording alone: the time by which it came
+earlier than its row says. Without it a heater that switches between rows of two minutes leaves readings that no law of
+the rig explains, or that a dead time, a lag or a gain of the input seems to explain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.components import ProgrammeComponent
+from cosim.scenario import Scenario
+from cosim.unit.quantity import conversion
+from diagnosis.faults.programme import InputChange
+from diagnosis.recording.recording import Input, Recording
+from diagnosis.search.free_numbers import Free
+from diagnosis.search.problem import Own, Parameter
+from diagnosis.search.shares import own_label
+
+#: Prior standard deviation of an instant, in rows: it lies within the row before, or in the one after where a logger
+#: writes what it sets.
+HALF = 0.5
+#: Largest departure, in prior deviations: one row.
+ONE_ROW = 2.0
+#: Changes of a recording's inputs up to which each has an instant of its own. An input of more changes nearly with each
+#: row, as a course that is sampled does: between its rows it is somewhere between its values.
+MOST = 24
+#: Share of an input's range from which a change is one.
+LEAST = 0.02
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A change of a recorded input between two rows.
+
+    Args:
+        time: Of the row that has the new value [s].
+        change: New value less the old one, in the unit of the programme's output.
+    """
+
+    time: float
+    change: float
+
+    def moved(self, earlier: float) -> InputChange:
+        """What acts beside the recorded course where the change came earlier by a time [s], or later where negative."""
+        begin, end = sorted((self.time - earlier, self.time))
+        return InputChange(self.change if earlier > 0.0 else -self.change, begin, end, True, True)
+
+
+def switch_times(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) -> list[Free]:
+    """Instants of the changes of every recorded input that holds its value.
+
+    Args:
+        scenarios: Of each recording.
+        recordings: The recordings.
+    """
+    found = []
+    for number, (scenario, recording) in enumerate(zip(scenarios, recordings)):
+        own = [(i, _switches(scenario, i, recording.end)) for i in recording.inputs]
+        own.sort(key=lambda pair: len(pair[1]))
+        count = 0
+        for recorded, switches in own:
+            count += len(switches)
+            if count > MOST:
+                break
+            found += [_free(recorded, s, row, number) for s, row in switches]
+    return found
+
+
+def _switches(scenario: Scenario, recorded: Input, end: float) -> list[tuple[Switch, float]]:
+    """Changes with the time since the row before [s]; none of an input that straight lines join."""
+    component = scenario.components[recorded.component]
+    assert isinstance(component, ProgrammeComponent)
+    given = component.outputs[recorded.output]
+    if given.interpolation == "linear" or len(recorded.times) < 2:
+        return []
+    factor = conversion(recorded.unit, given.unit)[0]
+    steps = np.diff(recorded.values)
+    start = scenario.time.start.to("s")
+    places = np.flatnonzero(np.abs(steps) > LEAST * float(np.ptp(recorded.values))) + 1
+    return [
+        (
+            Switch(float(recorded.times[i]), factor * float(steps[i - 1])),
+            float(recorded.times[i] - recorded.times[i - 1]),
+        )
+        for i in places.tolist()
+        if start < recorded.times[i - 1] and recorded.times[i] < end
+    ]
+
+
+def _free(recorded: Input, switch: Switch, row: float, number: int) -> Free:
+    own = Own(f"change of {recorded.component}.{recorded.output} before {switch.time:.6g} s", number)
+    parameter = Parameter(own_label(own), "s", 0.0, HALF * row, False, bounds=ONE_ROW, own=own, is_within_row=True)
+    return Free(parameter, recorded.component, recorded.output, frozenset((number,)), switch=switch)

@@ -1,0 +1,140 @@
+"""A heater whose thermostat switches whenever it likes, in a table with a row each two minutes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from typer.testing import CliRunner
+
+from cosim.cli import app
+from cosim.loading import load_scenario
+from cosim.scenario import Scenario
+from diagnosis.faults.programme import with_changes
+from diagnosis.models.build import models_of
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.fit import fit
+from diagnosis.search.problem import Point
+from diagnosis.search.switch_times import MOST, Switch, switch_times
+from evaluation.fmus.model import OdeModel
+
+HUT = OdeModel(
+    "hut",
+    {"C": (9e4, "J/K"), "G": (110.0, "W/K")},
+    {"power": "W"},
+    {"T": ("K", "283.15", "(power - G*(T - 283.15))/C")},
+    {"air": ("K", "T")},
+)
+ROW, COUNT = 120.0, 240
+SCENARIO = """
+title: A hut
+time: {stop: 28800 s, macro_step: 60 s, output_step: 60 s}
+components:
+  stove: {kind: programme, outputs: {heating: {unit: kW, constant: 0 kW}}}
+  hut: {kind: fmu, fmu: hut.fmu, integrator: cvode}
+connections: [stove.heating -> hut.power]
+"""
+
+
+def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True) -> np.ndarray:
+    """Readings by the closed form between the instants at which the heating changes; the instants [s]."""
+    rng = np.random.default_rng(seed)
+    capacity, conductance = 9.4e4, 105.0
+    instants = np.sort(rng.uniform(600.0, 28000.0, changes))
+    if not is_between:
+        instants = ROW * np.round(instants / ROW)
+    powers = np.concatenate([[0.0], rng.uniform(200.0, 3000.0, changes).round()])
+    times = ROW * np.arange(COUNT)
+    every = np.unique(np.concatenate([times, instants]))
+    course, value = {0.0: 283.15}, 283.15
+    for begin, end in zip(every[:-1], every[1:]):
+        rest = 283.15 + powers[np.searchsorted(instants, begin, side="right")] / conductance
+        value = rest + (value - rest) * np.exp(-conductance / capacity * (end - begin))
+        course[float(end)] = value
+    logged = powers[np.searchsorted(instants, times, side="right")]
+    air = np.array([course[float(t)] for t in times]) - 273.15 + 0.05 * rng.standard_normal(COUNT)
+    folder.mkdir()
+    table = np.column_stack([times, 1e-3 * logged, air])
+    np.savetxt(folder / "data.csv", table, delimiter=",", header="t,P,T", comments="", fmt="%.7g")
+    about = {
+        "title": folder.name,
+        "source": "computed",
+        "table": "data.csv",
+        "time": {"column": "t", "unit": "s"},
+        "inputs": {"stove.heating": {"column": "P", "unit": "kW"}},
+        "channels": {"hut.air": {"column": "T", "unit": "degC", "noise": "0.05 K"}},
+    }
+    (folder / "recording.yaml").write_text(yaml.safe_dump(about))
+    return instants
+
+
+@pytest.fixture
+def hut(tmp_path: Path) -> Scenario:
+    HUT.build(tmp_path)
+    (tmp_path / "scenario.yaml").write_text(SCENARIO)
+    return load_scenario(tmp_path / "scenario.yaml")
+
+
+def test_heating_that_changes_between_rows_is_no_fault_of_the_model(hut: Scenario, tmp_path: Path) -> None:
+    """2 kW a minute too late are 1.3 K; "the readings reject the model", and once a dead time, were the answers."""
+    for n, name in enumerate(("first", "second", "third")):
+        record(tmp_path / name, n)
+    asked = ["diagnose", str(tmp_path / "scenario.yaml"), "--brief", "--out", str(tmp_path / "answer")]
+    asked += ["--recording", str(tmp_path / "first"), "--recording", str(tmp_path / "second")]
+    done = CliRunner().invoke(app, [*asked, "--held-out", str(tmp_path / "third")])
+    assert done.exit_code == 0, done.output
+    answer = json.loads((tmp_path / "answer" / "diagnosis.json").read_text())
+    assert answer["verdict"] == "recalibrated", done.output
+    assert answer["findings"] == []
+    assert "of recorded inputs came between two rows of their table" in " ".join(answer["notes"])
+    assert not any("change of" in m["name"] for m in answer["recalibration"])  # said once, not one by one
+
+
+def test_instants_are_found_where_the_readings_show_them(hut: Scenario, tmp_path: Path) -> None:
+    """Of ten changes those of 1 kW and more, to a few seconds of the true instant."""
+    instants = record(tmp_path / "first", 3)
+    recording = load_recording(tmp_path / "first")
+    model, _ = models_of(hut, [recording], [], [])
+
+    found = fit(model, Point(np.zeros(len(model.parameters))))
+    rows = switch_times([scenario_of(hut, recording)], [recording])
+    values = {p.name: p.deviation * z for p, z in zip(model.parameters, found.point.base)}
+    large = [(f, f.switch) for f in rows if isinstance(f.switch, Switch) and abs(f.switch.change) > 1.0]
+    assert len(large) >= 3
+    for free, switch in large:
+        told = switch.time - values[free.parameter.name]
+        assert np.min(np.abs(instants - told)) < 12.0
+
+
+def test_a_change_that_comes_earlier_adds_what_it_gives_in_that_time(hut: Scenario, tmp_path: Path) -> None:
+    record(tmp_path / "first", 4)
+    scenario = scenario_of(hut, load_recording(tmp_path / "first"))
+    given = scenario.components["stove"].outputs["heating"]
+    time, value = given.points[2]
+    change = value.to("kW") - given.points[1][1].to("kW")
+    for earlier in (45.0, -45.0):
+        moved = with_changes(given, [Switch(time.to("s"), change).moved(earlier)], scenario)
+
+        def energy(output, stop=28800.0):
+            times = np.array([t.to("s") for t, _ in output.points])
+            return float(np.sum([v.to("kW") for _, v in output.points] * np.diff(np.append(times, stop))))
+
+        assert energy(moved) - energy(given) == pytest.approx(earlier * change, rel=1e-9)
+
+
+def test_courses_that_change_with_each_row_or_along_lines_have_no_such_instants(hut: Scenario, tmp_path: Path) -> None:
+    record(tmp_path / "busy", 5, changes=MOST + 6)
+    record(tmp_path / "few", 6, changes=MOST - 14)
+    busy, few = (load_recording(tmp_path / n) for n in ("busy", "few"))
+    assert switch_times([scenario_of(hut, busy)], [busy]) == []
+    found = switch_times([scenario_of(hut, few)], [few])
+    assert 5 <= len(found) <= MOST - 14
+    assert {f.parameter.deviation for f in found} == {0.5 * ROW}
+    text = SCENARIO.replace("constant: 0 kW}", "interpolation: linear, points: [[0 s, 0 kW], [60 s, 0 kW]]}")
+    (tmp_path / "line.yaml").write_text(text)
+    line = load_scenario(tmp_path / "line.yaml")
+    assert switch_times([scenario_of(line, few)], [few]) == []
