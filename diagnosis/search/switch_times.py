@@ -1,7 +1,8 @@
 """When a recorded input changed: somewhere between two rows of its table, which the table does not say.
 
 Each change of an input that holds its value has a number of its own, in its recording alone: the time by which it came
-earlier than its row says. Without it a heater that switches between rows of two minutes leaves readings that no law of
+earlier than its row says. Where readings do not ask for that, changes stay where their
+rows are. Without it a heater that switches between rows of two minutes leaves readings that no law of
 the rig explains, or that a dead time, a lag or a gain of the input seems to explain.
 """
 
@@ -11,14 +12,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import chdtri
 
 from cosim.components import ProgrammeComponent
 from cosim.scenario import Scenario
 from cosim.unit.quantity import conversion
 from diagnosis.faults.programme import InputChange
 from diagnosis.recording.recording import Input, Recording
+from diagnosis.search.fit import fit
 from diagnosis.search.free_numbers import Free
-from diagnosis.search.problem import Own, Parameter
+from diagnosis.search.problem import Model, Own, Parameter, Point
 from diagnosis.search.shares import own_label
 
 #: Prior standard deviation of an instant, in rows: it lies within the row before, or in the one after where a logger
@@ -29,6 +32,8 @@ ONE_ROW = 2.0
 #: Changes of a recording's inputs up to which each has an instant of its own. An input of more changes nearly with each
 #: row, as a course that is sampled does: between its rows it is somewhere between its values.
 MOST = 24
+#: Probability of taking instants that are not needed.
+CHANCE = 1e-3
 #: Share of an input's range from which a change is one.
 LEAST = 0.02
 
@@ -69,6 +74,21 @@ def switch_times(scenarios: Sequence[Scenario], recordings: Sequence[Recording])
                 break
             found += [_free(recorded, s, row, number) for s, row in switches]
     return found
+
+
+def are_needed(plain: Model, moved: Model) -> bool:
+    """Whether the training recordings ask for instants of their own, before any law is looked for.
+
+    By what they gain beyond their priors, more than chance gives so many of them once in a thousand: where changes
+    come with their rows, such instants would only make everything else less certain.
+
+    Args:
+        plain: The model without them.
+        moved: The same with them.
+    """
+    count = len(moved.parameters) - len(plain.parameters)
+    gained = [fit(m, Point(np.zeros(len(m.parameters)))).cost for m in (plain, moved)]
+    return bool(gained[0] - gained[1] > chdtri(count, CHANCE))
 
 
 def _switches(scenario: Scenario, recorded: Input, end: float) -> list[tuple[Switch, float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 
@@ -51,7 +52,7 @@ def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True) 
     times = ROW * np.arange(COUNT)
     every = np.unique(np.concatenate([times, instants]))
     course, value = {0.0: 283.15}, 283.15
-    for begin, end in zip(every[:-1], every[1:]):
+    for begin, end in itertools.pairwise(every):
         rest = 283.15 + powers[np.searchsorted(instants, begin, side="right")] / conductance
         value = rest + (value - rest) * np.exp(-conductance / capacity * (end - begin))
         course[float(end)] = value
@@ -108,6 +109,15 @@ def test_instants_are_found_where_the_readings_show_them(hut: Scenario, tmp_path
     for free, switch in large:
         told = switch.time - values[free.parameter.name]
         assert np.min(np.abs(instants - told)) < 12.0
+
+
+def test_changes_that_come_with_their_rows_stay_there(hut: Scenario, tmp_path: Path) -> None:
+    """Free instants would double the error of what is held out where every change is where its row says."""
+    record(tmp_path / "rows", 7, is_between=False)
+    record(tmp_path / "between", 7)
+    rows, between = (models_of(hut, [load_recording(tmp_path / n)], [], [])[0] for n in ("rows", "between"))
+    assert not any(p.is_within_row for p in rows.parameters)
+    assert sum(p.is_within_row for p in between.parameters) >= 5
 
 
 def test_a_change_that_comes_earlier_adds_what_it_gives_in_that_time(hut: Scenario, tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
 from diagnosis.search.free_numbers import Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
-from diagnosis.search.switch_times import switch_times
+from diagnosis.search.switch_times import are_needed, switch_times
 from diagnosis.search.unit_law import UnitLaw
 
 
@@ -57,6 +57,8 @@ class ClosedLoopModel(ModelBase):
         laws, kind = laws_of(scenario), CosimModel
         #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
         self.slow = ""
+        #: Whether each change of a recorded input has an instant of its own.
+        self.has_instants = False
         #: What may be missing in a system of FMUs.
         self.system_laws: SystemLaws | None = None
         if is_system(scenario) and self._take_system(scenario, recordings, without, batches, like):
@@ -87,8 +89,12 @@ class ClosedLoopModel(ModelBase):
             free = free_parameters(scenario, recordings)
             known = None if like is None else like.system_laws
             laws = known or laws_at(scenario, recordings, free, without)
-            instants = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
-            model = SystemModel(scenario, recordings, [*laws.usual, *free, *instants], laws.found, batches)
+            model = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
+            instants = switch_times(model.scenarios, recordings) if like is None or like.has_instants else []
+            if instants:
+                moved = SystemModel(scenario, recordings, [*model.free, *instants], laws.found, batches)
+                if like is not None or are_needed(model, moved):
+                    model, self.has_instants = moved, True
         except (NotFast, CompilerError) as reason:
             self.slow = str(reason)
             return False
