@@ -58,8 +58,8 @@ def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
     """
     found = []
     for beside in compared.channels.values():
-        found += [*_noise(compared, beside), *_gaps(compared, beside)]
         stuck = stuck_stretches(compared, beside)
+        found += [*_noise(compared, beside, bool(stuck)), *_gaps(compared, beside)]
         found += [_stuck(compared, beside, a, b) for a, b in stuck]
         steps = _steps(compared, beside) if is_timed else []
         found += [d for d in steps if not any(_near(beside, d, s) for s in stuck)]
@@ -83,8 +83,11 @@ def _near(beside: Beside, doubt: Doubt, stretch: tuple[int, int]) -> bool:
     return bool(begin <= doubt.begin <= end or begin <= doubt.end <= end)
 
 
-def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
-    """Stated noise against the scatter between neighbours: chi-square of their differences."""
+def _noise(compared: Compared, beside: Beside, stood_still: bool) -> list[Doubt]:
+    """Stated noise against the scatter between neighbours: chi-square of their differences.
+
+    Readings of a sensor that stands still for a while scatter less than its noise there, which says nothing of it.
+    """
     channel = beside.channel
     if not channel.is_deviation_given or len(channel.values) < 32:
         return []
@@ -95,6 +98,8 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     tail = LEVEL / len(compared.channels)
     least, most = chi_square_beyond(1.0 - tail, degrees), chi_square_beyond(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
+    if is_small and stood_still:
+        return []
     if not is_small and not degrees * (ratio / HONEST) ** 2 > most:
         return []
     if not is_small and is_unresolved(channel.times, channel.values, channel.quantum):

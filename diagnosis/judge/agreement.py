@@ -14,7 +14,7 @@ from scipy.special import chdtr, chdtri
 
 from cosim.unit.protocol import Array
 from diagnosis.judge.parameter_error import Tested
-from diagnosis.judge.unfitted import NOISE_ERROR, Readings
+from diagnosis.judge.unfitted import NOISE_ERROR, Readings, set_aside
 from diagnosis.models.coil_network.runs import ZERO, deviation
 
 #: Probability that noise alone is taken for a departure of the model.
@@ -182,7 +182,8 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         tested: What is left where fitted numbers may move within their own error; it is compared with the limits, and
             everything else is of the residuals.
     """
-    counted = ~readings.is_wild
+    wild = set_aside(readings, residuals)
+    counted = ~wild
     numbers = [n for n in range(len(readings.channels)) if np.any(counted & (readings.channel == n))]
     found, squares, error = [], 0.0, 0.0
     for n in numbers:
@@ -213,13 +214,13 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         error += (count * own_error) ** 2
     samples = sum(c.samples for c in found)
     if not samples:
-        return Agreement(0.0, 1.0, 0, int(readings.is_wild.sum()), ())
+        return Agreement(0.0, 1.0, 0, int(wild.sum()), ())
     limit = float(chdtri(samples, LEVEL)) / samples + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
     return Agreement(
         squares / samples,
         limit,
         samples,
-        int(readings.is_wild.sum()),
+        int(wild.sum()),
         tuple(found),
         None if tested is None else tested.total / samples,
     )

@@ -96,6 +96,13 @@ def notes(
         told.append(f"Suggested by the training recordings alone, not accepted: {named.suggested}.")
     if adequacy.day:
         told.append(f"That takes for granted: {day_of(adequacy, units)}.")
+    if adequacy.wild:
+        one = (
+            "1 reading stands out alone and is"
+            if adequacy.wild == 1
+            else f"{adequacy.wild} readings stand out, each alone or two in a row, and are"
+        )
+        told.append(f"Of the {_basis(adequacy)} {one} not counted against the model; errors of channels count all.")
     return tuple(told)
 
 

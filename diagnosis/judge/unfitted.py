@@ -25,7 +25,7 @@ from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, inflation
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.fit import fit
 from diagnosis.search.objective import RUNAWAY
-from diagnosis.search.posterior import huber_weights
+from diagnosis.search.posterior import HUBER, huber_weights
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.shares import departures
 from diagnosis.search.validation import blocks
@@ -39,6 +39,8 @@ STEPS = 3
 #: Deviations of the noise by which one reading must stand out from both neighbours to be a single wild reading. Noise
 #: alone reaches it in one of 2e9 readings (the deviation from a neighbour is sqrt(2) times the noise).
 WILD = 8.5
+#: Readings in a row that may be wild, and share of a channel's readings up to which they are set aside.
+MOST_IN_A_ROW, MOST_WILD = 2, 0.05
 #: Relative error of a deviation that was estimated from n readings, times sqrt(n): quantiles of differences have about
 #: a third of the efficiency of the root mean square, whose figure is sqrt(1/2) (Gasser et al. 1986).
 NOISE_ERROR = 1.2
@@ -124,6 +126,36 @@ def wild_readings(values: Array, noise: float) -> AnyArray:
     before, after = values[1:-1] - values[:-2], values[1:-1] - values[2:]
     is_out = (np.minimum(np.abs(before), np.abs(after)) > WILD * noise) & (before * after > 0.0)
     found[1:-1] = is_out & (np.abs(values[2:] - values[:-2]) < 0.5 * np.minimum(np.abs(before), np.abs(after)))
+    return found
+
+
+def set_aside(readings: Readings, residuals: Array) -> AnyArray:
+    """Readings that say nothing of a model: single wild ones, and one or two in a row that it alone shows to be wild.
+
+    Two wild readings next to each other, or one beside a switch, have no neighbours that tell. Those before and after
+    them must be met, and no more than `MOST_WILD` of a channel may be such: more is a fault of the model.
+
+    Args:
+        readings: What the residuals belong to.
+        residuals: What the model leaves, in deviations of the noise, shape (readings,).
+
+    Returns:
+        Shape (readings,).
+    """
+    found = readings.is_wild.copy()
+    for n in range(len(readings.channels)):
+        places = np.flatnonzero(readings.channel == n)
+        kept = places[~readings.is_wild[places]]
+        size = np.abs(residuals[kept])
+        out = size > WILD
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], out, [False]]).astype(int)))
+        spikes: list[int] = []
+        for begin, end in zip(edges[0::2].tolist(), edges[1::2].tolist()):
+            is_met = begin > 0 and end < len(kept) and max(size[begin - 1], size[end]) < HUBER
+            if end - begin <= MOST_IN_A_ROW and is_met:
+                spikes += range(begin, end)
+        if len(spikes) + len(places) - len(kept) <= MOST_WILD * len(places):
+            found[kept[spikes]] = True
     return found
 
 
@@ -274,7 +306,11 @@ class HeldOutReadings:
     def tested(self, point: Point, predicted: Predicted) -> Tested | None:
         """See `Unfitted`."""
         found = self._freedom(point, predicted)
-        return None if found is None else _tested(self._judge, self.readings, ~self.readings.is_wild, *found)
+        return (
+            None
+            if found is None
+            else _tested(self._judge, self.readings, ~set_aside(self.readings, predicted.residuals), *found)
+        )
 
     def strengths(self, point: Point, predicted: Predicted) -> dict[Term, Constancy]:
         """See `Unfitted`."""
@@ -327,6 +363,7 @@ class HeldOutReadings:
         if self._columns is None:
             self._columns = np.asarray(model.base_jacobian(point)[:, self._own], dtype=np.float64)
         columns, base = self._columns, point.base.copy()
+        most = np.minimum(DAY, [model.parameters[i].bounds for i in self._own])
         scale = np.ones(len(columns))
         for _ in range(STEPS):
             for _ in range(STEPS):
@@ -334,7 +371,7 @@ class HeldOutReadings:
                 weight = huber_weights(here * scale) ** 2 * scale**2
                 normal = columns.T @ (weight[:, None] * columns) + np.eye(len(self._own))
                 slope = columns.T @ (weight * here) + base[self._own]
-                moved = np.clip(base[self._own] - np.linalg.solve(normal, slope), -DAY, DAY)
+                moved = np.clip(base[self._own] - np.linalg.solve(normal, slope), -most, most)
                 is_settled = bool(np.max(np.abs(moved - base[self._own])) < 1e-3)
                 base[self._own] = moved
                 if is_settled:
@@ -403,7 +440,7 @@ class LeftOutReadings:
             may = freedom(MaskedModel(self._inner, ~part), other, self._inner, other)
             if not may.directions.shape[1]:
                 return None
-            kept = part[self.readings.chosen] & ~self.readings.is_wild
+            kept = part[self.readings.chosen] & ~set_aside(self.readings, predicted.residuals)
             sums.append(_tested(self._inner, self.readings, kept, may, may.columns()))
         return Tested(sum(s.total for s in sums), np.sum([s.channels for s in sums], axis=0))
 

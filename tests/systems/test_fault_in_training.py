@@ -166,3 +166,14 @@ def test_a_programme_that_was_run_twice_is_no_copy(room: Path) -> None:
     week(1, slice(0, 0), 0.0, room / "again", own)
     scenario = load_scenario(room / "scenario.yaml")
     assert check_recordings(scenario, [load_recording(room / n) for n in ("first", "again")]) == ()
+
+
+def test_a_sensor_that_stands_still_half_of_the_time_has_the_noise_that_is_stated(room: Path) -> None:
+    """The median of neighbouring differences is 0 then: "scatter by 5.58e-08, 5740 times less" was the doubt."""
+    week(1, slice(0, 0), 0.0, room / "first")
+    table = np.loadtxt(room / "first" / "data.csv", delimiter=",", skiprows=1)
+    table[200:620, 4] = table[200, 4]
+    np.savetxt(room / "first" / "data.csv", table, delimiter=",", header="t,P,To,Ta,Tw", comments="", fmt="%.7g")
+    found = check_recordings(load_scenario(room / "scenario.yaml"), [load_recording(room / "first")])
+    assert any("stood still" in d.statement for d in found)
+    assert not any(d.kind == "noise" for d in found)

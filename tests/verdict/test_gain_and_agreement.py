@@ -11,7 +11,7 @@ from scipy.special import chdtr
 from cosim.unit.protocol import Array
 from diagnosis.judge.agreement import LEVEL, agreement
 from diagnosis.judge.gain import ERRORS, LEAST, gain, loss, stands_alone
-from diagnosis.judge.unfitted import Predicted, Readings, readings_of, wild_readings
+from diagnosis.judge.unfitted import Predicted, Readings, readings_of, set_aside, wild_readings
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from tests.verdict.lines import Lines, Run, Series
@@ -128,6 +128,28 @@ def test_a_noise_that_was_estimated_has_an_error_of_its_own():
     assert estimated > given + 0.3  # 2 * 3.09 * 1.2 / sqrt(400)
 
 
+def test_two_wild_readings_in_a_row_and_one_at_a_switch_do_not_count_either():
+    """14 deviations each in a noise of one; five in a row, or many of them, are no wild readings."""
+    run = readings()
+    noise = np.random.default_rng(4).standard_normal(COUNT)
+    wild = noise.copy()
+    wild[[50, 51, 200]] += (14.0, 13.0, -11.0)
+    assert np.flatnonzero(set_aside(run, wild)).tolist() == [50, 51, 200]
+    assert agreement(wild, run).wild == 3
+    assert not agreement(wild, run).is_rejected
+    stretch = noise.copy()
+    stretch[100:105] += 14.0
+    assert not set_aside(run, stretch).any()
+    assert agreement(stretch, run).is_rejected
+    many = noise.copy()
+    many[10:-10:15] += 14.0  # 26 of 400
+    assert not set_aside(run, many).any()
+    assert agreement(many, run).is_rejected
+    beside = noise.copy()
+    beside[100:110] += 14.0 * np.exp(-np.arange(10.0) / 3.0)  # a response that fades is none
+    assert not set_aside(run, beside).any()
+
+
 def test_single_wild_readings_are_known_by_their_neighbours_and_do_not_count():
     values = np.random.default_rng(2).standard_normal(COUNT)
     values[[50, 200]] += (30.0, -25.0)
@@ -137,9 +159,9 @@ def test_single_wild_readings_are_known_by_their_neighbours_and_do_not_count():
     residuals = np.random.default_rng(4).standard_normal(COUNT)
     residuals[[50, 200]] = 30.0
     with_wild = replace(run, is_wild=np.isin(np.arange(COUNT), [50, 200]))
-    assert agreement(residuals, run).is_rejected
-    assert not agreement(residuals, with_wild).is_rejected
-    assert agreement(residuals, with_wild).wild == 2
+    for one in (run, with_wild):  # by what the model leaves, and by the readings alone
+        assert not agreement(residuals, one).is_rejected
+        assert agreement(residuals, one).wild == 2
 
 
 def test_readings_are_those_that_a_model_uses():
