@@ -33,6 +33,6 @@ def environment(*folders: Path) -> Environment:
 
 def _printable(value: object) -> object:
     """A value, or foreign text with blanks for its control characters; markup stays as it is."""
-    if isinstance(value, str) and not hasattr(value, "__html__"):
+    if isinstance(value, str) and not (value.isprintable() or hasattr(value, "__html__")):
         return "".join(c if c.isprintable() else " " for c in value)
     return value
