@@ -57,7 +57,7 @@ class Page(HTMLParser):
         self.addresses += [v or "" for k, v in attrs if k == "src"]
         self.links += [v or "" for k, v in attrs if k == "href"]
         self.ids += [v or "" for k, v in attrs if k == "id"]
-        if tag not in ("meta", "img"):
+        if tag not in ("meta", "img", "input"):
             self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
