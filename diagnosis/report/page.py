@@ -41,7 +41,7 @@ from diagnosis.report.user_units import Units
 
 #: Windows in which something is left that are shown at the top.
 _LEFT = 3
-#: Channels that only a fabric has, and so that its findings can be seen in motion (docs/play.md).
+#: Channels that only a fabric has: its findings can be seen in motion (docs/play.md).
 _OF_A_FABRIC = ("marker[", "link[", "fabric.")
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -83,5 +82,5 @@ def named(sections: Sequence[Section]) -> dict[str, Section]:
 def _environment() -> Environment:
     made = environment(TEMPLATES)
     made.filters.update(listed=listed, number=number, percent=percent, words=words)
-    made.globals.update(unknown=UNKNOWN, isfinite=math.isfinite)
+    made.globals.update(unknown=UNKNOWN)
     return made
