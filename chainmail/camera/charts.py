@@ -100,10 +100,10 @@ def ticks(low: float, high: float) -> list[float]:
 
 
 def curvature_chart(measured: Measured) -> str:
-    """Largest curvature over time, with its 95 % interval."""
+    """Largest curvature over time, with its 95 % interval; empty where no frame has all markers."""
     curvature, times = measured.curvature, measured.tracks.times
     if curvature is None or not np.isfinite(curvature.values).any():
-        return "<p>No frame has all markers.</p>"
+        return ""
     half = 1.96 * curvature.deviation
     low, high = curvature.values - half, curvature.values + half
     top = float(np.nanquantile(high, 0.995)) * 1.08

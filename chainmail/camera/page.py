@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import base64
-import html
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,24 +16,31 @@ from chainmail.camera.opencv import opencv
 from chainmail.camera.rig import Rig
 from chainmail.camera.summary import summary
 from chainmail.camera.tracks import GAP, STATES
+from cosim.html_page import environment
 from cosim.run_folder import write_atomically
 from cosim.unit.protocol import AnyArray
 
 #: Widest overlay [px], and quality of its picture.
 _WIDE, _QUALITY = 960, 80
-_STYLE = """
-:root { color-scheme: light; }
-body { font: 15px/1.45 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto; padding: 1rem;
-  max-width: 62rem; }
-h1 { font-size: 1.35rem; } h2 { font-size: 1.1rem; margin-top: 2rem; }
-.chart { overflow-x: auto; } .chart svg { min-width: 34rem; }
-svg, img { max-width: 100%; height: auto; } figure { margin: 1rem 0; } figcaption { color: #444; font-size: .9rem; }
-.frames { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 26rem), 1fr)); gap: 1rem; }
-.frames figure { margin: 0; } .frame { position: relative; } .frame img, .frame svg { display: block; width: 100%; }
-.frame svg { position: absolute; inset: 0; height: 100%; }
-.key span { display: inline-block; margin-right: 1.2rem; white-space: nowrap; }
-.key i { display: inline-block; width: .8rem; height: .8rem; margin-right: .35rem; vertical-align: -1px; }
-"""
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """A frame with what was found in it.
+
+    Args:
+        text: Which frame, why it is shown, and the curvature.
+        jpeg: The frame, base64.
+        width: Of the frame as it was read [px].
+        height: Of the same [px].
+        marks: What is drawn over it, SVG.
+    """
+
+    text: str
+    jpeg: str
+    width: int
+    height: int
+    marks: str
 
 
 def write_page(file: Path, measured: Measured, rig: Rig, frames: Iterable[Frame]) -> None:
@@ -48,38 +55,17 @@ def write_page(file: Path, measured: Measured, rig: Rig, frames: Iterable[Frame]
     Raises:
         OSError: It cannot be written.
     """
-    chosen = chosen_frames(measured)
-    parts = [
-        f"<h1>{html.escape(rig.title)}</h1>",
-        "<ul>" + "".join(f"<li>{html.escape(s)}</li>" for s in summary(measured)) + "</ul>",
-        "<h2>Chosen frames</h2>",
-        _key(),
-        '<div class="frames">',
-        *_overlays(measured, chosen, frames),
-        "</div>",
-    ]
-    if measured.curvature is not None:
-        parts += [
-            "<h2>Largest curvature</h2>",
-            charts.curvature_chart(measured),
-            "<p>Line: reading; band: 95 % interval of each reading. No line: a gap.</p>",
-        ]
-    parts += [
-        "<h2>Tracks in the plane</h2>",
-        charts.tracks_chart(measured),
-        "<p>Each colour is a marker; the number stands at its first place.</p>",
-        "<h2>How each reading came about</h2>",
-        _key(),
-        charts.quality_chart(measured),
-        "<h2>Standard deviation of the places</h2>",
-        charts.noise_chart(measured),
-        "<p>Line: median over the markers; band: from the surest to the least sure one.</p>",
-    ]
-    parts = [f'<div class="chart">{p}</div>' if p.startswith("<svg") else p for p in parts]
-    page = (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-        f'content="width=device-width, initial-scale=1"><title>{html.escape(rig.title)}</title>'
-        f"<style>{_STYLE}</style></head><body>{''.join(parts)}</body></html>"
+    template = environment(Path(__file__).parent / "templates").get_template("track.html.j2")
+    page = template.render(
+        title=rig.title,
+        sentences=summary(measured),
+        states=list(zip(charts.STATE_COLOURS, STATES)),
+        overlays=_overlays(measured, chosen_frames(measured), frames),
+        has_curvature=measured.curvature is not None,
+        curvature=charts.curvature_chart(measured),
+        tracks=charts.tracks_chart(measured),
+        quality=charts.quality_chart(measured),
+        noise=charts.noise_chart(measured),
     )
     write_atomically(file, page.encode())
 
@@ -99,7 +85,7 @@ def chosen_frames(measured: Measured) -> dict[int, str]:
     return dict(sorted(found.items()))
 
 
-def _overlays(measured: Measured, chosen: dict[int, str], frames: Iterable[Frame]) -> list[str]:
+def _overlays(measured: Measured, chosen: dict[int, str], frames: Iterable[Frame]) -> list[Overlay]:
     found = []
     for number, frame in enumerate(frames):
         if number in chosen:
@@ -109,7 +95,7 @@ def _overlays(measured: Measured, chosen: dict[int, str], frames: Iterable[Frame
     return found
 
 
-def _overlay(measured: Measured, frame: int, why: str, picture: AnyArray) -> str:
+def _overlay(measured: Measured, frame: int, why: str, picture: AnyArray) -> Overlay:
     cv2 = opencv()
     high, wide = picture.shape[:2]
     shrunk = (
@@ -129,11 +115,7 @@ def _overlay(measured: Measured, frame: int, why: str, picture: AnyArray) -> str
         )
     )
     text = f"{why}: frame {frame + 1}, {measured.tracks.times[frame]:.3f} s{value}"
-    return (
-        f'<figure><div class="frame"><img alt="{html.escape(text)}" src="data:image/jpeg;base64,{coded}">'
-        f'<svg viewBox="0 0 {wide} {high}" preserveAspectRatio="none">{_marks(measured, frame, wide)}</svg></div>'
-        f"<figcaption>{html.escape(text)}</figcaption></figure>"
-    )
+    return Overlay(text, coded, wide, high, _marks(measured, frame, wide))
 
 
 def _marks(measured: Measured, frame: int, wide: int) -> str:
@@ -168,8 +150,3 @@ def _marks(measured: Measured, frame: int, wide: int) -> str:
 def _line(points: Sequence[AnyArray], colour: str, width: float) -> str:
     path = " ".join(f"{u:.1f},{v:.1f}" for u, v in points)
     return f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="{width:.1f}"/>'
-
-
-def _key() -> str:
-    spans = "".join(f'<span><i style="background:{c}"></i>{s}</span>' for c, s in zip(charts.STATE_COLOURS, STATES))
-    return f'<p class="key">{spans}</p>'

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 import math
 from collections.abc import Iterable
@@ -16,6 +15,7 @@ from chainmail.play.camera import reach_of
 from chainmail.play.codec import Block, encode, quantised
 from chainmail.play.film import Curve, Fabric, Film, Marks, Shape
 from chainmail.play.palette import GHOSTS, palette
+from cosim.html_page import environment
 from cosim.unit.protocol import Array
 
 #: Largest error of any point of a link on the page [m].
@@ -28,8 +28,6 @@ _RECORDED_STEP = 2e-5
 _COLOUR_STEPS, _CURVE_STEPS = 255, 4000
 _WEB = Path(__file__).parent / "web"
 _SCRIPTS = ("decode.js", "scene.js", "plots.js", "controls.js", "player.js")
-#: Forbids the page to load anything, whatever a title says.
-_POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'"
 
 
 def page(film: Film) -> str:
@@ -41,18 +39,14 @@ def page(film: Film) -> str:
     content = _content(film, blocks)
     data, table = encode(blocks.blocks)
     text = json.dumps({**content, "blocks": table}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    scripts = "\n".join((_WEB / name).read_text(encoding="utf-8") for name in _SCRIPTS).replace(
-        "</script", "<\\/script"
-    )
-    title = html.escape(" and ".join(dict.fromkeys(f.title for f in film.fabrics)))
-    return (
-        '<!doctype html>\n<html lang="en">\n<head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}"><title>{title}</title>\n'
-        f"<style>\n{(_WEB / 'player.css').read_text(encoding='utf-8')}</style></head>\n<body>\n"
-        f"<header><h1>{title}</h1></header>\n{(_WEB / 'body.html').read_text(encoding='utf-8')}"
-        f'<script type="application/json" id="film">{text}</script>\n'
-        f'<script type="text/plain" id="data">{data}</script>\n<script>\n{scripts}</script>\n</body>\n</html>\n'
+    template = environment(_WEB).get_template("page.html.j2")
+    scripts = "\n".join((_WEB / name).read_text(encoding="utf-8") for name in _SCRIPTS)
+    return template.render(
+        title=" and ".join(dict.fromkeys(f.title for f in film.fabrics)),
+        style=(_WEB / "player.css").read_text(encoding="utf-8"),
+        film=text,
+        data=data,
+        scripts=scripts.replace("</script", "<\\/script"),
     )
 
 

@@ -10,17 +10,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cosim.figure_style import SWITCH, WITH_MODEL
+from cosim.html_page import environment
 from cosim.run_folder import write_atomically
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.inputs import compare_inputs
 from diagnosis.check.tables import course_text, input_text, row, summary
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.report.figures import drawn, thinned
-from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
+from diagnosis.report.section import TEMPLATES
 
 #: Channels of one quantity that are drawn; a rig of 36 coils would need a page of its own.
 MOST_DRAWN = 6
-_STYLE = Path(__file__).parents[1] / "report" / "page.css"
 
 
 def write_page(every: Sequence[Compared], doubts: Sequence[Doubt], out: Path) -> None:
@@ -31,57 +31,27 @@ def write_page(every: Sequence[Compared], doubts: Sequence[Doubt], out: Path) ->
         doubts: About them.
         out: HTML file.
     """
-    parts = [element("header", element("h1", "Recording check"), element("p", summary(every, doubts)))]
-    if doubts:
-        parts.append(element("section", element("h2", "Doubts"), listing(_doubt(d) for d in doubts)))
-    parts += [_recording(one, doubts) for one in every]
-    head = element(
-        "head",
-        Html('<meta charset="utf-8">'),
-        element("title", "Recording check"),
-        element("style", Html(_STYLE.read_text())),
-    )
-    page = "<!DOCTYPE html>\n" + element("html", head, element("body", *parts), lang="en")
+    template = environment(Path(__file__).parent / "templates", TEMPLATES).get_template("check.html.j2")
+    recordings = [_recording(one, doubts) for one in every]
+    page = template.render(summary=summary(every, doubts), doubts=doubts, recordings=recordings)
     write_atomically(out, page.encode())
 
 
-def _doubt(doubt: Doubt) -> Html:
-    word = element("strong", "Serious: " if doubt.is_serious else "Note: ")
-    return joined(
-        [
-            word,
-            f"{doubt.recording}, {doubt.subject} ({doubt.kind}): ",
-            coded(doubt.statement),
-            ". ",
-            element("em", coded(doubt.remedy)),
-        ]
-    )
-
-
-def _recording(one: Compared, doubts: Sequence[Doubt]) -> Html:
+def _recording(one: Compared, doubts: Sequence[Doubt]) -> dict[str, object]:
     clock = one.units.scale(one.end, "s")
-    head = (
-        "channel",
-        "readings",
-        f"span [{clock.unit}]",
-        "noise stated / seen",
-        "measured",
-        "simulated",
-        "correlation",
-        "RMSE",
-    )
     rows = [row(b, one.units_of(b.channel.name), clock) for b in one.channels.values()]
-    cells = [(r.name, r.samples, r.span, r.noise, *r.ranges, *r.fit) for r in rows]
     own = [d for d in doubts if d.recording == one.recording.title]
-    note = [element("p", one.note)] if one.note else []
-    return element(
-        "section",
-        element("h2", one.recording.title),
-        *note,
-        table(head, cells),
-        listing([*(course_text(c, one.units) for c in one.courses), *(input_text(c) for c in compare_inputs(one))]),
-        image(picture(one, own), f"measured beside simulated: {one.recording.title}"),
-    )
+    return {
+        "title": one.recording.title,
+        "note": one.note,
+        "clock": clock.unit,
+        "rows": [(r.name, r.samples, r.span, r.noise, *r.ranges, *r.fit) for r in rows],
+        "inputs": [
+            *(course_text(c, one.units) for c in one.courses),
+            *(input_text(c) for c in compare_inputs(one)),
+        ],
+        "picture": picture(one, own),
+    }
 
 
 def picture(one: Compared, doubts: Sequence[Doubt]) -> str:

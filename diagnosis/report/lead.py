@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,7 +12,6 @@ from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
 from diagnosis.report.display import clean, number
 from diagnosis.report.figures import STAGE_LOOKS, drawn, labelled, thinned
 from diagnosis.report.fits import STAGES
-from diagnosis.report.markup import Html, element, image
 from diagnosis.report.series import Series
 from diagnosis.report.user_units import Units
 
@@ -19,23 +19,39 @@ from diagnosis.report.user_units import Units
 _LAST = {"recalibrated": "recalibrated", "after": "amended"}
 
 
-def lead(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
-    """Picture and number; nothing where no channel was judged."""
+@dataclass(frozen=True)
+class Lead:
+    """What stands beside the verdict.
+
+    Args:
+        told: The number.
+        whose: Channel and recording.
+        picture: Data address.
+        about: The picture in words.
+    """
+
+    told: str
+    whose: str
+    picture: str
+    about: str
+
+
+def lead(diagnosis: Diagnosis, series: Sequence[Series]) -> Lead | None:
+    """Picture and number; None where no channel was judged."""
     found = worst(diagnosis, series)
     if found is None:
-        return Html("")
+        return None
     one, fit = found
     units = Units(diagnosis.units)
     part = "held out" if one.is_held_out else "training: no recording was held out"
     whose = (
         f"{clean(one.channel)}, {clean(one.recording)} ({part})" if one.recording else f"{clean(one.channel)} ({part})"
     )
-    figure = drawn(lambda f: _paint(f, one, units), 5.2, 3.6)
-    return element(
-        "aside",
-        element("p", element("strong", told(one, fit, units)), class_="number"),
-        image(figure, f"{whose}: measured, before and {_LAST.get(_stages(one)[-1], 'before')}"),
-        element("p", f"The channel that the model as it was met worst: {whose}.", class_="note"),
+    return Lead(
+        told(one, fit, units),
+        whose,
+        drawn(lambda f: _paint(f, one, units), 5.2, 3.6),
+        f"{whose}: measured, before and {_LAST.get(_stages(one)[-1], 'before')}",
     )
 
 

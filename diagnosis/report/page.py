@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from cosim.run_folder import write_atomically
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
-from diagnosis.report.anchors import anchored
-from diagnosis.report.display import clean, listed, number
+from diagnosis.report.display import clean
 from diagnosis.report.experiment_section import experiment_section, isolability_section
 from diagnosis.report.figures import is_left_in, network_figure, series_figure, timeline_figure
 from diagnosis.report.finding_section import finding_section
 from diagnosis.report.fit_section import TITLE, fit_section
 from diagnosis.report.lead import lead
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
-from diagnosis.report.markup import Html, coded, element, image, joined, listing, table
 from diagnosis.report.network import Network, concerned, inferred
+from diagnosis.report.section import Section, named, rendered, section
 from diagnosis.report.sentences import (
     ADVICE,
     ambiguity,
@@ -40,18 +39,10 @@ from diagnosis.report.series import Series
 from diagnosis.report.undecided import departing, model_note, remainder, suggested, what_decides
 from diagnosis.report.user_units import Units
 
-#: Looks of the page; no font and no picture comes from elsewhere.
-STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
 #: Windows in which something is left that are shown at the top.
 _LEFT = 3
-#: Channels that only a fabric has, and where to see a finding on it (docs/play.md).
+#: Channels that only a fabric has: its findings can be seen in motion (docs/play.md).
 _OF_A_FABRIC = ("marker[", "link[", "fabric.")
-_ON_THE_FABRIC = (
-    "To see these places on the moving fabric: `cosim play RUN FOLDER`, with the folder of a run of the scenario and "
-    "that of this report."
-)
-#: Forbids the page to load anything, whatever a recording's title says.
-_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
 def write_html(
@@ -72,109 +63,95 @@ def write_html(
 def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title: str = "") -> str:
     """The report as text."""
     name = f"Diagnosis of {clean(title)}" if clean(title) else "Diagnosis"
-    head = element(
-        "head",
-        Html('<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'),
-        Html(f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'),
-        element("title", f"{name}: {diagnosis.verdict.value}"),
-        element("style", Html(STYLE)),
+    made = rendered(
+        "report.html.j2",
+        name=name,
+        verdict=diagnosis.verdict.value,
+        statement=diagnosis.statement,
+        advice=ADVICE[diagnosis.verdict],
+        notes=diagnosis.notes,
+        answer=_answer(diagnosis),
+        command=_command(diagnosis),
+        judged_by=_judged_by(diagnosis),
+        lead=lead(diagnosis, series),
+        sections=named(list(_sections(diagnosis, series, network))),
+        effort=effort(diagnosis),
     )
-    # Where nothing was found, what is left is the answer.
+    return str(made)  # as markup, it would escape what is put into it
+
+
+def _sections(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Iterator[Section]:
+    """Sections in their order: where nothing was found, what is left is the answer and comes first."""
     units = Units(diagnosis.units)
-    left, is_first = [remainder_section(diagnosis.left, units)], not diagnosis.findings
-    sections, contents = anchored(
-        joined(
-            [
-                _place_and_time(diagnosis, series, network),
-                *(
-                    finding_section(n, f, units, diagnosis.verdict is Verdict.CANNOT_TELL)
-                    for n, f in enumerate(diagnosis.findings)
-                ),
-                *left[:is_first],
-                _figures(diagnosis, series),
-                waveform_section(diagnosis.waveforms),
-                experiment_section(diagnosis.next_experiment),
-                *left[is_first:],
-                fit_section(
-                    diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits", units
-                ),
-                _certainty(diagnosis),
-                location_section(diagnosis.locations, units),
-                isolability_section(diagnosis.isolability),
-                _rests_on(diagnosis),
-            ]
-        )
-    )
-    body = element("body", _answer(diagnosis, name, series), contents, sections, element("footer", effort(diagnosis)))
-    return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
+    left = [remainder_section(diagnosis.left, units)] if diagnosis.left else []
+    if diagnosis.findings:
+        yield _place_and_time(diagnosis, series, network)
+    for order, finding in enumerate(diagnosis.findings):
+        yield finding_section(order, finding, units, diagnosis.verdict is Verdict.CANNOT_TELL)
+    if not diagnosis.findings:
+        yield from left
+    if series:
+        yield _channels(diagnosis, series)
+    if missing := waveform_section(diagnosis.waveforms):
+        yield missing
+    if diagnosis.next_experiment is not None:
+        yield experiment_section(diagnosis.next_experiment)
+    if diagnosis.findings:
+        yield from left
+    yield fit_section(diagnosis.fit, diagnosis.spread, TITLE if diagnosis.accepted else "How well it fits", units)
+    yield _certainty(diagnosis, units)
+    if diagnosis.locations:
+        yield location_section(diagnosis.locations, units)
+    yield isolability_section(diagnosis.isolability)
+    if diagnosis.recordings:
+        yield _rests_on(diagnosis, units)
 
 
-def _section(title: str, *content: str) -> Html:
-    return element("section", element("h2", title), *content)
+#: What a fact says: a text, or a line for each of several.
+Told = str | list[str]
 
 
-def _answer(diagnosis: Diagnosis, name: str, series: Sequence[Series]) -> Html:
-    """Verdict, and where, when, what and how much better in a line each."""
-    verdict = diagnosis.verdict.value
-    facts = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
+def _answer(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
+    """Where, when, what and how much better in a line each."""
+    facts: list[tuple[str, Told]] = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
     facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     facts.append(("Searched", searched(diagnosis)))
     if far := moved_most(diagnosis, Units(diagnosis.units)):
         facts.append(("Parameters", far))
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
-    if diagnosis.amended_model:
-        note = model_note(diagnosis)
-        facts.append(
-            ("Model", f"{diagnosis.amended_model} ({note})")
-            if note
-            else ("Amended model", _command(diagnosis.amended_model))
-        )
-    if diagnosis.adequacy is not None and not any(f.is_held_out for f in diagnosis.fit):
-        facts.append(("Judged by", diagnosis.adequacy.basis))
-    elif diagnosis.held_out_by:
-        facts.append(("Judged by", coded(diagnosis.held_out_by)))
-    beside = lead(diagnosis, series)
-    return element(
-        "header",
-        element("h1", name),
-        element(
-            "p",
-            element("span", verdict, class_=f"verdict {verdict.replace(' ', '-')}"),
-            " ",
-            element("strong", diagnosis.statement),
-            " ",
-            ADVICE[diagnosis.verdict],
-        ),
-        listing(map(clean, diagnosis.notes)) if diagnosis.notes else "",
-        element(
-            "div",
-            element("dl", *(joined([element("dt", k), element("dd", v)]) for k, v in facts)),
-            beside,
-            class_="answer" if beside else "wide",
-        ),
-    )
+    if diagnosis.amended_model and (note := model_note(diagnosis)):
+        facts.append(("Model", f"{diagnosis.amended_model} ({note})"))
+    return facts
 
 
-def _command(scenario: str) -> Html:
-    """How the amended model is run."""
+def _command(diagnosis: Diagnosis) -> str:
+    """How the amended model is run; empty where nothing was added to a model."""
+    scenario = diagnosis.amended_model
+    if not scenario or model_note(diagnosis):
+        return ""
     folder = Path("runs") / Path(scenario).parent.name
-    return joined(
-        [element("code", f"cosim run {shlex.quote(scenario)} --out {shlex.quote(str(folder))}"), " simulates it."]
-    )
+    return f"cosim run {shlex.quote(scenario)} --out {shlex.quote(str(folder))}"
 
 
-def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+def _judged_by(diagnosis: Diagnosis) -> str:
+    """What the answer was judged by, code between backticks; empty where that goes without saying."""
+    if diagnosis.adequacy is not None and not any(f.is_held_out for f in diagnosis.fit):
+        return diagnosis.adequacy.basis
+    return diagnosis.held_out_by
+
+
+def _found(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
     """Where, when, what and how much better; how much better alone where nothing was found."""
     better, told = ("How much better", improvement(diagnosis)), diagnosis.accepted
-    others = [("Suggested", suggested(f, Units(diagnosis.units))) for f in diagnosis.suggestions]
+    units = Units(diagnosis.units)
+    others = [("Suggested", suggested(f, units)) for f in diagnosis.suggestions]
     if not told:
         return [*others, better]
     open_ones = [("Open", _each([ambiguity(f) for f in told]))] if any(f.ambiguous_with for f in told) else []
-    times = [when(f, units=Units(diagnosis.units)) for f in told]
     return [
         ("Where", _each([where(f) for f in told])),
-        ("When", _each(times)),
+        ("When", _each([when(f, units=units) for f in told])),
         ("What", _each([what(f) for f in told])),
         *open_ones,
         *others,
@@ -182,60 +159,40 @@ def _found(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     ]
 
 
-def _undecided(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+def _undecided(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
     units = Units(diagnosis.units)
-    facts = [("Accepted, not identified", f"{clean(f.statement)}; {when(f, units=units)}") for f in diagnosis.accepted]
+    facts: list[tuple[str, Told]] = []
+    for finding in diagnosis.accepted:
+        facts.append(("Accepted, not identified", f"{finding.statement}; {when(finding, units=units)}"))
     facts += [("Suggested", suggested(f, units)) for f in diagnosis.suggestions]
-    left = [remainder(r, Units(diagnosis.units)) for r in diagnosis.left[:_LEFT]]
-    facts += [("What is left", _each(left))] if left else []
-    alone = departing(diagnosis)
-    facts += [("Units", alone)] if alone else []
+    if left := [remainder(r, units) for r in diagnosis.left[:_LEFT]]:
+        facts.append(("What is left", _each(left)))
+    if alone := departing(diagnosis):
+        facts.append(("Units", alone))
     facts.append(("How much better", improvement(diagnosis)))
-    told = what_decides(diagnosis)
-    return [*facts, ("What would decide", told)] if told else facts
+    if told := what_decides(diagnosis):
+        facts.append(("What would decide", told))
+    return facts
 
 
-def _differ(diagnosis: Diagnosis) -> str:
-    """Where the fast simulation, which was fitted, predicts something else than what judged."""
-    most = diagnosis.differences[0]
-    return (
-        f"On {len(diagnosis.differences)} held-out channels the fast simulation, which was fitted, differs from what "
-        f"judged by more than a tenth of the noise; most on {most.channel} ({most.stage}): by {number(most.size)} "
-        f"deviations, and its chi-square per sample there is {number(most.chi_square)}."
-    )
-
-
-def _each(texts: Sequence[str]) -> Html:
+def _each(texts: Sequence[str]) -> list[str]:
     """One line for each finding, numbered where there are several."""
-    lines = texts if len(texts) == 1 else [f"{n}: {text}" for n, text in enumerate(texts, 1)]
-    return joined(element("div", line) for line in lines)
+    return list(texts) if len(texts) == 1 else [f"{n}: {text}" for n, text in enumerate(texts, 1)]
 
 
-def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Html:
-    if not diagnosis.findings:
-        return Html("")
-    parts: list[str] = []
-    if network.strings:
-        parts += [
-            image(network_figure(network, diagnosis.findings), "network of coils with what is concerned"),
-            element("p", _caption(diagnosis, network), class_="note"),
-        ]
+def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Section:
     begin, end = _extent(diagnosis, series)
-    if end > begin:
-        about = f"intervals in which each finding shows, {Units(diagnosis.units).span(begin, end)}"
-        note = "Bars: where an effect is at least a tenth of its largest, in the recording that shows it most."
-        parts += [image(timeline_figure(diagnosis.findings, begin, end), about), element("p", note, class_="note")]
-    if any(fit.channel.startswith(_OF_A_FABRIC) for fit in diagnosis.fit):
-        parts.append(element("p", coded(_ON_THE_FABRIC), class_="note"))
-    return _section("Where and when" if diagnosis.accepted else "Where and when it would act", *parts)
-
-
-def _caption(diagnosis: Diagnosis, network: Network) -> str:
-    """What the picture cannot show: findings that concern no single element of the network."""
-    others = [f"{n}: {f.place}" for n, f in enumerate(diagnosis.findings, 1) if not concerned(f, network)]
-    told = "Coloured: the elements concerned, in the colours of the findings below."
-    return f"{told} Not in the picture: {listed(others, 6)}." if others else told
+    return section(
+        "Where and when" if diagnosis.accepted else "Where and when it would act",
+        "place_and_time.html.j2",
+        network=network_figure(network, diagnosis.findings) if network.strings else "",
+        # What the picture cannot show: findings that concern no single element of the network.
+        others=[f"{n}: {f.place}" for n, f in enumerate(diagnosis.findings, 1) if not concerned(f, network)],
+        timeline=timeline_figure(diagnosis.findings, begin, end) if end > begin else "",
+        span=Units(diagnosis.units).span(begin, end),
+        is_fabric=any(fit.channel.startswith(_OF_A_FABRIC) for fit in diagnosis.fit),
+    )
 
 
 def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, float]:
@@ -245,64 +202,51 @@ def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, floa
     return (min([0.0, *moments]), max(moments)) if moments else (0.0, 0.0)
 
 
-def _figures(diagnosis: Diagnosis, series: Sequence[Series]) -> Html:
-    if not series:
-        return Html("")
-    drawn: dict[str, dict[bool, list[Html]]] = {}
+def _channels(diagnosis: Diagnosis, series: Sequence[Series]) -> Section:
+    """Figures of channels: training and, beside it, held out."""
+    units = Units(diagnosis.units)
+    drawn: dict[str, dict[bool, list[tuple[str, str]]]] = {}
     if not diagnosis.findings:  # what is left is the answer
         series = sorted(series, key=lambda s: not any(is_left_in(r, s) for r in diagnosis.left))
     for one in series:
         part = "held out" if one.is_held_out else "training"
         caption = f"{one.channel}, {one.recording} ({part})" if one.recording else f"{one.channel} ({part})"
-        picture = image(
-            series_figure(one, diagnosis.findings, diagnosis.left, Units(diagnosis.units)),
-            f"{caption}: measured and simulated",
-        )
-        figure = element("figure", element("figcaption", caption), picture)
-        drawn.setdefault(one.channel, {}).setdefault(one.is_held_out, []).append(figure)
-    told = (
-        "Those in which findings show most or most is left, and those that are met worst; the same channel in training "
-        "and held out side by side, where both recorded it. Above: measured and "
-        "simulated. Below: measured minus simulated. Shaded in training: where a finding shows; grey: where more than "
-        "noise is left."
-    )
-    note = element("p", told, class_="note")
-    rows = [
-        element("div", *(element("div", *parts[part]) for part in (False, True) if part in parts), class_="pair")
-        for parts in drawn.values()
-    ]
-    return _section("Channels", note, *rows)
+        picture = series_figure(one, diagnosis.findings, diagnosis.left, units)
+        drawn.setdefault(one.channel, {}).setdefault(one.is_held_out, []).append((caption, picture))
+    pairs = [[parts[part] for part in sorted(parts)] for parts in drawn.values()]
+    return section("Channels", "channels.html.j2", pairs=pairs)
 
 
-def _rests_on(diagnosis: Diagnosis) -> Html:
+def _rests_on(diagnosis: Diagnosis, units: Units) -> Section:
     """Scenario and recordings."""
-    if not diagnosis.recordings:
-        return Html("")
-    units = Units(diagnosis.units)
     rows = [
         (
-            clean(r.title),
+            r.title,
             "held out" if r.is_held_out else "training",
             units.span(r.begin, r.end),
             str(len(r.channels)),
             readings_text(r),
-            clean(r.path),
+            r.path,
         )
         for r in diagnosis.recordings
     ]
-    told = table(("recording", "part", "time", "channels", "readings", "folder"), rows)
-    parts = [element("p", "Scenario: ", element("code", clean(diagnosis.scenario))), told]
-    if thinning(diagnosis):
-        parts.append(element("p", thinning(diagnosis), class_="note"))
-    return _section("What it rests on", *parts)
+    return section(
+        "What it rests on",
+        "rests_on.html.j2",
+        scenario=diagnosis.scenario,
+        rows=rows,
+        thinning=thinning(diagnosis),
+    )
 
 
-def _certainty(diagnosis: Diagnosis) -> Html:
-    units = Units(diagnosis.units)
-    moved = [moved_text(m, units) for m in diagnosis.recalibration]
-    parts = [element("p", sureness(diagnosis)), element("p", structure(diagnosis))]
-    if diagnosis.differences:
-        parts.append(element("p", _differ(diagnosis)))
-    if moved:
-        parts += [element("p", moved_heading(diagnosis)), listing(moved)]
-    return _section("How sure", *parts)
+def _certainty(diagnosis: Diagnosis, units: Units) -> Section:
+    return section(
+        "How sure",
+        "certainty.html.j2",
+        sureness=sureness(diagnosis),
+        structure=structure(diagnosis),
+        differences=len(diagnosis.differences),
+        most=next(iter(diagnosis.differences), None),
+        heading=moved_heading(diagnosis),
+        moved=[moved_text(m, units) for m in diagnosis.recalibration],
+    )

@@ -8,8 +8,10 @@ import yaml
 from typer.testing import CliRunner
 
 from chainmail.camera.camera_file import CameraFile
+from chainmail.camera.frames import Frames
 from chainmail.camera.measure import measure
 from chainmail.camera.opencv import opencv
+from chainmail.camera.page import chosen_frames, write_page
 from chainmail.camera.rendered import motion_of_table, write_video
 from chainmail.camera.rig import load_rig
 from chainmail.camera.tracks import GAP, PART, REBUILT, SEEN
@@ -17,6 +19,7 @@ from cosim.cli import app
 from cosim.unit.errors import InputError
 from diagnosis.recording.recording import load_recording
 from tests.camera.fabrics import swaying
+from tests.diagnosis.test_report import Page
 
 SMALL = {
     "width": 480,
@@ -154,6 +157,21 @@ def test_command_writes_a_recording_that_is_read(crossed, tmp_path):
     again = CliRunner().invoke(app, given)
     assert isinstance(again.exception, InputError)
     assert "exists already" in str(again.exception)
+
+
+def test_a_title_is_escaped_once_on_the_page(crossed, tmp_path):
+    title = "<script>&\"' of Monday"
+    rig = yaml.safe_load((crossed / "rig.yaml").read_text())
+    odd = crossed / "odd.yaml"
+    odd.write_text(yaml.safe_dump({**rig, "title": title}))
+    found = measure(crossed / "frames", load_rig(odd), odd)
+    write_page(tmp_path / "track.html", found, load_rig(odd), Frames(crossed / "frames"))
+    page = Page((tmp_path / "track.html").read_text())
+    assert not page.open
+    assert "script" not in page.names
+    assert page.text.count(title) == 2  # of the window and above the page
+    assert page.names.count("figure") == len(chosen_frames(found))
+    assert page.names.count("svg") == len(chosen_frames(found)) + 4
 
 
 def test_rendering_depends_on_the_seed_alone(tmp_path):

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from cosim.cli import app
 from cosim.unit.errors import InputError
 from tests.check import rig
+from tests.diagnosis.test_report import Page
 
 
 def check(*arguments: str) -> tuple[int, str]:
@@ -31,7 +32,8 @@ def test_no_doubt_is_exit_code_0_and_a_page(tmp_path: Path) -> None:
     html = page.read_text()
     (picture,) = re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html)
     svg = base64.b64decode(picture).decode()
-    assert "http" not in html.replace("http://www.w3.org", "")
+    assert "http:" not in html.replace("http://www.w3.org", "")
+    assert "https:" not in html
     assert svg.count("<!-- measured -->") == svg.count("<!-- simulated -->") == 2
 
 
@@ -57,6 +59,19 @@ def test_a_fabric_is_not_simulated_and_the_page_says_so(tmp_path: Path) -> None:
     assert code == 0
     assert "a fabric in Bullet takes minutes to simulate: only the readings by themselves were looked at" in text
     assert "they were not compared with a simulation" in text
+
+
+def test_titles_are_escaped_once_on_the_page(tmp_path: Path) -> None:
+    title = "<script>&\"' of Monday"
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST)[:, ::-1], title=title)
+    check(str(a), "--scenario", "tclab", "--out", str(tmp_path / "page.html"))
+    text = (tmp_path / "page.html").read_text()
+    page = Page(text)
+    assert not page.open
+    assert "script" not in page.names
+    assert page.text.count(title) == 2  # its heading and the doubt
+    assert "coil[1].temperature reads like coil[2].temperature" in page.text
+    assert "<code>coil[1].temperature</code> reads like" in text
 
 
 def test_page_is_not_overwritten(tmp_path: Path) -> None:

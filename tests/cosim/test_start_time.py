@@ -32,8 +32,8 @@ print(*sys.modules, sep="\\n", file=sys.stderr)
 @pytest.mark.parametrize(
     ("command", "also"),
     [
-        (("--help",), ("numpy", "pint", "pydantic", "pybullet", "PySpice")),
-        (("run", "--help"), ("numpy", "pint")),
+        (("--help",), ("jinja2", "numpy", "pint", "pydantic", "pybullet", "PySpice")),
+        (("run", "--help"), ("jinja2", "numpy", "pint")),
         (("validate", "prototype_cantilever"), ()),
         (("validate", "tclab"), ("pybullet", "PySpice")),
     ],

@@ -8,9 +8,11 @@ import json
 import math
 import re
 import xml.etree.ElementTree as ElementTree
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
+from enum import Enum
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -55,7 +57,7 @@ class Page(HTMLParser):
         self.addresses += [v or "" for k, v in attrs if k == "src"]
         self.links += [v or "" for k, v in attrs if k == "href"]
         self.ids += [v or "" for k, v in attrs if k == "id"]
-        if tag not in ("meta", "img"):
+        if tag not in ("meta", "img", "input"):
             self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
@@ -65,7 +67,7 @@ class Page(HTMLParser):
         if "aside" in self.open:
             self.beside += data
         elif self.open and self.open[-1] != "style" and "nav" not in self.open:
-            self.text += data
+            self.text += data.replace("\n", " ")  # as browsers show it
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
@@ -245,8 +247,36 @@ def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
     text = read_page(tmp_path / "report.html")
     page = Page(text)
     assert "script" not in page.names
-    assert "<script>alert('x')</script> & \"run\"" in page.text
+    assert page.text.count("<script>alert('x')</script> & \"run\"") > 10
+    assert page.text.count("&") == page.text.count("</script> & ")  # nothing is escaped twice
     assert "\x1b" not in text
+
+
+def test_every_text_of_a_diagnosis_is_escaped_once(tmp_path: Path) -> None:
+    written, told = _hostile(replace(diagnosis(Verdict.MISSING_PHYSICS), left=diagnosis(Verdict.CANNOT_TELL).left))
+    write_html(told, [], tmp_path / "report.html", network=Network())
+    page = Page(read_page(tmp_path / "report.html"))
+    assert not page.open
+    assert "script" not in page.names
+    assert "&lt;" not in page.text
+    assert "&amp;" not in page.text
+    assert written > 50
+    assert page.text.count("<script>&\"'") > 30
+
+
+def _hostile(value: Any) -> tuple[int, Any]:
+    """Every text of a diagnosis with a tag, an ampersand and quotes after it, and how many there are."""
+    if isinstance(value, str) and not isinstance(value, Enum):
+        return 1, f"{value}<script>&\"'"
+    if isinstance(value, tuple):
+        parts = [_hostile(v) for v in value]
+        return sum(n for n, _ in parts), tuple(v for _, v in parts)
+    if is_dataclass(value) and not isinstance(value, type):
+        # Units and stages are keys of tables of numbers; a noise is one of a few words.
+        kept = ("unit", "units", "noise", "value_unit")
+        changed = {f.name: _hostile(getattr(value, f.name)) for f in fields(value) if f.name not in kept}
+        return sum(n for n, _ in changed.values()), replace(value, **{k: v for k, (_, v) in changed.items()})
+    return 0, value
 
 
 def test_a_page_without_held_out_recordings_and_without_a_network_says_so(tmp_path: Path) -> None:

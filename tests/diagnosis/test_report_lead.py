@@ -10,11 +10,10 @@ import pytest
 
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Estimate, Verdict
 from diagnosis.judge.isolability import FaultClass, Isolability
-from diagnosis.report.anchors import anchored
 from diagnosis.report.experiment_section import isolability_section
 from diagnosis.report.lead import lead, told, worst
-from diagnosis.report.markup import Html, joined
 from diagnosis.report.page import write_html
+from diagnosis.report.section import named, section
 from diagnosis.report.sentences import when
 from diagnosis.report.series import Series
 from diagnosis.report.user_units import Units
@@ -64,9 +63,11 @@ def test_the_worst_held_out_channel_is_taken_and_training_only_where_nothing_was
     found = worst(answer, series[2:])
     assert found is not None
     assert not found[0].is_held_out
-    assert "no recording was held out" in lead(answer, series[2:])
-    assert lead(answer, []) == ""
-    assert lead(replace(answer, fit=()), series) == ""
+    beside = lead(answer, series[2:])
+    assert beside is not None
+    assert "no recording was held out" in beside.whose
+    assert lead(answer, []) is None
+    assert lead(replace(answer, fit=()), series) is None
 
 
 def test_a_model_that_nothing_changed_has_one_number(answer: Diagnosis) -> None:
@@ -94,13 +95,13 @@ def test_training_stands_beside_held_out_and_the_command_runs_the_amended_model(
 
 def test_isolability_is_a_matrix_that_agrees_with_the_classes() -> None:
     classes = (FaultClass(("a", "b"), True), FaultClass(("c",), False))
-    page = Page(isolability_section(Isolability(("a and b look alike.",), classes)))
+    page = Page(isolability_section(Isolability(("a and b look alike.",), classes)).body)
     assert page.text.count("●") == 2  # a with b, b with a; what is in the note is words
     assert page.text.count("○") == 4
     assert page.text.count("yes") == 1 + 1
     assert page.text.count("no") - page.text.count("not") - page.text.count("note") >= 1
     many = (FaultClass(tuple(f"f{i}" for i in range(40)), True),)
-    assert "●" not in isolability_section(Isolability((), many))
+    assert "●" not in isolability_section(Isolability((), many)).body
 
 
 def test_a_law_with_an_instant_acts_from_then_on() -> None:
@@ -111,8 +112,5 @@ def test_a_law_with_an_instant_acts_from_then_on() -> None:
 
 
 def test_sections_of_one_title_have_names_of_their_own() -> None:
-    body, links = anchored(joined([Html("<section><h2>What is left</h2></section>")] * 2))
-    page = Page(body)
-    assert page.ids == ["what-is-left", "what-is-left-2"]
-    assert 'href="#what-is-left-2"' in links
-    assert 'aria-label="Sections"' in links
+    left = section("What is left", "left.html.j2", rows=[])
+    assert list(named([left, left])) == ["what-is-left", "what-is-left-2"]

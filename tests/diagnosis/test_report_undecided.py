@@ -12,13 +12,14 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from cosim.html_page import environment
 from diagnosis.curves import drawn_channels
 from diagnosis.judge.diagnosis import Diagnosis, Difference, Finding, Verdict
 from diagnosis.judge.isolability import ExtraChannel, Isolability
 from diagnosis.judge.location import Remainder
 from diagnosis.report.figures import residual_limits, series_figure
-from diagnosis.report.markup import coded
 from diagnosis.report.page import write_html
+from diagnosis.report.section import TEMPLATES
 from diagnosis.report.series import Series
 from diagnosis.report.summary import LINES, print_summary
 from tests.diagnosis.report_examples import CONTACT, EXPERIMENT, LAG, diagnosis, series
@@ -177,8 +178,9 @@ def test_how_the_fast_simulation_differs_stands_where_certainty_is_told(tmp_path
 
 
 def test_code_between_backticks_is_marked_and_stays_escaped() -> None:
-    assert coded("run `a <b>` now") == "run <code>a &lt;b&gt;</code> now"
-    assert coded("a < b") == "a &lt; b"
+    told = environment(TEMPLATES).from_string('{% from "parts.html.j2" import coded %}{{ coded(text) }}')
+    assert told.render(text="run `a <b>` now") == "run <code>a &lt;b&gt;</code> now"
+    assert told.render(text="a < b") == "a &lt; b"
 
 
 def test_only_the_best_extra_channel_is_called_so(tmp_path: Path) -> None:

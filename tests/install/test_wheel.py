@@ -70,6 +70,10 @@ def test_its_top_level_names_are_the_packages(wheel):
     for folder in ("scenarios", "scenarios/parameter_sets"):
         for file in (ROOT / folder).glob("*.yaml"):
             assert f"cosim/data/{folder}/{file.name}" in names
+    templates = [f for name in ("chainmail", "diagnosis") for f in (ROOT / name).rglob("*.j2")]
+    assert len(templates) > 10
+    for file in templates:
+        assert file.relative_to(ROOT).as_posix() in names
 
 
 def test_it_lists_scenarios_and_runs_one_with_an_fmu_that_it_builds_once(cosim):

@@ -1,6 +1,5 @@
 """The page: exactness of what it carries, size, and that nothing in a title can break out."""
 
-import html
 import json
 import re
 from dataclasses import replace
@@ -11,6 +10,7 @@ import pytest
 from chainmail.play.codec import decode
 from chainmail.play.film import Film, Finding, Marks, Point, Shape, Track
 from chainmail.play.page import LARGEST_ERROR, page
+from tests.diagnosis.test_report import Page
 
 from .films import SHAPE, corners, fabric
 
@@ -78,13 +78,17 @@ def test_a_page_asks_for_nothing_from_elsewhere():
 
 
 def test_titles_cannot_become_markup():
-    bad = "</script><script>alert(1)</script><b>&"
+    bad = "</script><script>alert(1)</script><b>&\"'"
     given = replace(fabric(frames=3), title=bad)
     marks = Marks(bad, (Point("marker", 1, (None, None, Track(np.arange(9.0), np.zeros(9)))),), (), (bad,))
     text = page(Film((given,), (marks,), (Finding(bad, bad, (1,), (), ((0.0, 1.0),), True),), (bad,)))
     assert "<script>alert" not in text
     assert text.count("</script>") == 3
-    assert f"<h1>{html.escape(bad)}</h1>" in text
+    told = Page(text)
+    assert not told.open
+    assert told.names.count("script") == 3
+    assert "b" not in told.names
+    assert told.text.count(bad) == 2  # of the window and above the page; the rest is JSON
     assert content(text)[0]["fabrics"][0]["title"] == bad
 
 
