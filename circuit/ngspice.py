@@ -7,13 +7,18 @@ although the solution is there. Reasons and measurements: docs/decisions/0005-ng
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import itertools
 import logging
+import os
 import re
+import sys
+import tempfile
 import threading
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -45,6 +50,32 @@ def is_error(line: str) -> bool:
     return _NOTE.match(line) is None and _ERROR.search(line) is not None
 
 
+@contextlib.contextmanager
+def _init_file() -> Iterator[None]:
+    """Let libngspice begin where the user has no entry in the password database, as in a container run with `--user`.
+
+    libngspice (39 at least) looks there for the home folder that may hold `.spiceinit`, and crashes if there is no
+    entry. It does not look where the working folder has such a file, so for this moment it gets an empty one.
+    """
+    if sys.platform == "win32" or _has_entry():
+        yield
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, ".spiceinit").write_text("* nothing\n")
+        with contextlib.chdir(folder):
+            yield
+
+
+def _has_entry() -> bool:
+    import pwd  # Unix alone has it
+
+    try:
+        pwd.getpwuid(os.getuid())
+    except KeyError:
+        return False
+    return True
+
+
 class Ngspice:
     """The one libngspice of this process; circuits take turns in it, one thread at a time (it is not thread-safe)."""
 
@@ -63,7 +94,8 @@ class Ngspice:
 
         NgSpiceShared.LIBRARY_PATH = path
         try:
-            self._shared: Any = NgSpiceShared.new_instance()
+            with _init_file():
+                self._shared: Any = NgSpiceShared.new_instance()
         except OSError as error:
             raise NgspiceMissingError(f"libngspice at {path} does not load: {error}") from error
         self._library: Any = self._shared._ngspice_shared

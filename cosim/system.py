@@ -90,6 +90,11 @@ class System:
         if found is None or found.causality not in causalities:
             names = [n for n, v in variables.items() if v.causality in causalities]
             what = "input" if Causality.INPUT in causalities else "output"
+            if what == "output" and end[1] in getattr(self.units[end[0]], "unrecorded", ()):
+                raise ConnectionFault(
+                    f"{connection}: {end[1]} is no output of {end[0]}, but a local variable of its FMU; "
+                    f"name it there, `record: [{end[1]}]`, and it can be connected"
+                )
             raise ConnectionFault(f"{connection}: {end[0]} has no {what} {end[1]}{_instead(end[1], names, 'it has')}")
         return found
 

@@ -94,5 +94,7 @@ def validate(file: File) -> None:
         console.print(f"{word}  {name}: ", end="")
         console.print(verdict.text, markup=False)
         failed += verdict.is_met is False
-    print(f"{file}: {'every check passes' if not failed else f'{failed} checks fail'}")
+    print(
+        f"{file}: {'every check passes' if not failed else f'{failed} check' + ('s fail' if failed > 1 else ' fails')}"
+    )
     raise typer.Exit(1 if failed else 0)

@@ -61,7 +61,7 @@ class StepResult(NamedTuple):
 _SPOKEN: dict[Interface, str] = {"co_simulation": "Co-Simulation", "model_exchange": "Model Exchange"}
 
 
-def _other_interface(archive: FmuArchive) -> str:
+def other_interface(archive: FmuArchive) -> str:
     """What to do where an FMU lacks the interface that was asked for."""
     description = archive.description
     if description.coSimulation is not None:
@@ -129,7 +129,7 @@ class Binding(ABC):
                 archive.path,
                 "modelDescription.xml",
                 f"it has no {_SPOKEN[interface]} interface",
-                _other_interface(archive),
+                other_interface(archive),
             )
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.

@@ -18,6 +18,8 @@ MAXIMUM_ENTRIES = 100_000
 MAXIMUM_RATIO = 200.0
 #: Archives that unpack to less than this may have any ratio [byte].
 HARMLESS_SIZE = 64 << 20
+#: Why a second entry of one name is refused. One with the same bytes does no harm: some tools pack a folder twice.
+TWICE = "this entry is there twice, with different contents"
 _CHUNK = 1 << 20
 _ENCRYPTED = 0x1
 
@@ -26,23 +28,23 @@ def check_entries(path: Path, entries: Sequence[zipfile.ZipInfo]) -> None:
     """Judge an archive by its table of contents.
 
     Raises:
-        InputError: An entry would leave the folder, is a link, a device, encrypted, there twice or both file and
-            folder, or the whole is too many or too large.
+        InputError: An entry would leave the folder, is a link, a device, encrypted, there twice with different
+            contents or both file and folder, or the whole is too many or too large.
     """
     if len(entries) > MAXIMUM_ENTRIES:
         raise _refused(path, "", f"it has {len(entries)} entries, more than {MAXIMUM_ENTRIES}")
-    files: set[PurePosixPath] = set()
+    files: dict[PurePosixPath, tuple[int, int]] = {}
     folders: set[PurePosixPath] = set()
     for entry in entries:
         name = _checked_name(path, entry)
         if entry.is_dir():
             folders.add(name)
             continue
-        if name in files:
-            raise _refused(path, entry.filename, "this entry is there twice")
-        files.add(name)
+        content = entry.file_size, entry.CRC
+        if files.setdefault(name, content) != content:
+            raise _refused(path, entry.filename, TWICE)
         folders.update(name.parents)
-    both = files & folders
+    both = files.keys() & folders
     if both:
         raise _refused(path, str(min(both)), "this entry is both a file and a folder")
     unpacked = sum(entry.file_size for entry in entries)
@@ -102,6 +104,9 @@ def _unpack_entry(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, 
         target.mkdir(parents=True, exist_ok=True)
         return
     target.parent.mkdir(parents=True, exist_ok=True)
+    if target.is_file():
+        _compare_entry(path, archive, entry, target)
+        return
     written = 0
     with archive.open(entry) as source, target.open("xb") as sink:
         while chunk := source.read(_CHUNK):
@@ -111,6 +116,17 @@ def _unpack_entry(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, 
             sink.write(chunk)
     if (entry.external_attr >> 16) & stat.S_IXUSR:  # FMUs that wrap a tool start programs of their resources
         target.chmod(0o700)
+
+
+def _compare_entry(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path) -> None:
+    """Refuse a second entry of one name unless it holds the bytes of the first; a checksum can be forged."""
+    with archive.open(entry) as source, target.open("rb") as first:
+        while True:
+            chunk = source.read(_CHUNK)
+            if chunk != first.read(len(chunk) or 1):
+                raise _refused(path, entry.filename, TWICE)
+            if not chunk:
+                return
 
 
 def remove(folder: Path) -> None:

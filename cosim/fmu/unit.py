@@ -21,6 +21,7 @@ from cosim.fmu.versions import bind
 from cosim.unit.protocol import (
     NANOSECONDS,
     AnyArray,
+    Causality,
     Coordinate,
     StepOutcome,
     Unit,
@@ -95,6 +96,9 @@ class FmuUnit(Unit):
         self.table = Table(name, archive, settings)
         variables = {n: v.variable for n, v in self.table.exposed.items()}
         self.variables: Mapping[str, Variable] = variables
+        #: Variables that `record` would make readable.
+        self.unrecorded = frozenset(n for n, v in self.table.all.items() if v.variable.causality is Causality.LOCAL)
+        self.unrecorded -= variables.keys()
         found = dependencies(archive.description, self.table.exposed)
         self.feedthrough, self.initial_feedthrough = found.feedthrough, found.initial
         self.binding: Binding = bind(archive, interface, name)

@@ -65,7 +65,9 @@ def description(path: Path) -> str:
 
 def _binary(archive: FmuArchive) -> Path:
     d = archive.description
-    kind = d.coSimulation or d.modelExchange
+    kind = d.coSimulation or d.modelExchange or d.scheduledExecution
+    if kind is None:
+        raise ValueError("it declares no interface")
     for folder in (fmpy.platform_tuple, fmpy.platform):
         file: Path = archive.directory / "binaries" / folder / f"{kind.modelIdentifier}{fmpy.sharedLibraryExtension}"
         if file.is_file():
@@ -117,7 +119,9 @@ def _not_offered(archive: FmuArchive, version: str) -> set[str]:
         left |= MODEL_EXCHANGE[version]
     if d.coSimulation is None:
         left |= CO_SIMULATION[version]
-    return left | ({"InstantiateScheduledExecution", "ActivateModelPartition"} if version == "3" else set())
+    if version == "3" and d.scheduledExecution is None:
+        left |= {"InstantiateScheduledExecution", "ActivateModelPartition"}
+    return left
 
 
 def libraries(path: Path) -> str:

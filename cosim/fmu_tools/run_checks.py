@@ -163,11 +163,20 @@ def interfaces_agree(path: Path) -> str:
     other = _advance(_begun(path, "model_exchange"), 0, STEPS)
     worst, where = 0.0, ""
     for name, values in one.items():
-        a, b = np.array(values, dtype=float), np.array(other[name], dtype=float)
-        scale = float(np.abs(a).max()) or 1.0
-        off = float(np.abs(a - b).max()) / scale
+        off = _difference(np.array(values), np.array(other[name]))
         if off > worst:
             worst, where = off, name
     if worst > SAME:
-        raise ValueError(f"{where} differs by {worst:.1e} of its size, more than {SAME:g}")
+        size = f"by {worst:.1e} of its size, more than {SAME:g}" if np.isfinite(worst) else "between them"
+        raise ValueError(f"{where} differs {size}")
     return f"largest difference {worst:.1e} of the size" + (f" ({where})" if where else "")
+
+
+def _difference(one: AnyArray, other: AnyArray) -> float:
+    """Largest difference relative to the largest value; infinite where one alone is no finite number, or no number."""
+    if one.dtype.kind != "f":
+        return 0.0 if np.array_equal(one, other) else np.inf
+    if np.array_equal(one, other, equal_nan=True):
+        return 0.0
+    off = float(np.abs(one - other).max()) / (float(np.abs(one).max()) or 1.0)
+    return off if np.isfinite(off) else np.inf

@@ -56,6 +56,7 @@ class IsolatedUnit(Unit):
         self.coordinates: Mapping[str, Coordinate] = facts["coordinates"]
         self.feedthrough: Mapping[str, frozenset[str]] = facts["feedthrough"]
         self.initial_feedthrough: Mapping[str, frozenset[str]] = facts["initial_feedthrough"]
+        self.unrecorded: frozenset[str] = facts["unrecorded"]
         self.can_restore: bool = facts["can_restore"]
         self.can_checkpoint: bool = facts["can_checkpoint"]
         self._shared = SharedArrays(self._process.memory, self.variables, is_owner=False)

@@ -181,3 +181,31 @@ def test_after_a_failure_the_next_step_solves_again():
     unit.do_step(0, 1)
     # two strings of 4.5 ohm at 3 V; rounding
     assert unit.get("supply_current") == pytest.approx(2 * 3.0 / 4.5, rel=1e-12)
+
+
+def test_a_user_without_an_entry_in_the_password_database_gets_a_circuit():
+    # As in a container that is run with `--user`: libngspice 39 crashes there when it looks for ~/.spiceinit.
+    code = (
+        "import pwd\n"
+        "def none(uid):\n    raise KeyError(f'getpwuid(): uid not found: {uid}')\n"
+        "pwd.getpwuid = none\n"
+        "import os, pathlib\n"
+        "from circuit import ngspice\n"
+        "before, seen, write = os.getcwd(), [], pathlib.Path.write_text\n"
+        "pathlib.Path.write_text = lambda p, text: seen.append(p.name) or write(p, text)\n"
+    )
+    done = run_in_new_process(f"{code}{_ONE_CIRCUIT}print(seen, os.getcwd() == before)\n")
+    assert done.stdout == "['.spiceinit'] True\n", done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root may take another user's number")
+def test_a_number_that_no_user_has_does_not_crash_libngspice():
+    # Everything is imported before the change, because that user may read neither this clone nor this Python.
+    code = (
+        "import os, tempfile\nfrom circuit.installation import find_ngspice\nfrom circuit import ngspice\n"
+        "from PySpice.Spice.NgSpice.Shared import NgSpiceShared\n"
+        "os.chdir('/')\nfind_ngspice()\nos.setgid(54321), os.setuid(54321)\n"
+        "print(ngspice._has_entry(), ngspice.Ngspice().version > 0)\n"
+    )
+    done = run_in_new_process(code, TMPDIR="/tmp")
+    assert (done.returncode, done.stdout) == (0, "False True\n"), done.stderr

@@ -66,11 +66,25 @@ def _is_ours(folder):
     return folder in temporary._locks
 
 
-def test_an_entry_that_is_there_twice_is_refused(tmp_path):
+# The last two have one length and one CRC-32.
+@pytest.mark.parametrize(("first", "second"), [("1", "2"), ("1", "11"), ("", "1"), ("plumless", "buckeroo")])
+def test_an_entry_that_is_there_twice_with_different_contents_is_refused(tmp_path, first, second):
     with pytest.warns(UserWarning, match="Duplicate name"):
-        path = archive_of(tmp_path / "twice.fmu", [("a", "1"), ("a", "2")])
-    with pytest.raises(InputError, match="there twice"):
+        path = archive_of(tmp_path / "twice.fmu", [("a", first), ("a", second)])
+    with pytest.raises(InputError, match="there twice, with different contents"):
         open_fmu(path)
+
+
+def test_an_entry_that_is_packed_twice_with_the_same_contents_is_read_once(tmp_path, built):
+    with zipfile.ZipFile(built["ball", 3]) as ball:
+        entries = [(n, ball.read(n)) for n in ball.namelist()]
+    twice = [("extra/org.example/notes.xml", "<notes/>"), ("extra/org.example/empty", "")]
+    with pytest.warns(UserWarning, match="Duplicate name"):
+        path = archive_of(tmp_path / "twice.fmu", [*entries, *twice, *twice])
+    archive = open_fmu(path)
+    assert (archive.directory / "extra/org.example/notes.xml").read_text() == "<notes/>"
+    assert (archive.directory / "extra/org.example/empty").read_text() == ""
+    archive.remove()
 
 
 def test_a_zip_bomb_is_refused_by_its_ratio_and_its_size(tmp_path, monkeypatch):

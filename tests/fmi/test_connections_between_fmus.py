@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -209,3 +210,19 @@ def test_scheduled_execution_alone_is_named_as_such(built: Built, tmp_path: Path
     with pytest.raises(InputError, match="it has no Model Exchange interface") as caught:
         assemble(scenario(tmp_path, {"u": {"fmu": str(wanted), "integrator": "cvode"}}, []))
     assert "write `integrator: internal`" in caught.value.remedy
+
+
+@pytest.mark.parametrize("isolation", ["none", "process"])
+def test_a_second_name_of_an_output_is_connected_once_it_is_recorded(built: Built, tmp_path: Path, isolation: str):
+    with zipfile.ZipFile(built["ball", 3]) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    old = next(line for line in text.splitlines() if 'name="height"' in line)
+    new = old.replace("/>", '><Alias name="depth" description="the same"/></Float64>')
+    ball = {"fmu": str(described(built["ball", 3], tmp_path / "ball.fmu", old, new)), "isolation": isolation}
+    connections = [{"connect": "ball.depth -> echo.float64_in", "convert_units": False}]
+    with pytest.raises(
+        InputError, match=r"depth is no output of ball, but a local variable of its FMU.*record: \[depth"
+    ):
+        assemble(scenario(tmp_path, {"ball": ball, "echo": built["echo", 3]}, connections))
+    found = result(tmp_path, {"ball": {**ball, "record": ["depth"]}, "echo": built["echo", 3]}, connections)
+    assert np.array_equal(found["echo.float64_out"], found["ball.height"])
