@@ -15,8 +15,9 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.score import LEAST_VISIBLE
 
-#: Scatter, in deviations of the noise, up to which the readings of a sensor stand still: noise may be stated too small.
-STILL = 2.0
+#: Scatter, in deviations of the noise, up to which the readings of a sensor stand still. One that holds a value repeats
+#: it; where readings scatter as noise does, a sensor that works reads something that rests.
+STILL = 0.25
 
 
 @dataclass(frozen=True)
