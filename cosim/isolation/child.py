@@ -118,7 +118,7 @@ class Server:
                 "coordinates": dict(unit.coordinates),
                 "feedthrough": dict(unit.feedthrough),
                 "initial_feedthrough": dict(unit.initial_feedthrough),
-                "unrecorded": unit.unrecorded,
+                "unrecorded": getattr(unit, "unrecorded", frozenset()),
                 "can_restore": unit.can_restore,
                 "can_checkpoint": unit.can_checkpoint,
             },
