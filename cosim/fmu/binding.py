@@ -25,7 +25,7 @@ from cosim.fmu.access import (
     TextReader,
     TextWriter,
 )
-from cosim.fmu.archive import FmuArchive
+from cosim.fmu.archive import FmuArchive, missing_binary
 from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
@@ -142,6 +142,10 @@ class Binding(ABC):
         except Exception as error:  # fmpy raises bare Exception
             if self._claimed is not None:
                 del _ONLY_ONCE[self._claimed]
+            missing = missing_binary(archive, kind.modelIdentifier)
+            if missing:
+                remedy = "FMI names the library after the modelIdentifier; export the FMU again, or rename it"
+                raise InputError(archive.path, "binaries", missing, remedy) from error
             said = "".join(f"; it says: {m}" for m in self.messages[-3:])
             raise InputError(
                 archive.path,

@@ -12,7 +12,7 @@ import fmpy
 from fmpy.validation import validate_fmu
 
 from cosim.actuator.interface import faults
-from cosim.fmu.archive import FmuArchive, open_fmu
+from cosim.fmu.archive import FmuArchive, missing_binary, open_fmu
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.units import UnitNames
 from cosim.fmu_tools.info import looks_like_actuator
@@ -72,7 +72,7 @@ def _binary(archive: FmuArchive) -> Path:
         file: Path = archive.directory / "binaries" / folder / f"{kind.modelIdentifier}{fmpy.sharedLibraryExtension}"
         if file.is_file():
             return file
-    raise ValueError(f"no {kind.modelIdentifier}{fmpy.sharedLibraryExtension} for {fmpy.platform_tuple}")
+    raise ValueError(missing_binary(archive, kind.modelIdentifier))
 
 
 def binary(path: Path) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import signal
 from collections.abc import Callable
@@ -58,6 +59,7 @@ def run_isolated(check: Callable[[Path], str], path: Path) -> Verdict:
 
 
 def _work(check: Callable[[Path], str], path: Path, sender: Connection) -> None:
+    logging.disable(logging.WARNING)  # what is wrong with the description is a check of its own
     try:
         answer: tuple[bool | None, str] = True, check(path)
     except Skipped as reason:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from cosim.fmu.archive import open_fmu
+from cosim.fmu.archive import missing_binary, open_fmu
 from cosim.fmu.binding import other_interface
 from cosim.fmu_tools import file_checks, run_checks
 from cosim.fmu_tools.isolated import Verdict, run_isolated
@@ -55,16 +55,16 @@ def validate(path: Path) -> Iterator[tuple[str, Verdict]]:
         InputError: It cannot even be opened as an FMU.
     """
     archive = open_fmu(path)
-    can_run = archive.description.coSimulation is not None or archive.description.modelExchange is not None
-    instead = other_interface(archive)
-    archive.remove()
+    kind = archive.description.coSimulation or archive.description.modelExchange
+    instead = other_interface(archive) if kind is None else missing_binary(archive, kind.modelIdentifier)
     is_actuator = file_checks.is_actuator(path)
-    for check in FILE_CHECKS + RUN_CHECKS if can_run else FILE_CHECKS:
+    archive.remove()
+    for check in FILE_CHECKS if instead else FILE_CHECKS + RUN_CHECKS:
         verdict = run_isolated(check.run, path)
         if verdict.is_met is False and check.is_for_actuators and not is_actuator:
             verdict = Verdict(None, f"{verdict.text} (FMI leaves this open)")
         yield check.name, verdict
-    if not can_run:
+    if instead:
         first, *others = RUN_CHECKS
         yield first.name, Verdict(False, instead)
         for check in others:

@@ -9,9 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cosim.fmu.archive import open_fmu
+from cosim.fmu.co_simulation import CoSimulationUnit
+from cosim.fmu.settings import FmuSettings
 from cosim.fmu_tools.isolated import Verdict
 from cosim.fmu_tools.run_checks import _difference
 from cosim.fmu_tools.validate import validate
+from cosim.unit.errors import InputError
 from tests.fmi import fmi_models
 from tests.fmi.fmi_models import build, described
 
@@ -72,3 +76,37 @@ def test_a_rough_solver_of_its_own_is_reported_and_is_no_failure(tmp_path, monke
 def test_traces_of_every_type_are_compared(one, other, difference):
     kind = object if isinstance(one[0], str) else None
     assert _difference(np.array(one, dtype=kind), np.array(other, dtype=kind)) == difference
+
+
+def test_a_library_that_is_not_named_after_the_model_is_told_with_the_name_it_has(built, tmp_path):
+    path = tmp_path / "other.fmu"
+    with zipfile.ZipFile(built["ball", 2]) as source, zipfile.ZipFile(path, "w") as target:
+        for name in source.namelist():
+            target.writestr(name.replace("ball.so", "tank-ball.so"), source.read(name))
+    found = verdicts(path)
+    assert "no ball.so for" in found["binary for this platform"].text
+    assert found["initialises and steps"].text.endswith("where it holds tank-ball.so")
+    assert found["instances independent"] == Verdict(None, "cannot be run here")
+    with pytest.raises(InputError, match=r"it holds tank-ball\.so[\s\S]*after the modelIdentifier"):
+        CoSimulationUnit("ball", open_fmu(path), FmuSettings())
+
+
+def test_one_instance_per_process_is_no_fault_and_warnings_are_given_once(built, tmp_path, capfd, caplog):
+    once = described(
+        built["ball", 2],
+        tmp_path / "once.fmu",
+        '<CoSimulation modelIdentifier="ball"',
+        '<CoSimulation modelIdentifier="ball" canBeInstantiatedOnlyOncePerProcess="true"',
+    )
+    twice = described(
+        once,
+        tmp_path / "twice.fmu",
+        'name="impacts" valueReference="6" causality="output" variability="discrete"',
+        'name="impacts" valueReference="6" causality="output" variability="tunable"',
+    )
+    found = verdicts(once)
+    assert found["instances independent"] == Verdict(None, "it allows one instance per process")
+    assert [n for n, v in found.items() if v.is_met is False] == []
+    caplog.clear()
+    verdicts(twice)
+    assert capfd.readouterr().err.count("is not valid") + caplog.text.count("is not valid") == 1
