@@ -28,6 +28,11 @@ RAMPS = (5.0, 8.0)
 #: A temperature that steps by so many times its largest change from one reading to the next elsewhere steps faster than
 #: the rig makes it: a heat flow may double where another comes to it.
 FASTER = 2.0
+#: Readings at an end of a channel from which they may be an end of the sensor's range, and share of equal neighbours
+#: elsewhere up to which equal ones are no rounding.
+MANY, RARE = 8, 0.2
+#: Equal readings in a row from which they repeat a value.
+REPEATS = 4
 #: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
@@ -59,7 +64,7 @@ def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
     found = []
     for beside in compared.channels.values():
         stuck = stuck_stretches(compared, beside)
-        found += [*_noise(compared, beside, bool(stuck)), *_gaps(compared, beside)]
+        found += [*_noise(compared, beside), *_gaps(compared, beside), *_ends(compared, beside)]
         found += [_stuck(compared, beside, a, b) for a, b in stuck]
         steps = _steps(compared, beside) if is_timed else []
         found += [d for d in steps if not any(_near(beside, d, s) for s in stuck)]
@@ -83,10 +88,49 @@ def _near(beside: Beside, doubt: Doubt, stretch: tuple[int, int]) -> bool:
     return bool(begin <= doubt.begin <= end or begin <= doubt.end <= end)
 
 
-def _noise(compared: Compared, beside: Beside, stood_still: bool) -> list[Doubt]:
+def _repeats(values: Array) -> AnyArray:
+    """Readings in a row of `REPEATS` equal ones or more, shape (readings,)."""
+    ends = np.flatnonzero(np.diff(values) != 0.0) + 1
+    runs = np.diff(np.concatenate([[0], ends, [len(values)]]))
+    return np.asarray(np.repeat(runs >= REPEATS, runs))
+
+
+def _ends(compared: Compared, beside: Beside) -> list[Doubt]:
+    """Readings that repeat the largest or the smallest value, where they scatter elsewhere: an end of the range.
+
+    Where the quantity is 0 there, a sensor of what is switched off, or one that rounds coarsely, does the same.
+    """
+    channel, values = beside.channel, beside.channel.values
+    if len(values) < 32 or channel.is_clipped.any():
+        return []
+    repeats = _repeats(values)
+    elsewhere = values[~repeats]
+    if len(elsewhere) < 16 or not np.mean(np.diff(elsewhere) == 0.0) < RARE:
+        return []
+    found = []
+    for value, name, key in ((values.max(), "largest", "maximum"), (values.min(), "smallest", "minimum")):
+        held = repeats & (values == value)
+        count = int(np.count_nonzero(held))
+        if count < MANY or value == 0.0:
+            continue
+        shown = compared.units.text(float(value), channel.unit, is_difference=False)
+        text = (
+            f"{count} of {len(values)} readings repeat its {name} value, {shown}, while it scatters elsewhere: the "
+            f"sensor's range may end there"
+        )
+        remedy = f"if it does, state `{key}`: such readings then count as what lies there or beyond"
+        times = channel.times[held]
+        begin, end = float(times[0]), float(times[-1])
+        found.append(
+            Doubt(compared.recording.title, channel.name, "range", text, remedy, False, begin, end, float(count))
+        )
+    return found
+
+
+def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     """Stated noise against the scatter between neighbours: chi-square of their differences.
 
-    Readings of a sensor that stands still for a while scatter less than its noise there, which says nothing of it.
+    Readings that repeat a value, of a sensor that stands still or is at an end of its range, say nothing of its noise.
     """
     channel = beside.channel
     if not channel.is_deviation_given or len(channel.values) < 32:
@@ -98,8 +142,13 @@ def _noise(compared: Compared, beside: Beside, stood_still: bool) -> list[Doubt]
     tail = LEVEL / len(compared.channels)
     least, most = chi_square_beyond(1.0 - tail, degrees), chi_square_beyond(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
-    if is_small and stood_still:
-        return []
+    moving = ~_repeats(channel.values)
+    if is_small and not moving.all():
+        count = int(np.count_nonzero(moving))
+        own = estimate_noise(channel.times[moving], channel.values[moving], channel.quantum) if count >= 32 else stated
+        degrees, seen, ratio = count / 3.0, own, own / stated
+        if not degrees * (ratio * HONEST) ** 2 < chi_square_beyond(1.0 - tail, max(degrees, 1.0)):
+            return []
     if not is_small and not degrees * (ratio / HONEST) ** 2 > most:
         return []
     if not is_small and is_unresolved(channel.times, channel.values, channel.quantum):
