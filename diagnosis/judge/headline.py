@@ -95,7 +95,9 @@ def notes(
     if named.suggested:
         told.append(f"Suggested by the training recordings alone, not accepted: {named.suggested}.")
     if adequacy.day:
-        told.append(f"That takes for granted: {day_of(adequacy, units)}.")
+        told.append(
+            f"That takes for granted: {day_of(adequacy, units)}. The rows of fits of each channel are without it."
+        )
     if adequacy.wild:
         one = (
             "1 reading stands out alone and is"

@@ -14,6 +14,8 @@ from diagnosis.report.sentences import where
 from diagnosis.report.summary import print_summary
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 
+DAY_TOLD = "That takes for granted: room temperature of recording 1: +0.310 K. The rows of fits of each channel are without it."
+
 
 def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> None:
     told = headline(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
@@ -23,7 +25,7 @@ def test_what_is_explained_and_what_stays_stand_in_the_unit_of_the_channel() -> 
         "8.0 times the noise that is stated: something else is missing or wrong."
     )
     (day,) = notes(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
-    assert day == "That takes for granted: room temperature of recording 1: +0.310 K."
+    assert day == DAY_TOLD
 
 
 def test_a_fault_beside_physics_is_no_physics() -> None:
@@ -158,7 +160,7 @@ def test_a_headline_has_two_sentences_at_most_and_the_rest_stands_below() -> Non
         "Accepted, as it improves the prediction of the held-out recordings but not identified, so it does not decide: "
         "sensor lag, coil[1,2].temperature. The rig, a sensor or an input may do that.",
         "Suggested by the training recordings alone, not accepted: contact resistance in a string, string[3].",
-        "That takes for granted: room temperature of recording 1: +0.310 K.",
+        DAY_TOLD,
     )
 
 
