@@ -180,7 +180,7 @@ def test_a_sensor_that_stands_still_half_of_the_time_has_the_noise_that_is_state
 
 
 def test_readings_that_repeat_the_largest_value_may_be_an_end_of_the_range(room: Path) -> None:
-    """A sensor that ends at 21 degC, which nobody stated: a note, not a noise that is stated too large, and no fault."""
+    """A sensor that ends at 21 degC, which nobody stated: a note, not a noise that is stated too large, no fault."""
     week(1, slice(0, 0), 0.0, room / "first")
     scenario = load_scenario(room / "scenario.yaml")
     assert check_recordings(scenario, [load_recording(room / "first")]) == ()
