@@ -111,7 +111,7 @@ def open_fmu(path: Path, is_shared: bool = True) -> FmuArchive:
             that `cosim.fmu.extraction` refuses.
     """
     if not os.path.isfile(path):  # also of a name too long, where `Path` raises
-        if path.is_dir():
+        if os.path.isdir(path):
             raise InputError(path, "", "there is no such FMU: this is a folder", "give the .fmu file")
         raise InputError(path, "", "there is no such FMU", "build the FMUs with `make fmus`, or correct the path")
     state = os.stat(path)

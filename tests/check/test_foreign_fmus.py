@@ -105,7 +105,7 @@ def test_an_output_called_y_is_what_its_unit_says(folder: Path) -> None:
 
 def test_what_is_shown_is_in_the_unit_of_the_column(folder: Path) -> None:
     one = compare(load_scenario(folder / "scenario.yaml"), load_recording(write(folder, "shown", noise="2 mV")))
-    told = row(one.channels["rig.y"], one.units)
+    told = row(one.channels["rig.y"], one.units_of("rig.y"), one.units.scale(one.end, "s"))
     assert told.noise.endswith("mV")
     assert told.ranges[0].endswith("mV")
     (noise,) = [d for d in check_recordings(one.base, [one.recording]) if d.kind == "noise"]
