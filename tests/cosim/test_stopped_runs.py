@@ -196,7 +196,7 @@ def test_a_checkpoint_that_is_damaged_is_named_with_the_way_out(tmp_path):
 
 def test_a_run_too_long_for_memory_is_refused():
     clock = heating().time.model_copy(update={"stop": quantity("1e12 s"), "checkpoint_step": quantity("1e12 s")})
-    with pytest.raises(InputError, match="macro-steps with .* free memory") as caught:
+    with pytest.raises(InputError, match=r"macro-steps with .* free memory") as caught:
         run(heating().model_copy(update={"time": clock}))
     assert caught.value.key == "time.output_step"
 
