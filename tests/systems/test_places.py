@@ -130,6 +130,8 @@ def test_a_lag_of_a_macro_step_is_an_error_of_the_coupling_and_no_finding(folder
     found = {f.term.identifier: f for f in fits(places_of([system]), library(), 1.0, 0.5)}
     system.close()
     assert found["input_lag"].term.parameters[0].negligible == 0.5
+    limit = found["input_rate_limit"].term.parameters[0]  # seconds for each unit: late by as much at the input's size
+    assert limit.negligible == pytest.approx(0.5 * limit.starts[0] / 3.0, rel=1e-9)
     assert found["free_outflow"].term.parameters[0].negligible == 0.0
 
 

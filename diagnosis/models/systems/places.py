@@ -384,9 +384,18 @@ def _parameter(
         middle + size * lower,
         middle + size * number.most,
         starts,
-        negligible=macro_step if scale.unit(number.of) == "s" else 0.0,
+        negligible=_negligible(number, scale, symbols, macro_step),
         meaning=number.meaning,
     )
+
+
+def _negligible(number: Number, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float) -> float:
+    """Size of a number by which a law is late by no more than a macro-step: values that pass between FMUs are too."""
+    if scale.unit(number.of) == "s":
+        return macro_step
+    if "u" in symbols and scale.unit(f"({number.of}) * u") == "s":  # time for each unit of an input's way
+        return macro_step * scale.size("1 / u")
+    return 0.0
 
 
 def _form(placed: Placed) -> str:
