@@ -382,7 +382,8 @@ def growth_gain(compared: Compared, is_late: bool = False) -> float:
         inputs = direct(compared, times)
         return [np.concatenate([inputs, inputs * _share(times)])]
 
-    return max(_gain_of(compared, columns) for columns in (of_the_body, of_the_inputs)[: 1 if is_late else 2])
+    by_body = _gain_of(compared, of_the_body)
+    return by_body if is_late else max(by_body, _gain_of(compared, of_the_inputs))
 
 
 def _share(times: Array) -> Array:

@@ -16,7 +16,7 @@ from diagnosis.check.explain import LEVEL, explained
 from diagnosis.check.feedthrough import QUIETER, quieter
 from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.noise import estimate_noise, is_unresolved
+from diagnosis.recording.noise import estimate_noise, is_unresolved, repeated, repeats_end
 from diagnosis.report.display import instant
 
 #: A noise is measured by its neighbours to within a factor: what filters and pickup do to neighbouring readings counts.
@@ -28,11 +28,8 @@ RAMPS = (5.0, 8.0)
 #: A temperature that steps by so many times its largest change from one reading to the next elsewhere steps faster than
 #: the rig makes it: a heat flow may double where another comes to it.
 FASTER = 2.0
-#: Readings at an end of a channel from which they may be an end of the sensor's range, and share of equal neighbours
-#: elsewhere up to which equal ones are no rounding.
-MANY, RARE = 8, 0.2
-#: Equal readings in a row from which they repeat a value.
-REPEATS = 4
+#: Readings at an end of a channel from which they may be an end of the sensor's range.
+MANY = 8
 #: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
@@ -88,13 +85,6 @@ def _near(beside: Beside, doubt: Doubt, stretch: tuple[int, int]) -> bool:
     return bool(begin <= doubt.begin <= end or begin <= doubt.end <= end)
 
 
-def _repeats(values: Array) -> AnyArray:
-    """Readings in a row of `REPEATS` equal ones or more, shape (readings,)."""
-    ends = np.flatnonzero(np.diff(values) != 0.0) + 1
-    runs = np.diff(np.concatenate([[0], ends, [len(values)]]))
-    return np.asarray(np.repeat(runs >= REPEATS, runs))
-
-
 def _ends(compared: Compared, beside: Beside) -> list[Doubt]:
     """Readings that repeat the largest or the smallest value, where they scatter elsewhere: an end of the range.
 
@@ -103,10 +93,7 @@ def _ends(compared: Compared, beside: Beside) -> list[Doubt]:
     channel, values = beside.channel, beside.channel.values
     if len(values) < 32 or channel.is_clipped.any():
         return []
-    repeats = _repeats(values)
-    elsewhere = values[~repeats]
-    if len(elsewhere) < 16 or not np.mean(np.diff(elsewhere) == 0.0) < RARE:
-        return []
+    repeats = repeats_end(values)
     found = []
     for value, name, key in ((values.max(), "largest", "maximum"), (values.min(), "smallest", "minimum")):
         held = repeats & (values == value)
@@ -142,7 +129,7 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     tail = LEVEL / len(compared.channels)
     least, most = chi_square_beyond(1.0 - tail, degrees), chi_square_beyond(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
-    moving = ~_repeats(channel.values)
+    moving = ~repeated(channel.values)
     if is_small and not moving.all():
         count = int(np.count_nonzero(moving))
         own = estimate_noise(channel.times[moving], channel.values[moving], channel.quantum) if count >= 32 else stated

@@ -102,7 +102,7 @@ def closed(model: Model, fit: Fit) -> tuple[Location, ...]:
 
 
 def _called(unit: str, model: Model) -> str:
-    """The part of a model as it is told: what is in no other part is mechanical only where its channels are."""
+    """The part of a model in words: what is in no other part is mechanical only where its channels are."""
     targets = [s.channel.target for run in getattr(model, "runs", ()) for s in run.series]
     if unit != "mechanical" or len(targets) != len(model.layout.units):
         return unit

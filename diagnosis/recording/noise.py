@@ -53,7 +53,7 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     floor = max(step / np.sqrt(12.0), LEAST * spread, 1e-9 * size, float(np.finfo(float).tiny))
     if len(values) < 3:
         return float(floor)
-    is_free = ~_is_stuck(values)
+    is_free = ~repeats_end(values)
     found = _deviation(times, values, step, 1, is_free)
     if len(values) >= _ENOUGH:
         finer = _deviation(times, values, step, 2, is_free)
@@ -74,7 +74,7 @@ def is_unresolved(times: Array, values: Array, quantum: float = 0.0) -> bool:
     """
     if len(values) < _ENOUGH:
         return False
-    step, is_free = quantum or find_quantum(values), ~_is_stuck(values)
+    step, is_free = quantum or find_quantum(values), ~repeats_end(values)
     line, cubic, quintic = (_deviation(times, values, step, reach, is_free) for reach in (1, 2, 3))
     return bool(cubic < (1.0 - _CURVED) * line and quintic < (1.0 - _CURVED) * cubic)
 
@@ -99,18 +99,21 @@ def find_quantum(values: Array) -> float:
     return float(np.mean(gaps[(gaps >= smallest) & (gaps < 1.5 * smallest)]))
 
 
-def _is_stuck(values: Array) -> AnyArray:
+def repeated(values: Array) -> AnyArray:
+    """Whether each reading is one of `_STUCK` equal ones in a row or more, shape (samples,)."""
+    edges = np.concatenate([[0], np.flatnonzero(np.diff(values) != 0.0) + 1, [len(values)]])
+    length = np.diff(edges)
+    return np.asarray(np.repeat(length >= _STUCK, length))
+
+
+def repeats_end(values: Array) -> AnyArray:
     """Whether each reading is one of a row of equal ones at the end of the range, shape (samples,).
 
     Where other neighbours are equal too, the sensor rounds by more than its noise: then a row tells nothing.
     """
-    is_equal = np.diff(values) == 0.0
-    edges = np.concatenate([[0], np.flatnonzero(~is_equal) + 1, [len(values)]])
-    row, length = values[edges[:-1]], np.diff(edges)
-    is_end = (row == np.max(values)) | (row == np.min(values))
-    found = np.repeat(is_end & (length >= _STUCK), length)
-    others = is_equal[~(found[1:] | found[:-1])]
-    return found if others.size and np.mean(others) < _TWINS else np.zeros_like(found)
+    found = repeated(values) & ((values == np.max(values)) | (values == np.min(values)))
+    others = np.diff(values)[~(found[1:] | found[:-1])]
+    return found if others.size and np.mean(others == 0.0) < _TWINS else np.zeros_like(found)
 
 
 def _deviation(times: Array, values: Array, quantum: float, reach: int, is_free: AnyArray) -> float:

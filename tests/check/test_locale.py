@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from cosim import cli
 from diagnosis.recording.recording import load_recording
 
 COUNT = 40
@@ -25,20 +23,6 @@ def table(path: Path, header: str, row: str, separator: str = ";", is_comma: boo
         lines.append(separator.join([row.replace("{s}", clock).replace("{n}", str(2 * n)), *values]))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
-
-
-@pytest.fixture
-def command(monkeypatch, capsys):
-    """The command line in this process: exit code, stdout, stderr."""
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["cosim", *map(str, arguments)])
-        with pytest.raises(SystemExit) as left:
-            cli.main()
-        said = capsys.readouterr()
-        return left.value.code, said.out, said.err
-
-    return call
 
 
 @pytest.mark.parametrize(

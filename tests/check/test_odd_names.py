@@ -3,30 +3,14 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from pathlib import Path
 
 import pytest
 import yaml
 
-from cosim import cli
 from cosim.terminal import as_argument
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
-
-
-@pytest.fixture
-def command(monkeypatch, capsys):
-    """The command line in this process: exit code, stdout, stderr."""
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["cosim", *map(str, arguments)])
-        with pytest.raises(SystemExit) as left:
-            cli.main()
-        said = capsys.readouterr()
-        return left.value.code, said.out, said.err
-
-    return call
 
 
 def table(path: Path, first: str = "T1_degC", second: str = "T2_degC", more: str = "", cells: str = "") -> Path:

@@ -89,12 +89,15 @@ class ClosedLoopModel(ModelBase):
             free = free_parameters(scenario, recordings)
             known = None if like is None else like.system_laws
             laws = known or laws_at(scenario, recordings, free, without)
-            model = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
-            instants = switch_times(model.scenarios, recordings) if like is None or like.has_instants else []
-            if instants:
-                moved = SystemModel(scenario, recordings, [*model.free, *instants], laws.found, batches)
-                if like is not None or are_needed(model, moved):
-                    model, self.has_instants = moved, True
+            instants = []
+            if like is None or like.has_instants:
+                instants = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
+            model = SystemModel(scenario, recordings, [*laws.usual, *free, *instants], laws.found, batches)
+            if instants and like is None:
+                plain = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
+                if not are_needed(plain, model):
+                    model, instants = plain, []
+            self.has_instants = bool(instants)
         except (NotFast, CompilerError) as reason:
             self.slow = str(reason)
             return False
