@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.recording.noise import estimate_noise, find_quantum
+from diagnosis.recording.noise import estimate_noise, find_quantum, repeats_end
 from diagnosis.recording.recording import FEWEST_VALUES, Channel
 from diagnosis.recording.series import Series, sample
 from diagnosis.recording.usage import COURSE
@@ -137,4 +137,5 @@ def quieter(channel: Channel, series: Series) -> float:
     size = float(bends @ bends)
     gain = float(bends @ wanted) / size if size > 0.0 else 0.0
     step = channel.quantum or find_quantum(channel.values)
-    return min(own, estimate_noise(channel.times, channel.values - gain * simulated, step))
+    is_free = ~repeats_end(channel.values)
+    return min(own, estimate_noise(channel.times, channel.values - gain * simulated, step, is_free))

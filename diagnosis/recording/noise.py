@@ -20,13 +20,15 @@ _TIES = 0.05
 _STUCK = 4
 #: Share of equal neighbours among the other readings beyond which a sensor rounds by more than its noise.
 _TWINS = 0.2
-#: Readings that must remain beside those for an estimate without them.
+#: Readings from which cubics are compared with lines.
 _ENOUGH = 16
+#: Windows that must remain beside readings at the end of the range, for an estimate without those.
+_FEW = 6
 #: Times that dither is drawn, to average its own scatter out.
 _DRAWS = 8
 
 
-def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
+def estimate_noise(times: Array, values: Array, quantum: float = 0.0, is_free: AnyArray | None = None) -> float:
     """Standard deviation of the white noise on a smooth signal.
 
     Each reading is compared with the line through its two neighbours (with unequal spacing too), which removes value
@@ -40,6 +42,8 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
         times: Shape (samples,) [s], rising.
         values: Shape (samples,).
         quantum: Step of a quantised reading; 0 finds it.
+        is_free: Whether each reading is one within the sensor's range, shape (samples,); None asks the values. Where a
+            course was taken off the readings, the values do not tell any more.
 
     Returns:
         The deviation, rounding included, at least that of rounding to the quantum, quantum / sqrt(12), and never 0.
@@ -53,10 +57,10 @@ def estimate_noise(times: Array, values: Array, quantum: float = 0.0) -> float:
     floor = max(step / np.sqrt(12.0), LEAST * spread, 1e-9 * size, float(np.finfo(float).tiny))
     if len(values) < 3:
         return float(floor)
-    is_free = ~repeats_end(values)
-    found = _deviation(times, values, step, 1, is_free)
-    if len(values) >= _ENOUGH:
-        finer = _deviation(times, values, step, 2, is_free)
+    free = ~repeats_end(values) if is_free is None else is_free
+    found = _deviation(times, values, step, 1, free)
+    if int(free.sum()) >= _ENOUGH:
+        finer = _deviation(times, values, step, 2, free)
         found = finer if finer < (1.0 - _CURVED) * found else found
     return float(max(found, floor))
 
@@ -120,7 +124,7 @@ def _deviation(times: Array, values: Array, quantum: float, reach: int, is_free:
     """Deviation from the bends, with `reach` neighbours on each side; of windows that are free, if there are enough."""
     count = len(values) - 2 * reach
     chosen = np.all([is_free[k : k + count] for k in range(2 * reach + 1)], axis=0)
-    chosen = chosen if chosen.sum() >= _ENOUGH else np.ones(count, dtype=bool)
+    chosen = chosen if chosen.sum() >= _FEW else np.ones(count, dtype=bool)
     line = _Line(times, reach)
     if not quantum:
         return _scale(line.bends(values)[chosen])
