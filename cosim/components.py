@@ -171,6 +171,13 @@ class AddedStateEntry(Strict):
     unit: StrictStr = Field(default="1", description="Its unit.")
 
 
+class AddedDelayEntry(Strict):
+    """An input as it was some time ago."""
+
+    of: StrictStr = Field(description="Name of an input of the FMU.")
+    by: StrictStr = Field(description="Parameter of the term that is the time; 0 or longer.")
+
+
 class AddedTermEntry(Strict):
     """A term that the master adds to an FMU."""
 
@@ -179,6 +186,9 @@ class AddedTermEntry(Strict):
     parameters: dict[str, AnyQuantity] = {}
     states: dict[str, AddedStateEntry] = Field(
         default={}, description="States of its own: what it adds may depend on the past."
+    )
+    delays: dict[str, AddedDelayEntry] = Field(
+        default={}, description="Inputs as they were some time ago, by the names that the formulas use."
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -12,12 +13,13 @@ import numpy as np
 
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
-from cosim.fmu.settings import AddedState, AddedTerm, Table
+from cosim.fmu.delays import INSTANT, DelayedInput, DelayedInputs
+from cosim.fmu.settings import AddedDelay, AddedState, AddedTerm, Table
 from cosim.fmu.units import is_known
 from cosim.formula import Formula, FormulaError, to_base
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array, Causality, UnitError
-from cosim.unit.quantity import PhysicalValue
+from cosim.unit.quantity import PhysicalValue, parse_unit
 
 _DERIVATIVE = re.compile(r"^der\((?P<state>.+)\)$")
 _TIME = "time"
@@ -33,6 +35,7 @@ class _Term:
         parameters: In SI base units.
         factor: From SI base units to those of the target.
         own: Its own states, where it has some.
+        delayed: Inputs as they were some time ago.
     """
 
     target: str
@@ -40,16 +43,37 @@ class _Term:
     parameters: Mapping[str, AnyArray]
     factor: float
     own: OwnStates | None = None
+    delayed: Delayed = field(default_factory=lambda: Delayed({}, {}))
 
     def amount(self, values: Mapping[str, AnyArray]) -> Any:
         """What is added, in the unit of the target."""
         own = {} if self.own is None else self.own.values
-        return self.factor * np.asarray(self.formula.value({**self.parameters, **own, **values}))
+        known = {**self.parameters, **own, **self.delayed.values, **values}
+        return self.factor * np.asarray(self.formula.value(known))
 
     @property
     def names(self) -> set[str]:
         """Names that its formulas use."""
-        return self.formula.names | (self.own.names if self.own is not None else set())
+        own = self.own.names if self.own is not None else set()
+        return self.formula.names | own | {d.of for d in self.delayed.inputs.values()}
+
+
+@dataclass
+class Delayed:
+    """Delayed inputs of one term.
+
+    Args:
+        inputs: Name in the formulas to the delayed input.
+        bases: The same to factor and offset to SI base units.
+    """
+
+    inputs: Mapping[str, DelayedInput]
+    bases: Mapping[str, tuple[float, float]]
+
+    @property
+    def values(self) -> dict[str, AnyArray]:
+        """What they are now, in SI base units."""
+        return {n: self.bases[n][0] * d.value + self.bases[n][1] for n, d in self.inputs.items()}
 
 
 class OwnStates:
@@ -59,12 +83,17 @@ class OwnStates:
         rates: Name to the formula of its derivative.
         starts: Name to the formula of its value at the start.
         parameters: Of the term, SI base units.
+        delayed: Delayed inputs of the term.
     """
 
     def __init__(
-        self, rates: Mapping[str, Formula], starts: Mapping[str, Formula], parameters: Mapping[str, AnyArray]
+        self,
+        rates: Mapping[str, Formula],
+        starts: Mapping[str, Formula],
+        parameters: Mapping[str, AnyArray],
+        delayed: Delayed,
     ) -> None:
-        self._rates, self._starts, self._parameters = rates, starts, parameters
+        self._rates, self._starts, self._parameters, self._delayed = rates, starts, parameters, delayed
         #: Name to its value now.
         self.values: dict[str, AnyArray] = {name: np.zeros(()) for name in rates}
 
@@ -75,7 +104,7 @@ class OwnStates:
 
     def start(self, environment: Mapping[str, AnyArray]) -> Array:
         """Values at the start, shape (states,)."""
-        known = {**self._parameters, **environment}
+        known = {**self._parameters, **self._delayed.values, **environment}
         return np.array([float(f.value(known)) for f in self._starts.values()])
 
     def take(self, values: Array) -> None:
@@ -85,7 +114,7 @@ class OwnStates:
 
     def rates(self, environment: Mapping[str, AnyArray]) -> Array:
         """Their derivatives, shape (states,)."""
-        known = {**self._parameters, **self.values, **environment}
+        known = {**self._parameters, **self.values, **self._delayed.values, **environment}
         return np.array([float(f.value(known)) for f in self._rates.values()])
 
 
@@ -117,6 +146,8 @@ class AddedTerms:
         self.time = 0.0
         #: States of terms, one after the other in the order of the terms.
         self.owners: list[OwnStates] = []
+        #: Delayed inputs of all terms.
+        self.delayed = DelayedInputs()
         if not self.table.settings.added_terms:
             return
         if self.is_model_exchange:
@@ -178,12 +209,13 @@ class AddedTerms:
             units[name] = value.unit or "1"
             factor, offset = to_base(units[name])
             parameters[name] = np.asarray(factor * value.number + offset)
-        own = self._own_states(given, units, parameters, key)
+        delayed = self._delayed_inputs(given, units, parameters, key)
+        own = self._own_states(given, units, parameters, delayed, key)
         try:
             formula = Formula(given.formula, units, f"({unit})/s" if match else unit)
         except FormulaError as error:
             raise InputError(self.table.archive.path, f"{key}.formula", str(error), "correct the formula") from error
-        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0], own)
+        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0], own, delayed)
         if match:
             self.derivatives.append(term)
         elif self.table.all[target].variable.causality is Causality.INPUT:
@@ -191,8 +223,54 @@ class AddedTerms:
         else:
             self.outputs.append(term)
 
-    def _own_states(
+    def _delayed_inputs(
         self, given: AddedTerm, units: dict[str, str], parameters: Mapping[str, AnyArray], key: str
+    ) -> Delayed:
+        """Delayed inputs of a term, whose names `units` has afterwards."""
+        path = self.table.archive.path
+        inputs = [
+            n
+            for n in self._units
+            if n in self.table.exposed and self.table.all[n].variable.causality is Causality.INPUT
+        ]
+        found: dict[str, DelayedInput] = {}
+        for name, delay in given.delays.items():
+            where = f"{key}.delays.{name}"
+            if name in units:
+                raise InputError(path, where, "a variable or a parameter has this name", "choose another one")
+            if delay.of not in inputs:
+                raise InputError(
+                    path,
+                    f"{where}.of",
+                    f"the FMU has no floating-point input `{delay.of}`",
+                    f"it has: {', '.join(inputs) or 'none'}",
+                )
+            if delay.by not in parameters:
+                raise InputError(
+                    path,
+                    f"{where}.by",
+                    f"the term has no parameter `{delay.by}`",
+                    f"it has: {', '.join(parameters) or 'none'}",
+                )
+            time = float(parameters[delay.by])
+            if parse_unit(units[delay.by]).dimensionality != parse_unit("s").dimensionality or not time >= 0.0:
+                raise InputError(path, f"{key}.parameters.{delay.by}", "it is no delay", "give a time of 0 s or longer")
+            found[name] = DelayedInput(delay.of, time, functools.partial(self._input, delay.of))
+        units |= {name: self._units[delay.of] for name, delay in given.delays.items()}
+        self.delayed.take(found.values())
+        return Delayed(found, {name: self._bases[d.of] for name, d in found.items()})
+
+    def _input(self, name: str) -> AnyArray:
+        """An input as it was given from outside."""
+        return self._outside[name]
+
+    def _own_states(
+        self,
+        given: AddedTerm,
+        units: dict[str, str],
+        parameters: Mapping[str, AnyArray],
+        delayed: Delayed,
+        key: str,
     ) -> OwnStates | None:
         """States of a term, whose names `units` has afterwards."""
         path = self.table.archive.path
@@ -219,7 +297,7 @@ class AddedTerms:
                 raise InputError(path, f"{key}.states.{name}", str(error), "correct the formula") from error
         if not given.states:
             return None
-        own = OwnStates(rates, starts, parameters)
+        own = OwnStates(rates, starts, parameters, delayed)
         self.owners.append(own)
         return own
 
@@ -229,7 +307,8 @@ class AddedTerms:
         return sum(len(o.values) for o in self.owners)
 
     def start_own(self, time: float, states: Array | None) -> Array:
-        """States of terms at the start, shape (own_count,), SI base units; they are taken."""
+        """States of terms at the start, shape (own_count,), SI base units; they are taken, and delays begin."""
+        self.delayed.begin()
         if not self.owners:
             return np.zeros(0)
         self._read()
@@ -410,7 +489,8 @@ class AddedTerms:
         inputs = {n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT}
         found: dict[str, frozenset[str]] = {}
         for term in self.outputs:
-            found[term.target] = found.get(term.target, frozenset()) | (term.formula.names & inputs)
+            at_once = {d.of for d in term.delayed.inputs.values() if d.by <= INSTANT}
+            found[term.target] = found.get(term.target, frozenset()) | ((term.formula.names | at_once) & inputs)
         return found
 
 
@@ -422,6 +502,7 @@ def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
             t.formula,
             {n: PhysicalValue.parse(v) for n, v in t.parameters.items()},
             {n: AddedState(s.rate, s.start, s.unit) for n, s in t.states.items()},
+            {n: AddedDelay(d.of, d.by) for n, d in t.delays.items()},
         )
         for t in given
     )

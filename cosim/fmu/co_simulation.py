@@ -153,6 +153,8 @@ class CoSimulationUnit(FmuUnit):
             self.clocks.silence()  # before the events at the begin: what ticks in them is a tick of this step
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
+            self.added.delayed.hold(begin)
+            self.added.delayed.average(begin, end)
             self.added.write_inputs(begin)
             self.added.time = end
             status = self._advance(begin, end, length)

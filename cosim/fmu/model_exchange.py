@@ -88,9 +88,12 @@ class ModelExchangeUnit(FmuUnit):
         """
         self.exit_initialisation()
         try:
+            begin = self._instant(time)
+            self.added.delayed.hold(begin)
+            self._follow_delayed(begin)
             if self._mode is Mode.EVENT:
                 self._leave_event_mode()
-            reached = self._advance(self._instant(time), seconds(time + size))
+            reached = self._advance(begin, seconds(time + size))
         except UnitError as error:
             when = max(time, math.floor(self._now * NANOSECONDS))
             raise UnitError(self.name, error.what, when, error.remedy) from error
@@ -114,11 +117,15 @@ class ModelExchangeUnit(FmuUnit):
         self._now = begin
         while now < end - INSTANT or self._is_due(now):
             stop = end if self._next_event is None else max(now, min(end, self._next_event))
+            stop = min(stop, self.added.delayed.next_jump(now))
             reached = self._integrator.advance(now, stop) if stop > now else None
             self._now = now = stop if reached is None else reached.time
             if reached is not None and reached.terminates:
                 raise self._terminated()
+            has_jumped = now < end - INSTANT and self._follow_delayed(now)
             if reached is not None and not (reached.is_root or reached.is_step_event) and not self._is_due(now):
+                if has_jumped:
+                    self._leave_event_mode()
                 continue
             repeated = repeated + 1 if now - last <= INSTANT else 0
             last = now
@@ -135,6 +142,14 @@ class ModelExchangeUnit(FmuUnit):
         self._now = end
         return end
 
+    def _follow_delayed(self, now: float) -> bool:
+        """Delayed inputs get their values from now on; one that jumps is an event."""
+        if not self.added.delayed.move_to(now):
+            return False
+        self._enter_event_mode()
+        self.added.place(now, self._integrator.states)
+        return True
+
     def _is_due(self, now: float) -> bool:
         return self._next_event is not None and self._next_event <= now + INSTANT
 
@@ -143,6 +158,9 @@ class ModelExchangeUnit(FmuUnit):
         if self._mode is Mode.RUNNING and name in self.writers:
             self._enter_event_mode()
         super()._pass_on(name)
+
+    def _add_to_inputs(self) -> None:
+        self.added.place(self._now, self._integrator.states)
 
     def refresh(self) -> None:
         """Outputs, and what switches, follow the inputs that were set since."""

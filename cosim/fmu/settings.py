@@ -40,20 +40,35 @@ class AddedState:
 
 
 @dataclass(frozen=True)
+class AddedDelay:
+    """What an input was some time ago.
+
+    Args:
+        of: The input.
+        by: Parameter of the term that is the time.
+    """
+
+    of: str
+    by: str
+
+
+@dataclass(frozen=True)
 class AddedTerm:
     """A term that the master adds.
 
     Args:
         to: `der(state)`, or the name of an input or output.
-        formula: In the names of the FMU's variables, `time`, the parameters and its own states.
+        formula: In the names of the FMU's variables, `time`, the parameters, its own states and delayed inputs.
         parameters: Numbers with units.
         states: Its own states.
+        delays: Delayed inputs.
     """
 
     to: str
     formula: str
     parameters: Mapping[str, PhysicalValue] = field(default_factory=dict)
     states: Mapping[str, AddedState] = field(default_factory=dict)
+    delays: Mapping[str, AddedDelay] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding, DiscreteStates, Interface
 from cosim.fmu.buffers import Buffers, Saved, element_text
+from cosim.fmu.delays import SavedDelay
 from cosim.fmu.dependencies import dependencies
 from cosim.fmu.plain import plain, unplain
 from cosim.fmu.settings import FmuSettings, Table
@@ -68,6 +69,7 @@ class SavedState:
         mode: Where the instance is.
         is_stale: Whether an input was set after the outputs were read.
         extra: What the interface keeps beside it.
+        delayed: What delayed inputs of terms remember.
     """
 
     handle: Any
@@ -75,6 +77,7 @@ class SavedState:
     mode: Mode
     is_stale: bool
     extra: Any
+    delayed: tuple[SavedDelay | None, ...] = ()
 
 
 class FmuUnit(Unit):
@@ -172,9 +175,15 @@ class FmuUnit(Unit):
         self._is_stale = True
 
     def _pass_on(self, name: str) -> None:
-        """Hand an input to the FMU."""
+        """Hand an input to the FMU, with what is added to inputs."""
         if name in self.writers:
             self.writers[name]()
+            if self._mode in (Mode.RUNNING, Mode.EVENT):
+                self._add_to_inputs()
+
+    def _add_to_inputs(self) -> None:
+        """At a communication point: inputs get what is added to them."""
+        self.added.write_inputs(self.added.time)
 
     def get(self, name: str) -> AnyArray:
         """Live buffer of an input, output or recorded variable."""
@@ -266,7 +275,14 @@ class FmuUnit(Unit):
                 remedy="choose an algorithm that repeats no step",
             )
         self.exit_initialisation()
-        return SavedState(self.binding.save(), self.buffers.save(), self._mode, self._is_stale, self._extra())
+        return SavedState(
+            self.binding.save(),
+            self.buffers.save(),
+            self._mode,
+            self._is_stale,
+            self._extra(),
+            self.added.delayed.save(),
+        )
 
     def restore(self, saved: SavedState, time: int) -> None:
         """Return to a saved state, any number of times."""
@@ -274,6 +290,7 @@ class FmuUnit(Unit):
         self.buffers.restore(saved.values)
         self._mode, self._is_stale = saved.mode, saved.is_stale
         self._take_extra(saved.extra, time)
+        self.added.delayed.restore(saved.delayed)
         self.added.see_outputs()
 
     def release(self, saved: SavedState) -> None:
@@ -293,7 +310,8 @@ class FmuUnit(Unit):
         self.exit_initialisation()
         inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self.writers}
         extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}
-        return {"state": self.binding.serialise(), **inputs, **extra}
+        delayed = {f"delayed.{k}": v for k, v in self.added.delayed.arrays().items()}
+        return {"state": self.binding.serialise(), **inputs, **extra, **delayed}
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
         return {}
@@ -311,6 +329,8 @@ class FmuUnit(Unit):
         self.binding.deserialise(state["state"])
         extra = {k.removeprefix("extra."): v for k, v in state.items() if k.startswith("extra.")}
         self._resume_extra(extra, time)
+        delayed = {k.removeprefix("delayed."): v for k, v in state.items() if k.startswith("delayed.")}
+        self.added.delayed.resume(delayed)
         self.added.time = seconds(time)
         self.buffers.read(time)
 

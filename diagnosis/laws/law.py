@@ -78,6 +78,21 @@ class OwnState:
 
 
 @dataclass(frozen=True)
+class Delay:
+    """An input as it was some time ago: exact, no form of a low order.
+
+    Args:
+        name: Symbol in the formulas.
+        of: Symbol of the input.
+        by: Number of the law that is the time, 0 or longer.
+    """
+
+    name: str
+    of: str
+    by: str
+
+
+@dataclass(frozen=True)
 class Law:
     """One effect; the first number is its strength, at 0 it is absent.
 
@@ -85,12 +100,14 @@ class Law:
         identifier: Name in the catalogue.
         name: In plain words.
         role: What it is added to.
-        formula: What is added, in the symbols of the role, its numbers, constants and states.
+        formula: What is added, in the symbols of the role, its numbers, constants, states and
+            delayed inputs.
         numbers: Free numbers, bounded below by 0 where the law takes energy.
         source: Where the law comes from.
         constants: Name to (product of symbols, value in characteristic sizes): what is not fitted, such as the width
             over which a sign is rounded.
         states: States of its own.
+        delays: Inputs as they were some time ago.
         is_named: Whether it is an effect with a name.
         confused_with: Identifiers that data often cannot tell from it, with what decides.
     """
@@ -103,5 +120,6 @@ class Law:
     source: str
     constants: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     states: tuple[OwnState, ...] = ()
+    delays: tuple[Delay, ...] = ()
     is_named: bool = True
     confused_with: Mapping[str, str] = field(default_factory=dict)

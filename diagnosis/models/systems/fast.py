@@ -21,9 +21,11 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array, UnitError
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast, flat_address
 from diagnosis.models.systems.layout import (
+    MOST_DELAYS,
     AddedLayout,
     Code,
     CopyLayout,
+    DelayLayout,
     Kind,
     OperationLayout,
     SampledLayout,
@@ -89,9 +91,9 @@ class FastSystem:
                 self.fmus[name] = FastFmu(unit)
             elif not isinstance(unit, ProgrammeUnit):
                 raise NotFast(f"{name} is no FMU")
-        self._take_laws(laws)
         self._order()
         self._grid()
+        self._take_laws(laws)
 
     # laws
 
@@ -109,6 +111,8 @@ class FastSystem:
         self._compiled = compiled(self.laws, {n: f.symbols for n, f in self.fmus.items()}, constants)
         self._values = [np.zeros(max(len(law.numbers), 1)) for law in self.laws]
         self._bases = [[to_base(unit) for _, unit in law.numbers] for law in self.laws]
+        self._histories: dict[tuple[str, int], Array] = {}
+        self._kept: list[tuple[ctypes.Array[DelayLayout], Array]] = []
         self._added = [self._added_of(n, law) for n, law in enumerate(self.laws)]
 
     def _added_of(self, number: int, law: Placed) -> AddedLayout:
@@ -128,6 +132,7 @@ class FastSystem:
                 raise NotFast(f"{law.component} has no input {name}")
             target = fmu.inputs[name].start
         scale = 1.0 / to_base(fmu.units[name])[0]
+        delays, delayed = self._delays(number, law)
         found = AddedLayout(
             kind=kind,
             target=target,
@@ -135,6 +140,9 @@ class FastSystem:
             own=len(law.states),
             values=self._values[number].ctypes.data,
             amount=self._compiled.address(f"law_{number}_amount"),
+            delay_count=len(law.delays),
+            delays=ctypes.addressof(delays),
+            delayed=delayed.ctypes.data,
         )
         if kind is Kind.OUTPUT:
             found.output = fmu.outputs[name].ctypes.data
@@ -142,6 +150,28 @@ class FastSystem:
             found.rates[i] = self._compiled.address(f"law_{number}_rate_{i}")
             found.starts[i] = self._compiled.address(f"law_{number}_start_{i}")
         return found
+
+    def _delays(self, number: int, law: Placed) -> tuple[ctypes.Array[DelayLayout], Array]:
+        """Delayed inputs of a law, and room for their values; both stay."""
+        fmu = self.fmus[law.component]
+        delays, delayed = (DelayLayout * MOST_DELAYS)(), np.zeros(MOST_DELAYS)
+        names = [name for name, _ in law.numbers]
+        if len(law.delays) > MOST_DELAYS:
+            raise NotFast(f"a term at {law.component} has more than {MOST_DELAYS} delayed inputs")
+        for i, delay in enumerate(law.delays):
+            own = fmu.inputs.get(delay.of)
+            if own is None or own.stop - own.start != 1:
+                raise NotFast(f"{law.component} has no input {delay.of}")
+            factor, offset = to_base(fmu.units[delay.of])
+            delays[i].input, delays[i].factor, delays[i].offset = own.start, factor, offset
+            delays[i].by = self._values[number].ctypes.data + 8 * names.index(delay.by)
+            delays[i].history = self._history(law.component, own.start).ctypes.data
+        self._kept.append((delays, delayed))
+        return delays, delayed
+
+    def _history(self, component: str, place: int) -> Array:
+        """Room for an input in every macro-step."""
+        return self._histories.setdefault((component, place), np.zeros(self.steps + 1))
 
     # order of a macro-step
 

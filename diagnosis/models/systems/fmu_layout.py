@@ -172,6 +172,7 @@ class FastFmu:
         layout.state, layout.own = self.state.ctypes.data, own
         self._added_array = (AddedLayout * max(len(added), 1))(*added)
         layout.added, layout.added_count = ctypes.addressof(self._added_array), len(added)
+        layout.has_delays = any(a.delay_count for a in added)
         layout.has_inputs_added = any(a.kind == 1 for a in added)
 
     def take_over(self) -> None:

@@ -7,6 +7,8 @@ from enum import IntEnum
 
 #: States of its own that a law may have.
 MOST_OWN = 2
+#: Delayed inputs that a law may have.
+MOST_DELAYS = 2
 #: Vectors of the length of all states that a unit needs: the states, and room for the integration.
 ROOM = 7
 
@@ -51,6 +53,21 @@ class CopyLayout(ctypes.Structure):
     )
 
 
+class DelayLayout(ctypes.Structure):
+    """An input as it was some time ago."""
+
+    _fields_ = (
+        ("input", ctypes.c_int64),
+        ("by", ctypes.c_void_p),
+        ("factor", ctypes.c_double),
+        ("offset", ctypes.c_double),
+        ("history", ctypes.c_void_p),
+        ("jump", ctypes.c_double),
+        ("before", ctypes.c_double),
+        ("after", ctypes.c_double),
+    )
+
+
 class AddedLayout(ctypes.Structure):
     """A law that is added."""
 
@@ -65,6 +82,9 @@ class AddedLayout(ctypes.Structure):
         ("rates", ctypes.c_void_p * MOST_OWN),
         ("starts", ctypes.c_void_p * MOST_OWN),
         ("output", ctypes.c_void_p),
+        ("delay_count", ctypes.c_int64),
+        ("delays", ctypes.c_void_p),
+        ("delayed", ctypes.c_void_p),
     )
 
 
@@ -93,6 +113,8 @@ class UnitLayout(ctypes.Structure):
         ("has_inputs_added", ctypes.c_int64),
         ("own_outputs", ctypes.c_void_p),
         ("own_output_count", ctypes.c_int64),
+        ("has_delays", ctypes.c_int64),
+        ("step", ctypes.c_int64),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cosim.components import AddedStateEntry, AddedTermEntry
+from cosim.components import AddedDelayEntry, AddedStateEntry, AddedTermEntry
 from cosim.unit.quantity import PhysicalValue
 
 
@@ -27,6 +27,21 @@ class PlacedState:
 
 
 @dataclass(frozen=True)
+class PlacedDelay:
+    """An input as it was some time ago.
+
+    Args:
+        name: Symbol in the formulas.
+        of: The input.
+        by: Number that is the time.
+    """
+
+    name: str
+    of: str
+    by: str
+
+
+@dataclass(frozen=True)
 class Placed:
     """What is added to one derivative, input or output.
 
@@ -37,6 +52,7 @@ class Placed:
         numbers: Names of the free numbers with their units.
         constants: Names to values with units of what is not fitted.
         states: Its own states.
+        delays: Delayed inputs.
     """
 
     component: str
@@ -45,17 +61,22 @@ class Placed:
     numbers: tuple[tuple[str, str], ...]
     constants: Mapping[str, PhysicalValue] = field(default_factory=dict)
     states: tuple[PlacedState, ...] = ()
+    delays: tuple[PlacedDelay, ...] = ()
 
     def entry(self, values: tuple[float, ...]) -> AddedTermEntry:
         """The same in a scenario, with values of its numbers."""
         numbers = {name: PhysicalValue(v, unit) for (name, unit), v in zip(self.numbers, values)}
         states = {s.name: AddedStateEntry(rate=s.rate, start=s.start, unit=s.unit) for s in self.states}
-        return AddedTermEntry(to=self.to, formula=self.formula, parameters={**numbers, **self.constants}, states=states)
+        delays = {d.name: AddedDelayEntry(of=d.of, by=d.by) for d in self.delays}
+        parameters = {**numbers, **self.constants}
+        return AddedTermEntry(to=self.to, formula=self.formula, parameters=parameters, states=states, delays=delays)
 
 
 def placed_of(component: str, entry: AddedTermEntry) -> tuple[Placed, tuple[float, ...]]:
     """What a scenario adds already, with its values."""
     numbers = {name: PhysicalValue.parse(v) for name, v in entry.parameters.items()}
     states = tuple(PlacedState(name, s.rate, s.start, s.unit) for name, s in entry.states.items())
-    placed = Placed(component, entry.to, entry.formula, tuple((n, v.unit) for n, v in numbers.items()), {}, states)
+    delays = tuple(PlacedDelay(name, d.of, d.by) for name, d in entry.delays.items())
+    units = tuple((n, v.unit) for n, v in numbers.items())
+    placed = Placed(component, entry.to, entry.formula, units, {}, states, delays)
     return placed, tuple(v.number for v in numbers.values())

@@ -16,7 +16,7 @@ from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem, Rows
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
-from diagnosis.models.systems.placed import Placed, PlacedState
+from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -293,8 +293,9 @@ def _fit(
     own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: tuple[float, float]
 ) -> Fit | None:
     numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
+    numbers |= {d.name for d in law.delays}
     needed = {n for f in (law.formula, *(s.rate for s in law.states)) for n in names_in(f)} - numbers
-    if not needed <= set(symbols):
+    if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
     taken = {*own.states, *own.inputs, *own.outputs, "time"}
     fresh = {n: n if n not in taken else f"{n}_law" for n in numbers}
@@ -317,6 +318,7 @@ def _fit(
                 PlacedState(fresh[s.name], renamed(s.rate, names), renamed(s.start, names), scale.unit(s.of))
                 for s in law.states
             ),
+            tuple(PlacedDelay(fresh[d.name], symbols[d.of].name, fresh[d.by]) for d in law.delays),
         )
         _check(own, placed, to)
     except (FormulaError, ValueError, ZeroDivisionError):
@@ -325,6 +327,7 @@ def _fit(
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
+    what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     others = [q.name for symbol, q in symbols.items() if symbol == "o"]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     return Fit(law, placed, Term(identifier, label, domain, parameters, law.is_named, what))
@@ -364,6 +367,7 @@ def _check(own: Places, placed: Placed, to: str) -> None:
     units = {q.name: q.unit for q in (*own.states.values(), *own.inputs.values(), *own.outputs.values())}
     units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}
     units |= {s.name: s.unit for s in placed.states}
+    units |= {d.name: units[d.of] for d in placed.delays}
     target = to[4:-1] if to.startswith("der(") else to
     Formula(placed.formula, units, f"({units[target]})/s" if to.startswith("der(") else units[target])
     for state in placed.states:
@@ -403,7 +407,7 @@ def _form(placed: Placed) -> str:
     first = placed.numbers[0][0]
     text = renamed(placed.formula, {first: "strength"})
     text = text.removeprefix("-")
-    return text + "".join(f"; {s.rate}" for s in placed.states)
+    return text + "".join(f"; {s.rate}" for s in placed.states) + "".join(f"; {d.of}, {d.by}" for d in placed.delays)
 
 
 def domain_of(unit: str, own: Places) -> str:

@@ -42,16 +42,17 @@ def compiled(
         CompilerError: There is no compiler, or it refuses the source.
     """
     parts = [Path(__file__).with_name("system.c").read_text(encoding="utf-8"), PREAMBLE]
-    arguments = "const double *e, const double *p, const double *z"
+    arguments = "const double *e, const double *p, const double *z, const double *d"
     for number, (law, constants) in enumerate(zip(laws, base)):
         names = {**known[law.component], **constants}
         names |= {name: f"p[{i}]" for i, (name, _) in enumerate(law.numbers)}
         names |= {state.name: f"z[{i}]" for i, state in enumerate(law.states)}
+        names |= {delay.name: f"d[{i}]" for i, delay in enumerate(law.delays)}
         functions = {"amount": law.formula}
         for i, state in enumerate(law.states):
             functions |= {f"rate_{i}": state.rate, f"start_{i}": state.start}
         for name, formula in functions.items():
-            unused = "(void)e; (void)p; (void)z;"
+            unused = "(void)e; (void)p; (void)z; (void)d;"
             parts.append(
                 f'__attribute__((visibility("default"))) double law_{number}_{name}({arguments})\n'
                 f"{{ {unused} return {to_c(formula, names)}; }}\n"

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-typedef double (*Law)(const double *e, const double *p, const double *z);
+typedef double (*Law)(const double *e, const double *p, const double *z, const double *d);
 typedef int (*AccessFmi2)(void *, const uint32_t *, size_t, void *);
 typedef int (*AccessFmi3)(void *, const uint32_t *, size_t, void *, size_t);
 typedef int (*Plain)(void *);
@@ -29,6 +29,9 @@ enum { COPY, PUT, GET, STEP };
 enum { RATE, INPUT, OUTPUT };
 enum { DONE = 0, FAILED = 1 };
 
+/* What is practically the same instant [s]: a tenth of the resolution of simulated time. */
+static const double INSTANT = 1e-10;
+
 typedef struct {
     void *call;
     const uint32_t *references;
@@ -43,6 +46,16 @@ typedef struct {
     double factor, offset;
 } Copy;
 
+/* An input as it was some time ago; inputs are held over macro-steps, so that it jumps once in a macro-step at most. */
+typedef struct {
+    int64_t input;
+    const double *by; /* delay [s] */
+    double factor, offset; /* to SI base units */
+    double *history;       /* the input in every macro-step, as it is set */
+    double jump;           /* when it jumps in this macro-step [s] */
+    double before, after;  /* its values then */
+} Delay;
+
 typedef struct {
     int64_t kind;   /* RATE, INPUT or OUTPUT */
     int64_t target; /* number of the state or of the input */
@@ -53,6 +66,9 @@ typedef struct {
     int64_t first;        /* number of the first of them in the unit's vector */
     Law rates[MOST_OWN], starts[MOST_OWN];
     double *output; /* the output, of the kind OUTPUT */
+    int64_t delay_count;
+    Delay *delays;
+    double *delayed; /* what they are now, SI base units */
 } Added;
 
 typedef struct {
@@ -78,6 +94,8 @@ typedef struct {
     int64_t has_inputs_added;
     const Copy *own_outputs; /* outputs as the FMU has them, to where laws see them */
     int64_t own_output_count;
+    int64_t has_delays;
+    int64_t step; /* number of the macro-step; -1 before the first */
 } Unit;
 
 typedef struct {
@@ -119,6 +137,97 @@ static void look_around(const Unit *u, double time)
     }
 }
 
+static bool take_delayed(const Added *a, int64_t i, double value)
+{
+    const double before = a->delayed[i];
+    a->delayed[i] = a->delays[i].factor * value + a->delays[i].offset;
+    return a->delayed[i] != before;
+}
+
+/* Where no time passes, a delayed input stays, unless it is late by nothing; before the first step it is the input. */
+static void stay_delayed(const Unit *u)
+{
+    for (int64_t i = 0; u->has_delays && i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        for (int64_t k = 0; k < a->delay_count; ++k) {
+            if (u->step < 0 || *a->delays[k].by <= INSTANT) {
+                take_delayed(a, k, u->outer[a->delays[k].input]);
+            }
+        }
+    }
+}
+
+static double held(const Delay *d, int64_t step)
+{
+    return d->history[step > 0 ? step : 0];
+}
+
+/* A macro-step begins: how its delayed inputs go through it. */
+static void plan_delayed(const Unit *u, double begin, double length)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        for (int64_t k = 0; k < a->delay_count; ++k) {
+            Delay *d = a->delays + k;
+            /* Later than that is before the first step; a number that is none is late by nothing. */
+            const double late = fmin(fmax(*d->by / length, 0.0), (double)u->step + 2.0);
+            int64_t steps = (int64_t)late;
+            double share = late - (double)steps;
+            if (share * length < INSTANT) {
+                share = 0.0;
+            } else if ((1.0 - share) * length < INSTANT) {
+                share = 0.0, ++steps;
+            }
+            d->history[u->step] = u->outer[d->input];
+            d->after = held(d, u->step - steps);
+            d->before = share > 0.0 ? held(d, u->step - steps - 1) : d->after;
+            d->jump = begin + share * length;
+        }
+    }
+}
+
+/* Delayed inputs get their values from `time` on; whether one is another. */
+static bool move_delayed(const Unit *u, double time)
+{
+    bool has_jumped = false;
+    for (int64_t i = 0; u->has_delays && i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        for (int64_t k = 0; k < a->delay_count; ++k) {
+            const Delay *d = a->delays + k;
+            has_jumped |= take_delayed(a, k, time < d->jump - INSTANT ? d->before : d->after);
+        }
+    }
+    return has_jumped;
+}
+
+/* A Co-Simulation FMU gets the mean of a delayed input over its step. */
+static void average_delayed(const Unit *u, double begin, double length)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        for (int64_t k = 0; k < a->delay_count; ++k) {
+            const Delay *d = a->delays + k;
+            const double share = (d->jump - begin) / length;
+            take_delayed(a, k, d->before == d->after ? d->after : share * d->before + (1.0 - share) * d->after);
+        }
+    }
+}
+
+/* When a delayed input jumps next. */
+static double next_jump(const Unit *u, double time)
+{
+    double next = INFINITY;
+    for (int64_t i = 0; u->has_delays && i < u->added_count; ++i) {
+        for (int64_t k = 0; k < u->added[i].delay_count; ++k) {
+            const Delay *d = u->added[i].delays + k;
+            if (d->before != d->after && d->jump > time + INSTANT) {
+                next = fmin(next, d->jump);
+            }
+        }
+    }
+    return next;
+}
+
 /* Outputs as the FMU has them; laws see these. */
 static int read_own_outputs(const Unit *u)
 {
@@ -143,7 +252,7 @@ static void add_to_outputs(const Unit *u, double time)
     for (int64_t i = 0; i < u->added_count; ++i) {
         const Added *a = u->added + i;
         if (a->kind == OUTPUT) {
-            *a->output += a->scale * a->amount(u->environment, a->values, u->state + u->states + a->first);
+            *a->output += a->scale * a->amount(u->environment, a->values, u->state + u->states + a->first, a->delayed);
         }
     }
 }
@@ -164,7 +273,7 @@ static int write_inputs(const Unit *u, const double *own)
     for (int64_t i = 0; i < u->added_count; ++i) {
         const Added *a = u->added + i;
         if (a->kind == INPUT) {
-            u->inner[a->target] += a->scale * a->amount(u->environment, a->values, own + a->first);
+            u->inner[a->target] += a->scale * a->amount(u->environment, a->values, own + a->first, a->delayed);
         }
     }
     if (!memcmp(u->inner, u->held, (size_t)u->inputs * sizeof(double))) {
@@ -211,10 +320,10 @@ static int derivatives(Unit *u, double time, double *x, double *rates)
         const Added *a = u->added + i;
         const double *own = x + u->states + a->first;
         if (a->kind == RATE) {
-            rates[a->target] += a->scale * a->amount(u->environment, a->values, own);
+            rates[a->target] += a->scale * a->amount(u->environment, a->values, own, a->delayed);
         }
         for (int64_t k = 0; k < a->own; ++k) {
-            rates[u->states + a->first + k] = a->rates[k](u->environment, a->values, own);
+            rates[u->states + a->first + k] = a->rates[k](u->environment, a->values, own, a->delayed);
         }
     }
     return DONE;
@@ -366,11 +475,34 @@ static int report_step(Unit *u)
     return ends ? FAILED : wants_event ? handle_event(u) : DONE;
 }
 
-static int integrate(Unit *u, double begin, double end)
+/* Inputs at an instant, to which the FMU has been moved; one that jumps is an event. */
+static int hand_over(Unit *u, double time)
 {
-    const double step = (end - begin) / (double)u->substeps, instant = 1e-10;
+    if (u->added_count) {
+        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
+        look_around(u, time);
+    }
+    const bool is_event = u->is_model_exchange && (u->indicators > 0 || isfinite(u->next_event));
+    if (is_event && ((Plain)u->enter_event_mode)(u->component) > WARNING) {
+        return FAILED;
+    }
+    if (write_inputs(u, u->state + u->states) != DONE) {
+        return FAILED;
+    }
+    return is_event ? leave_event_mode(u) : DONE;
+}
+
+static int integrate(Unit *u, double begin, double end, double length)
+{
+    const double step = (end - begin) / (double)u->substeps, instant = INSTANT;
     double time = begin;
     int events = 0;
+    if (u->has_delays) {
+        plan_delayed(u, begin, length);
+        if (move_delayed(u, begin) && hand_over(u, begin) != DONE) {
+            return FAILED;
+        }
+    }
     for (int64_t i = 1; i <= u->substeps; ++i) {
         const double stop = i == u->substeps ? end : begin + (double)i * step;
         while (time < stop - instant) {
@@ -384,11 +516,22 @@ static int integrate(Unit *u, double begin, double end)
             if (u->next_event < stop) {
                 aim = u->next_event;
             }
+            const double due = next_jump(u, time);
+            aim = fmin(aim, due);
             const double reached = advance(u, time, aim);
             if (!isfinite(reached) || (reached < aim && ++events > MOST_EVENTS)) {
                 return FAILED;
             }
             time = reached;
+            if (time >= due - instant && time < end - instant) {
+                if (move_to(u, time, u->state) != DONE) {
+                    return FAILED;
+                }
+                move_delayed(u, time);
+                if (hand_over(u, time) != DONE) {
+                    return FAILED;
+                }
+            }
             if (u->reports_steps && (move_to(u, time, u->state) != DONE || report_step(u) != DONE)) {
                 return FAILED;
             }
@@ -413,7 +556,7 @@ static int step_beside(Unit *u, double begin, double end)
         for (int64_t i = 0; i < u->added_count; ++i) {
             const Added *a = u->added + i;
             for (int64_t j = 0; j < a->own; ++j) {
-                k[stage * n + a->first + j] = a->rates[j](u->environment, a->values, y + a->first);
+                k[stage * n + a->first + j] = a->rates[j](u->environment, a->values, y + a->first, a->delayed);
             }
         }
     }
@@ -428,6 +571,10 @@ static int step_beside(Unit *u, double begin, double end)
 static int do_step(Unit *u, double begin, double end, double length)
 {
     int status;
+    if (u->has_delays) {
+        plan_delayed(u, begin, length);
+        average_delayed(u, begin, length);
+    }
     if (u->added_count) {
         look_around(u, begin);
     }
@@ -453,18 +600,8 @@ static int put(Unit *u, double time)
     if (!memcmp(u->outer, u->inner, (size_t)u->inputs * sizeof(double)) && !u->has_inputs_added) {
         return DONE;
     }
-    if (u->added_count) {
-        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
-        look_around(u, time);
-    }
-    const bool is_event = u->is_model_exchange && (u->indicators > 0 || isfinite(u->next_event));
-    if (is_event && ((Plain)u->enter_event_mode)(u->component) > WARNING) {
-        return FAILED;
-    }
-    if (write_inputs(u, u->state + u->states) != DONE) {
-        return FAILED;
-    }
-    return is_event ? leave_event_mode(u) : DONE;
+    stay_delayed(u);
+    return hand_over(u, time);
 }
 
 static int carry_out(const System *s, const Operation *operations, int64_t count, double begin, double end, double length,
@@ -485,7 +622,7 @@ static int carry_out(const System *s, const Operation *operations, int64_t count
         } else if (o->code == GET) {
             status = read_outputs(u, now);
         } else {
-            status = u->is_model_exchange ? integrate(u, begin, end) : do_step(u, begin, end, length);
+            status = u->is_model_exchange ? integrate(u, begin, end, length) : do_step(u, begin, end, length);
             status = status == DONE ? read_outputs(u, end) : status;
         }
         if (status != DONE) {
@@ -516,11 +653,13 @@ static int begin_laws(Unit *u, double time)
         memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
     }
     look_around(u, time);
+    u->step = -1;
+    stay_delayed(u);
     for (int64_t i = 0; i < u->added_count; ++i) {
         const Added *a = u->added + i;
         double *own = u->state + u->states + a->first;
         for (int64_t k = 0; k < a->own; ++k) {
-            own[k] = a->starts[k](u->environment, a->values, own);
+            own[k] = a->starts[k](u->environment, a->values, own, a->delayed);
         }
     }
     add_to_outputs(u, time);
@@ -547,6 +686,9 @@ __attribute__((visibility("default"))) int64_t system_run(System *s)
         const double begin = (double)(s->start + step * s->size) / 1e9, end = (double)(s->start + (step + 1) * s->size) / 1e9;
         for (int64_t i = 0; i < s->programme_count; ++i) {
             *s->programmes[i].to = s->programmes[i].column[step];
+        }
+        for (int64_t i = 0; i < s->unit_count; ++i) {
+            s->units[i].step = step;
         }
         if (carry_out(s, s->operations, s->operation_count, begin, end, length, begin) != DONE) {
             return step;
