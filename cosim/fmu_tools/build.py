@@ -9,6 +9,7 @@ from cosim.fmu_build.at_first_use import file_name
 from cosim.fmu_build.build_c import build_c, model_identifier
 from cosim.fmu_tools.build_python import build_python, class_name
 from cosim.fmu_tools.sources import Language, find_source, language_of
+from cosim.run_folder import replacing
 from cosim.shipped import fmu_folder, shipped_actuators
 from cosim.unit.errors import InputError
 
@@ -36,7 +37,8 @@ def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path,
     target = _target(name, version, coils, out or (folder if is_python else _default_folder(folder)))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        return target, (build_python if is_python else build_c)(folder, version, coils, target)
+        with replacing(target, is_shared=True) as partial:  # an import may be reading it, or another building it
+            return target, (build_python if is_python else build_c)(folder, version, coils, partial)
     except OSError as error:
         what = f"it cannot be written: {error.strerror or error}"
         raise InputError(target, "", what, "give a folder that can be written with `--out`") from error
