@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TextIO
 
-from cosim.run_folder import writing
+from cosim.run_folder import missing, remove_empty, writing
 from cosim.unit.errors import InputError
 
 #: The file that is locked. It holds what is at work and the number of its process.
@@ -18,7 +18,7 @@ LOCK = ".at-work"
 
 @contextmanager
 def alone(folder: Path, what: str) -> Iterator[None]:
-    """Keeps others out of a folder; one that was made here goes again if nothing was written to it.
+    """Keeps others out of a folder; what was made of its path goes again if nothing was written to it.
 
     The file `.at-work` is locked while this goes on, whatever is at work: a sweep must not write into a run. The system
     frees the lock when its process ends, however it ends: a file that a killed process left behind keeps nobody out.
@@ -30,8 +30,9 @@ def alone(folder: Path, what: str) -> Iterator[None]:
     Raises:
         InputError: Another one is at work there, or the folder cannot be written or locked.
     """
-    file, is_new = folder / LOCK, not folder.exists()
+    file = folder / LOCK
     with writing(folder):
+        made = missing(folder)
         folder.mkdir(parents=True, exist_ok=True)
         lock = file.open("a+", encoding="utf-8")
     with lock:
@@ -50,9 +51,7 @@ def alone(folder: Path, what: str) -> Iterator[None]:
         finally:
             with suppress(OSError):
                 file.unlink()
-            if is_new:
-                with suppress(OSError):  # of what is not empty the system refuses it
-                    folder.rmdir()
+            remove_empty(*made)
 
 
 def _take(lock: TextIO, folder: Path) -> bool:

@@ -121,8 +121,8 @@ class RunFolder:
         if self.ensemble.is_file():
             for start in (self.path / "starts").glob("*"):
                 RunFolder(start).remove_run()
-                _remove_empty(start / "checkpoints", start / "figures", start)
-            _remove_empty(self.path / "starts")
+                remove_empty(start / "checkpoints", start / "figures", start)
+            remove_empty(self.path / "starts")
             self.ensemble.unlink()
         if self.scenario.is_file():
             self.scenario.unlink()
@@ -229,7 +229,16 @@ class RunFolder:
             write_atomically(self.summary, json.dumps(summary, indent=2).encode())
 
 
-def _remove_empty(*folders: Path) -> None:
+def missing(folder: Path) -> list[Path]:
+    """Folders of a path that do not exist, the innermost first."""
+    found = []
+    while not folder.exists():
+        found.append(folder)
+        folder = folder.parent
+    return found
+
+
+def remove_empty(*folders: Path) -> None:
     """Remove folders that are empty, and leave the others."""
     for folder in folders:
         with suppress(OSError):
@@ -283,24 +292,27 @@ def refuse_unwritable(folder: Path) -> None:
     """
     if folder.exists() and not folder.is_dir():
         raise InputError(folder, "", "this is a file, not a folder", "give another folder with `--out`")
-    made = []
+    made: list[Path] = []
     with writing(folder):
-        missing = folder
-        while not missing.exists():
-            made.append(missing)
-            missing = missing.parent
+        made += missing(folder)
         try:
             folder.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=folder):
                 pass
         finally:
-            _remove_empty(*made)
+            remove_empty(*made)
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """A file to write in place of `path`, which it becomes as a whole; where writing fails it is removed."""
-    partial = path.with_name(path.name + ".part")
+def replacing(path: Path, is_shared: bool = False) -> Iterator[Path]:
+    """A file to write in place of `path`, which it becomes as a whole; where writing fails it is removed.
+
+    Args:
+        path: What it becomes.
+        is_shared: Whether no lock keeps a second program from writing it now (`cosim.alone`): each then has a partial
+            file of its own, and the last to finish wins.
+    """
+    partial = path.with_name(f"{path.name}.{os.getpid()}.part" if is_shared else f"{path.name}.part")
     try:
         yield partial
         partial.replace(path)
@@ -310,9 +322,9 @@ def replacing(path: Path) -> Iterator[Path]:
         raise
 
 
-def write_atomically(path: Path, data: bytes) -> None:
-    """Write a file as a whole or not at all."""
-    with replacing(path) as partial:
+def write_atomically(path: Path, data: bytes, is_shared: bool = False) -> None:
+    """Write a file as a whole or not at all; `is_shared` as in `replacing`."""
+    with replacing(path, is_shared) as partial:
         partial.write_bytes(data)
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 
 from chainmail.figures import closed_loop, currents, curvature, lengths, side_view, stiffness_loops, temperatures
 from chainmail.measures import one_start, switches
+from cosim.alone import alone
 from cosim.run_folder import RunFolder, writing
 from cosim.unit.errors import InputError
 
@@ -54,7 +55,7 @@ def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> lis
     runs = [open_run(f) for f in folders]
     target = folders[0] / "figures"
     drawn: list[Path] = []
-    with writing(target):
+    with alone(folders[0], "drawing"), writing(target):
         target.mkdir(parents=True, exist_ok=True)
         for name, draw in _figures(runs, switches(runs[0])).items():
             drawn += [draw(target / f"{name}.{ending}") for ending in formats]

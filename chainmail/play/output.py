@@ -19,7 +19,7 @@ def output(path: Path) -> Iterator[Path]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(path) as partial:
+        with replacing(path, is_shared=True) as partial:
             yield partial
     except OSError as error:
         raise InputError(

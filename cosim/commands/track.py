@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from cosim.alone import alone
 from cosim.unit.errors import InputError
 
 
@@ -30,24 +31,25 @@ def track(
     from chainmail.camera.rig import load_rig
     from chainmail.camera.summary import summary
 
-    refuse_recording(out)
-    loaded = load_rig(rig)
-    console = Console(stderr=True)
-    if console.is_terminal:
-        with console.status("reading frames") as status:
-            found = measure(video, loaded, rig, lambda count: status.update(f"{count} frames read"))
-    else:
-        found = measure(video, loaded, rig)
-    channels = write_tracks(out, found, loaded, f"cosim track {video}")
-    for sentence in summary(found):
-        print(sentence)
-    if page:
-        try:
-            write_page(out / "track.html", found, loaded, Frames(video))
-        except OSError as error:
-            what = f"the page cannot be written ({error.strerror or error}); the recording is complete"
-            raise InputError(out / "track.html", "", what, "make room and repeat in another folder") from error
-        print(out / "track.html")
-    print(f"{out}: {len(channels)} channels")
-    if not any(c.startswith("fabric") for c in channels) and found.links is not None:
-        print("no frame has all markers: the recording has no curvature", file=sys.stderr)
+    with alone(out, "tracking"):
+        refuse_recording(out)
+        loaded = load_rig(rig)
+        console = Console(stderr=True)
+        if console.is_terminal:
+            with console.status("reading frames") as status:
+                found = measure(video, loaded, rig, lambda count: status.update(f"{count} frames read"))
+        else:
+            found = measure(video, loaded, rig)
+        channels = write_tracks(out, found, loaded, f"cosim track {video}")
+        for sentence in summary(found):
+            print(sentence)
+        if page:
+            try:
+                write_page(out / "track.html", found, loaded, Frames(video))
+            except OSError as error:
+                what = f"the page cannot be written ({error.strerror or error}); the recording is complete"
+                raise InputError(out / "track.html", "", what, "make room and repeat in another folder") from error
+            print(out / "track.html")
+        print(f"{out}: {len(channels)} channels")
+        if not any(c.startswith("fabric") for c in channels) and found.links is not None:
+            print("no frame has all markers: the recording has no curvature", file=sys.stderr)

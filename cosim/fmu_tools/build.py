@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -36,7 +37,12 @@ def build(given: str, version: int, coils: int, out: Path | None) -> tuple[Path,
     target = _target(name, version, coils, out or (folder if is_python else _default_folder(folder)))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        return target, (build_python if is_python else build_c)(folder, version, coils, target)
+        # A run may be reading the file, or another program building it: it is replaced as a whole.
+        with tempfile.TemporaryDirectory(dir=target.parent, prefix=".building-") as scratch:
+            made = Path(scratch) / target.name
+            warnings = (build_python if is_python else build_c)(folder, version, coils, made)
+            made.replace(target)
+        return target, warnings
     except OSError as error:
         what = f"it cannot be written: {error.strerror or error}"
         raise InputError(target, "", what, "give a folder that can be written with `--out`") from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import shutil
 from pathlib import Path
 
 from cosim.fmu_tools.sources import Language
@@ -30,15 +31,23 @@ def begin(given: str, language: Language) -> Path:
         raise InputError(given or "NAME", "", f"`{name}` cannot name an actuator", remedy)
     if name in shipped_actuators():
         raise InputError(given, "", f"`{name}` is the name of a shipped actuator", "choose another name")
-    if target.exists():
-        raise InputError(given, "", "this folder exists already", "give another name, or remove it")
     source = TEMPLATES / language.value
     try:
-        target.mkdir(parents=True)
+        target.mkdir(parents=True)  # by one program alone: of two at once the second is refused
+    except FileExistsError:
+        raise InputError(given, "", "this folder exists already", "give another name, or remove it") from None
+    except OSError as error:
+        raise _cannot_be_written(given, error) from error
+    try:
         for file in sorted(p for p in source.iterdir() if p.is_file()):
             text = file.read_text(encoding="utf-8").replace(_PLACEHOLDER, name)
             (target / file.name).write_text(text, encoding="utf-8")
     except OSError as error:
-        what = f"it cannot be written: {error.strerror or error}"
-        raise InputError(given, "", what, "give a folder that can be written") from error
+        shutil.rmtree(target, ignore_errors=True)
+        raise _cannot_be_written(given, error) from error
     return target
+
+
+def _cannot_be_written(given: str, error: OSError) -> InputError:
+    what = f"it cannot be written: {error.strerror or error}"
+    return InputError(given, "", what, "give a folder that can be written and has room")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from cosim.alone import alone
 from cosim.loading import load_scenario
 from cosim.options import Changes, ScenarioArgument
 from cosim.unit.errors import InputError
@@ -44,7 +45,7 @@ def import_command(
     from cosim.ssp.importer import import_ssp
     from cosim.ssp.schemas import named_schemas
 
-    with named_schemas(schema):
+    with named_schemas(schema), alone(out, "import"):
         imported = import_ssp(file, out, TimeRequest(start, stop, step, output_step, algorithm), variant)
     _print_notes(imported.notes)
     for path, name in imported.names.items():

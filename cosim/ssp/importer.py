@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 
+from cosim.alone import LOCK
 from cosim.scenario import parse_scenario
 from cosim.ssp.files import plain_name
 from cosim.ssp.fmus import Fmu
@@ -66,7 +67,7 @@ def import_ssp(path: Path, out: Path, request: TimeRequest | None = None, varian
         InputError: The SSP breaks the standard, asks for what cannot be carried out, or says no times and `request`
             does not either.
     """
-    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+    if out.exists() and (not out.is_dir() or any(p.name != LOCK for p in out.iterdir())):
         raise InputError(out, "", "there is something here already", "give another folder with `--out`")
     with opened(path) as folder:
         system = _read(path, folder, variant)

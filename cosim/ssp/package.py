@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from cosim.fmu.extraction import unpack
+from cosim.run_folder import replacing
 from cosim.ssp.namespaces import DEFAULT_SSD
 from cosim.unit.errors import InputError
 
@@ -63,7 +64,7 @@ def write(path: Path, entries: Mapping[str, bytes]) -> None:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        with replacing(path, is_shared=True) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
             for name, content in entries.items():
                 entry = zipfile.ZipInfo(name, _EPOCH)
                 entry.compress_type = zipfile.ZIP_DEFLATED

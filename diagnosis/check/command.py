@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from cosim.alone import alone
 from cosim.loading import load_scenario
 from cosim.run_folder import write_atomically, writing
 from cosim.terminal import as_argument, printable
@@ -31,14 +32,14 @@ def new(
     from diagnosis.check.propose import propose
     from diagnosis.check.sniff import read_table
 
-    for name in ("recording.yaml", "data.csv"):
-        if (out / name).exists():
-            raise InputError(out / name, "", "this file exists already", "give another folder with `--out`")
-    found = propose(load_scenario(scenario), read_table(table), table)
-    with writing(out):
-        out.mkdir(parents=True, exist_ok=True)
-        write_atomically(out / "data.csv", found.table.encode())
-        write_atomically(out / "recording.yaml", found.sidecar.encode())
+    with alone(out, "recording"):
+        for name in ("recording.yaml", "data.csv"):
+            if (out / name).exists():
+                raise InputError(out / name, "", "this file exists already", "give another folder with `--out`")
+        found = propose(load_scenario(scenario), read_table(table), table)
+        with writing(out):
+            write_atomically(out / "data.csv", found.table.encode())
+            write_atomically(out / "recording.yaml", found.sidecar.encode())
     print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {len(found.unclear_columns)} columns unclear")
     for text in found.unclear_columns:
         print(f"  unclear column {printable(text)}")
@@ -60,10 +61,11 @@ def import_tracks(
     from chainmail.camera.imports import read_tracks
     from chainmail.camera.output import refuse_recording, write_tracks
 
-    refuse_recording(out)
-    loaded = load_import(given)
-    found = imported(read_tracks(table), loaded, given)
-    channels = write_tracks(out, found, loaded, f"cosim recording import {table}")
+    with alone(out, "recording"):
+        refuse_recording(out)
+        loaded = load_import(given)
+        found = imported(read_tracks(table), loaded, given)
+        channels = write_tracks(out, found, loaded, f"cosim recording import {table}")
     for note in found.notes:
         print(note)
     tracks = found.tracks

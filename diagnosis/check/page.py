@@ -34,7 +34,7 @@ def write_page(every: Sequence[Compared], doubts: Sequence[Doubt], out: Path) ->
     template = environment(Path(__file__).parent / "templates", TEMPLATES).get_template("check.html.j2")
     recordings = [_recording(one, doubts) for one in every]
     page = template.render(summary=summary(every, doubts), doubts=doubts, recordings=recordings)
-    write_atomically(out, page.encode())
+    write_atomically(out, page.encode(), is_shared=True)
 
 
 def _recording(one: Compared, doubts: Sequence[Doubt]) -> dict[str, object]:

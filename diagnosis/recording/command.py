@@ -13,7 +13,7 @@ from rich.console import Console
 from cosim.alone import alone
 from cosim.loading import load_scenario
 from cosim.options import Changes, complete_scenario
-from cosim.run_folder import RunFolder, refuse_unwritable
+from cosim.run_folder import RunFolder
 from cosim.terminal import as_argument
 from cosim.unit.errors import InputError
 
@@ -48,12 +48,12 @@ def record(
     if video is not None:
         if channels or sensor is not None:
             raise InputError("--video", "", "a camera has neither --channels nor --sensor", "leave them out")
-        _render(scenario, out, video, seed, changes or [])
+        with alone(out, "rendering"):
+            _render(scenario, out, video, seed, changes or [])
         return
-    if (out / "recording.yaml").exists():
-        raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
-    refuse_unwritable(out)
     with alone(out, "recording"):
+        if (out / "recording.yaml").exists():
+            raise InputError(out, "", "this folder already holds a recording", "give another folder with `--out`")
         _read(scenario, out, channels, sensor, seed, changes or [])
 
 

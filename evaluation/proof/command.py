@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from cosim.alone import alone
-from cosim.run_folder import refuse_unwritable
+from cosim.run_folder import refuse_unwritable, write_atomically, writing
 from cosim.unit.errors import InputError
 
 #: Exit code after Ctrl-C, as shells have it.
@@ -50,7 +50,9 @@ def prove(
     if table:
         proofs = [read_results(folder) for folder in table]
         target = page or Path("tables.md")
-        target.write_text(page_of([a for a, _ in proofs], [r for _, rs in proofs for r in rs]), encoding="utf-8")
+        text = page_of([a for a, _ in proofs], [r for _, rs in proofs for r in rs])
+        with writing(target):
+            write_atomically(target, text.encode(), is_shared=True)
         print(target)
         return
     if resume and not (out / "ground" / "draw.yaml").is_file():

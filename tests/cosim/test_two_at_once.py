@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from cosim.run import run
 from cosim.unit.errors import InputError
 
 from .conftest import ROOT, finish
+from .hostile_lines import lay
 from .short_runs import heating, shortened
 from .test_command_line import file
 
@@ -42,16 +45,24 @@ COMMANDS = {
     "record": ("record", "tclab"),
     "reproduction": ("reproduce",),
     "proof": ("prove", "--cases", "1", "--no-baselines"),
+    "tracking": ("track", "@film", "--rig", "@rig.yaml"),
+    "rendering": ("record", "passive_drape", "--video", "@camera.yaml"),
+    "recording begun": ("recording", "new", "@tracks.csv", "--scenario", "tclab"),
+    "tracks imported": ("recording", "import", "@tracks.csv", "--as", "@as.yaml"),
+    "SSP imported": ("ssp", "import", "@no_structure.ssp"),
 }
 
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_whatever_is_at_work_in_a_folder_keeps_all_others_out(cosim, tmp_path, name):
     """A sweep was let into the folder of a run: each looked for its own kind alone; some looked for none."""
-    out = tmp_path / "out"
+    out, files = tmp_path / "out", tmp_path / "files"
+    files.mkdir()
+    lay(files)
+    words = [str(files / w[1:]) if str(w).startswith("@") else w for w in COMMANDS[name]]
     with alone(out, "run"):
         (out / "scenario.yaml").write_text("title: mine\n")
-        answer = cosim(*COMMANDS[name], "--out", out)
+        answer = cosim(*words, "--out", out)
         assert answer.code == 2, answer
         assert answer.err.count("error:") == 1
         assert f"error: {out}: another run is at work in this folder (process {os.getpid()})" in answer.err
@@ -119,3 +130,72 @@ def test_an_ssp_is_not_imported_over_one_that_is_running(cosim, tmp_path):
 def test_the_lock_is_no_part_of_what_is_kept(cosim, tmp_path):
     assert cosim("run", file(tmp_path, heating()), "--out", tmp_path / "run", "--no-plots").code == 0
     assert LOCK not in {p.name for p in Path(tmp_path / "run").iterdir()}
+
+
+def test_figures_are_not_drawn_into_a_run_that_is_at_work(cosim, tmp_path):
+    """`--overwrite` removes the figures of the run before while another command draws them."""
+    out = tmp_path / "run"
+    assert cosim("run", file(tmp_path, heating()), "--out", out, "--no-plots").code == 0
+    with alone(out, "run"):
+        answer = cosim("plot", out)
+        assert answer.code == 2
+        assert f"error: {out}: another run is at work in this folder" in answer.err
+        assert not (out / "figures").exists()
+    assert cosim("plot", out).code == 0
+
+
+#: Slow commands, and the line of their program at which they are killed.
+KILLED = {
+    "track": ("chainmail.camera.measure.measure", ("track", "@film", "--rig", "@rig.yaml")),
+    "import": (
+        "chainmail.camera.importing.imported",
+        ("recording", "import", "@tracks.csv", "--as", "@as.yaml"),
+    ),
+    "new": ("diagnosis.check.propose.propose", ("recording", "new", "@tracks.csv", "--scenario", "tclab")),
+    "record": ("diagnosis.recording.command._read", ("record", "tclab")),
+    "video": ("diagnosis.recording.command._render", ("record", "tclab", "--video", "@rig.yaml")),
+    "ssp": ("cosim.ssp.importer.import_ssp", ("ssp", "import", "@no_structure.ssp")),
+}
+
+
+@pytest.mark.parametrize("name", KILLED)
+def test_what_was_killed_in_a_new_folder_keeps_nobody_out(start, cosim, tmp_path, name):
+    """While the command is at work a second one is refused; once it is killed, the second gets as far as its files."""
+    where, line = KILLED[name]
+    module, _, function = where.rpartition(".")
+    lay(tmp_path)
+    out = tmp_path / "new" / "out"
+    words = [str(tmp_path / w[1:]) if w.startswith("@") else w for w in line]
+    stop = f"import time, {module}\n{module}.{function} = lambda *a, **k: time.sleep(600)"
+    process = start(*words, "--out", out, prelude=stop)
+    until(lambda: (out / LOCK).exists() and (out / LOCK).read_text(), process)
+    refused = cosim(*words, "--out", out)
+    assert refused.code == 2
+    assert f"at work in this folder (process {process.pid})" in refused.err
+    process.kill()
+    assert finish(process).code == -signal.SIGKILL
+    assert (out / LOCK).exists()
+    answer = cosim(*words, "--out", out)
+    assert "at work" not in answer.err
+    assert not (out / LOCK).exists()
+
+
+def test_folders_that_a_refused_command_made_go_again(cosim, tmp_path):
+    assert (
+        cosim("recording", "new", tmp_path / "no.csv", "--scenario", "tclab", "--out", tmp_path / "a" / "b").code == 2
+    )
+    assert not list(tmp_path.iterdir())
+
+
+def test_two_that_write_one_file_leave_a_whole_one(tmp_path):
+    """Both wrote `x.part`: the first to finish took away what the second had written so far."""
+    path = tmp_path / "play.html"
+    program = (
+        "import sys, time\nfrom pathlib import Path\nfrom chainmail.play.output import output\n"
+        "with output(Path(sys.argv[1])) as partial, partial.open('w') as file:\n"
+        "    for _ in range(20):\n        file.write(sys.argv[2] * 5000); file.flush(); time.sleep(0.01)\n"
+    )
+    both = [subprocess.Popen([sys.executable, "-c", program, path, letter]) for letter in "ab"]
+    assert [p.wait() for p in both] == [0, 0]
+    assert path.read_text() in ("a" * 100_000, "b" * 100_000)
+    assert list(tmp_path.iterdir()) == [path]
