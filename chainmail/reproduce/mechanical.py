@@ -60,7 +60,10 @@ def curvature_rows(prototype: xr.Dataset, instant: xr.Dataset) -> list[Row]:
     cold, hot, again = levels["with"]
     delay_on = {k: half_way_delay(v.sel(time=slice(None, OFF)), ON, *levels[k][:2]) for k, v in series.items()}
     delay_off = {k: half_way_delay(v, OFF, *levels[k][1:]) for k, v in series.items()}
-    no_number = "Figure 3 gives the values; the text gives none"
+    no_number = (
+        "Figure 3 gives the values; the text gives none. In MuJoCo, where nothing rattles, friction keeps links open "
+        "that are heated slowly, and the fabric stays curved (docs/mechanics.md)"
+    )
     rows = [
         relation(
             s, "maximum curvature, cold", "drapes", cold, "1/cm", cold > 3 * hot, "well above the hot value", no_number
