@@ -45,7 +45,7 @@ BEHIND = ALONE.replace(
     "connections:",
     "  valve: {kind: fmu, fmu: lag.fmu, integrator: INTEGRATOR}\nconnections:\n  - switch.u -> valve.u",
 ).replace("switch.u -> rig.u", "valve.through -> rig.u")
-#: None, less than a step, a step, more than steps, steps whose count is no whole floating-point number, longer than the run.
+#: None, less than a step, a step, more than steps, a count of steps that is no exact number, longer than the run.
 DELAYS = (0.0, 0.007, 0.02, 0.0531, 0.06, 0.14, 0.5, 3.0)
 
 
