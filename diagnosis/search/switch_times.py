@@ -19,9 +19,9 @@ from cosim.scenario import Scenario
 from cosim.unit.quantity import conversion
 from diagnosis.faults.programme import InputChange
 from diagnosis.recording.recording import Input, Recording
-from diagnosis.search.fit import fit
+from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.free_numbers import Free
-from diagnosis.search.problem import Model, Own, Parameter, Point
+from diagnosis.search.problem import Model, Own, Parameter, Point, Term
 from diagnosis.search.shares import own_label
 
 #: Prior standard deviation of an instant, in rows: it lies within the row before, or in the one after where a logger
@@ -76,19 +76,40 @@ def switch_times(scenarios: Sequence[Scenario], recordings: Sequence[Recording])
     return found
 
 
-def are_needed(plain: Model, moved: Model) -> bool:
-    """Whether the training recordings ask for instants of their own, before any law is looked for.
+def are_needed(plain: Model, moved: Model, late: Sequence[Term] = ()) -> bool:
+    """Whether the training recordings ask for instants of their own, before any other law is looked for.
 
     By what they gain beyond their priors, more than chance gives so many of them once in a thousand: where changes
-    come with their rows, such instants would only make everything else less certain.
+    come with their rows, such instants would only make everything else less certain. A dead time is what all changes
+    of an input have in common: they must gain over that too.
 
     Args:
         plain: The model without them.
         moved: The same with them.
+        late: Dead times of inputs.
     """
     count = len(moved.parameters) - len(plain.parameters)
-    gained = [fit(m, Point(np.zeros(len(m.parameters)))).cost for m in (plain, moved)]
-    return bool(gained[0] - gained[1] > chdtri(count, CHANCE))
+    least = chdtri(count, CHANCE)
+    costs = [fit(m, Point(np.zeros(len(m.parameters)))).cost for m in (plain, moved)]
+    if not costs[0] - costs[1] > least:
+        return False
+    common = _with_late(plain, late)
+    if not common.point.terms:
+        return True
+    own = fit(moved, Point(np.zeros(len(moved.parameters)), common.point.terms))
+    return bool(common.cost - min(own.cost, costs[1]) > least)
+
+
+def _with_late(plain: Model, late: Sequence[Term]) -> Fit:
+    """The model with those dead times that it gains by, one after the other."""
+    best = fit(plain, Point(np.zeros(len(plain.parameters))))
+    for term in late:
+        (number,) = term.parameters
+        starts = [Point(best.point.base, {**best.point.terms, term: (s,)}) for s in number.starts]
+        found = fit_best(plain, starts)
+        if best.cost - found.cost > chdtri(1, CHANCE):
+            best = found
+    return best
 
 
 def _switches(scenario: Scenario, recorded: Input, end: float) -> list[tuple[Switch, float]]:

@@ -95,7 +95,7 @@ class ClosedLoopModel(ModelBase):
             model = SystemModel(scenario, recordings, [*laws.usual, *free, *instants], laws.found, batches)
             if instants and like is None:
                 plain = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
-                if not are_needed(plain, model):
+                if not are_needed(plain, model, plain.late_inputs()):
                     model, instants = plain, []
             self.has_instants = bool(instants)
         except (NotFast, CompilerError) as reason:

@@ -75,6 +75,10 @@ class SystemModel(CompiledModel):
         """Every law that may be missing."""
         return list(self._found)
 
+    def late_inputs(self) -> list[Term]:
+        """Laws that an input is late by, and nothing else."""
+        return [t for t, (_, fit) in self._found.items() if fit.law.delays and len(fit.law.numbers) == 1]
+
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """See `CosimModel`; laws are added to their FMUs."""
         found = self._numbers_at(point, number)
