@@ -299,7 +299,17 @@ def main() -> NoReturn:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         sys.exit(INTERRUPTED)
+    except SystemExit as end:
+        if _is_unsaid_interrupt(end):
+            print("interrupted", file=sys.stderr)
+        raise
     sys.exit(0)
+
+
+def _is_unsaid_interrupt(end: SystemExit) -> bool:
+    """Whether a command was interrupted where nothing handles that: Typer ends it with the right code and no word."""
+    cause = end.__context__.__cause__ if end.__context__ is not None else None
+    return end.code == INTERRUPTED and isinstance(cause, KeyboardInterrupt)
 
 
 if __name__ == "__main__":

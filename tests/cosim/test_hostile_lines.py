@@ -112,6 +112,13 @@ def test_a_folder_that_was_removed_under_the_command_is_said(start, tmp_path):
     assert "remedy: go to a folder that exists" in answer.err
 
 
+def test_ctrl_c_where_nothing_handles_it_is_said(start):
+    stop = "def stop(*_): raise KeyboardInterrupt"
+    prelude = f"import cosim.scenario\n{stop}\ncosim.scenario.load_scenario = stop"
+    answer = finish(start("validate", "tclab", prelude=prelude))
+    assert (answer.code, answer.err.strip()) == (130, "interrupted"), answer
+
+
 SWEEP = str(ROOT / "docs" / "examples" / "sweeps" / "voltage_and_convection.yaml")
 
 
