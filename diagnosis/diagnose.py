@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment
+from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
@@ -30,11 +31,18 @@ from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
 from diagnosis.judge.judge import findings, is_small, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
+from diagnosis.judge.opposing import opposed
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.searched import searched
 from diagnosis.judge.spread import spread_over_recordings
-from diagnosis.judge.unfitted import HeldOutReadings, Readings, left_out_readings, left_out_stretches
+from diagnosis.judge.unfitted import (
+    HeldOutReadings,
+    Readings,
+    can_be_moved,
+    left_out_readings,
+    left_out_stretches,
+)
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.models.build import models_of, uses_batches
@@ -299,4 +307,15 @@ def _accepted(
         judge is None or judge.can_be_fitted,
         on_progress,
     )
+    if accepted.agreement.is_rejected and not accepted.agreement.is_irregular and can_be_moved(model):
+        on_progress("asking whether what is left has the form of other laws at the same place")
+        accepted = _with_doubts_of_names(model, accepted)
     return accepted, unfitted.readings
+
+
+def _with_doubts_of_names(model: DiagnosisModel, accepted: Accepted) -> Accepted:
+    """The same with what speaks against the names of accepted laws of a model that readings reject."""
+    fit = accepted.explanation.fit
+    laws = [t for t in fit.point.terms if t.is_named and t.unit != "measurement" and t.recording is None]
+    forms = {t: share_at_place(model, fit, companions(model, t)) for t in laws}
+    return replace(accepted, forms=forms, opposed=opposed(model, fit.point, laws))

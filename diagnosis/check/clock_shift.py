@@ -41,6 +41,10 @@ _ELSE = (
     "the readings answer an input at once, before the body does",
     "the response to the same input changes in the course of the recording",
 )
+_FASTER = "the rig responds faster than the model says"
+#: Share of variance from which a response draws nearly all of the readings: what the model does not draw moves a
+#: response in time by more than clocks are off where it is a twentieth of it.
+DRAWN = 0.95
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
 SUPPORT = chi_square_beyond(0.05, 1)
 
@@ -133,6 +137,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
             return [_of_one(compared, found, over)]
         if is_late:
             return [_late(compared, found, where, over)]
+        if not _is_drawn(compared, found):
+            return [_or_else(compared, found, over, _FASTER)]
         return [_decided(compared, found, where, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
@@ -150,12 +156,24 @@ def _is_followed(compared: Compared, found: Shift) -> bool:
 
     Of a response to something else some shift leaves a little less than none does, and says nothing of a clock.
     """
+    return explains(0.0, float(np.median([max(pair) for pair in _shares(compared, found)])))
+
+
+def _is_drawn(compared: Compared, found: Shift) -> bool:
+    """Whether the moved response draws nearly all of the readings, or the move takes away most of what is left.
+
+    Of a rig that responds faster than its model, a resonance that is higher, say, a shift takes away a little, by a
+    likelihood that no lag reaches, and leaves a lot.
+    """
+    own, moved = (float(np.median(shares)) for shares in zip(*_shares(compared, found)))
+    return moved > DRAWN or explains(own, moved)
+
+
+def _shares(compared: Compared, found: Shift) -> list[tuple[float, float]]:
+    """Share of variance that the response explains of each channel that is asked, as it is and moved."""
     rate = found.rate * found.size if found.is_rate else 0.0
     shift = 0.0 if found.is_rate else found.size
-    shares = [
-        max(explained(b, b).share, explained(b, b, (b.times - shift) / (1.0 + rate)).share) for b in asked(compared)
-    ]
-    return explains(0.0, float(np.median(shares)))
+    return [(explained(b, b).share, explained(b, b, (b.times - shift) / (1.0 + rate)).share) for b in asked(compared)]
 
 
 def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:

@@ -59,6 +59,9 @@ class Accepted:
         judged_by: Term to which readings judged it: others of its own recording where no other one has it.
         strengths: Term to its strength in the readings that judge, where they reject the model.
         without: Term that is accepted to the fit of all others without it.
+        forms: Term to the share of what is left in training that other laws at its place explain, where readings reject
+            the model and that was asked.
+        opposed: Term to another that it mostly cancels, where readings reject the model.
     """
 
     headline: Explanation
@@ -78,6 +81,8 @@ class Accepted:
     judged_by: Mapping[Term, str] = field(default_factory=dict)
     strengths: Mapping[Term, Constancy] = field(default_factory=dict)
     without: Mapping[Term, Fit] = field(default_factory=dict)
+    forms: Mapping[Term, float] = field(default_factory=dict)
+    opposed: Mapping[Term, Term] = field(default_factory=dict)
 
 
 class _Judge:

@@ -29,13 +29,15 @@ from diagnosis.judge.diagnosis import (
 )
 from diagnosis.judge.doubts import MEASURED, accuses, far_starts, faults, is_physics, late_responses
 from diagnosis.judge.events import between_samples, event_of, local_estimates, since
+from diagnosis.judge.form import EXPLAINED
 from diagnosis.judge.headline import noise_of
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.same_response import same_response
 from diagnosis.judge.standing import standing_of, unidentified
+from diagnosis.judge.strain import strained
 from diagnosis.judge.unfitted import has_bins, raw_residuals
-from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.models.protocol import DiagnosisModel, Effect, Spot
 from diagnosis.report.display import listed, parameter_words, words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
@@ -401,6 +403,12 @@ def _finding(
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))
+    if accepted.forms.get(term, 0.0) > EXPLAINED:
+        doubts = (*doubts, _other_form(accepted.forms[term]))
+    if term in accepted.opposed:
+        doubts = (*doubts, _cancelled(model.where(accepted.opposed[term])))
+    if far := strained(model.parameters, outcome.base, fit):
+        doubts = (*doubts, _dragged(far[0], titles))
     standing = standing_of(term, doubts, likely, is_trusted(outcome), any(m.is_named for m in members))
     recording, intervals = _intervals(model, effect)
     if term.recording is not None:
@@ -515,6 +523,32 @@ def _inconstant(found: Constancy, strength: Estimate, basis: str, units: Units) 
     return (
         f"{strength.name} is {here} in the training recordings and would have to be {there} in the {basis}: "
         "a parameter of the rig is the same in all"
+    )
+
+
+def _other_form(share: float) -> str:
+    """Why a law has no name that leaves what other laws at its place explain."""
+    return (
+        f"other laws at the same place would explain {100.0 * share:.0f} % of what it leaves in training beyond the "
+        "noise: what acts there has another form"
+    )
+
+
+def _cancelled(other: tuple[Effect, Spot]) -> str:
+    """Why a law has no name that another one mostly cancels."""
+    law, place = other
+    return (
+        f"it and {law.name}, {place.label}, act against each other: both together change the readings far less than "
+        "each alone, which one law of another form may do as well"
+    )
+
+
+def _dragged(far: tuple[Parameter, float], titles: Sequence[str]) -> str:
+    """Why a law has no name with which a parameter of the model has to be far from what is stated."""
+    parameter, z = far
+    return (
+        f"with it {parameter_words(titled(parameter, titles))} is {abs(z):.1f} prior deviations from the stated "
+        "value, where recalibration alone does not move it: another law that leaves it alone may be what acts"
     )
 
 

@@ -230,7 +230,7 @@ def has_bins(model: DiagnosisModel) -> bool:
     return model.residual_of_reading is not None
 
 
-def _can_be_moved(model: DiagnosisModel) -> bool:
+def can_be_moved(model: DiagnosisModel) -> bool:
     """Whether derivatives of its readings are known: not where each simulation takes minutes, or bins are fitted."""
     return model.can_be_fitted and not has_bins(model)
 
@@ -341,7 +341,7 @@ class HeldOutReadings:
         The numbers of the day are part of the move, from where they are written down. Where they were fitted to a first
         stretch they move about what that gave.
         """
-        if not _can_be_moved(self._judge) or not _can_be_moved(self._trained):
+        if not can_be_moved(self._judge) or not can_be_moved(self._trained):
             return None
         may = freedom(self._trained.plain, point, self._judge, predicted.points[0])
         if not may.directions.shape[1]:
@@ -432,7 +432,7 @@ class LeftOutReadings:
 
     def tested(self, point: Point, predicted: Predicted) -> Tested | None:
         """See `Unfitted`; each part by the fit to the others."""
-        if not _can_be_moved(self._inner) or not predicted.points:
+        if not can_be_moved(self._inner) or not predicted.points:
             return None
         sums = []
         for number, (part, other) in enumerate(zip(self._parts, predicted.points)):
