@@ -36,6 +36,8 @@ from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 
 STEPS, MOST = 500, 2000
+#: Local variables that are compared where there are no outputs.
+LOCALS = 20
 #: Wall time after which an FMU is given up [s].
 LIMIT = 60
 INTERFACES = {"CS": ("internal", "CoSimulation"), "ME": ("cvode", "ModelExchange")}
@@ -100,13 +102,14 @@ def once(path: Path, interface: str, folder: Path) -> tuple[str, float | None, s
     start, step, stop = experiment(path)
     grid = {"start": start, "stop": stop, "macro_step": step, "output_step": step}
     time = {name: f"{value:.9g} s" for name, value in grid.items()}
-    own = {"kind": "fmu", "fmu": str(path), "integrator": INTERFACES[interface][0]}
+    own = {"kind": "fmu", "fmu": str(path), "integrator": INTERFACES[interface][0], "record": _locals(path)}
     file = folder / "scenario.yaml"
     file.write_text(yaml.safe_dump({"title": path.stem, "time": time, "components": {"unit": own}}))
     try:
         results = run(load_scenario(str(file)))
     except InputError as error:
-        return f"refused: {re.sub('/[^ ]*/(?=binaries/)', '', error.problem)}", None, ""
+        problem = re.sub(r"/[^ ]*/(?=binaries/)| \(needed by [^)]*\)", "", error.problem)
+        return f"refused: {problem}", None, ""
     except RunStopped as error:
         return f"stopped: {error.reason}", None, ""
     found = {
@@ -117,6 +120,17 @@ def once(path: Path, interface: str, folder: Path) -> tuple[str, float | None, s
     if not found:
         return "ran", None, "no number to compare"
     return "ran", *_against_fmpy(path, INTERFACES[interface][1], (start, step, stop), results["time"].values, found)
+
+
+def _locals(path: Path) -> list[str]:
+    """Local numbers of an FMU that has no outputs, the first `LOCALS`: else there is nothing to compare."""
+    with contextlib.suppress(Exception):  # what is wrong with it is said where it runs
+        every = fmpy.read_model_description(str(path), validate=False).modelVariables
+        if not any(v.causality == "output" for v in every):
+            kinds = ("Real", "Float64", "Float32", "Integer", "Int32")
+            named = [v.name for v in every if v.causality == "local" and v.type in kinds and not v.dimensions]
+            return named[:LOCALS]
+    return []
 
 
 def _against_fmpy(

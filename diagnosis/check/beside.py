@@ -251,8 +251,8 @@ def _hindrance(scenario: Scenario) -> str:
     """Why a scenario cannot be simulated in seconds; empty if it can."""
     if has_fabric(scenario) and (seconds := computing_time(scenario, STARTS)) > LONGEST:
         return (
-            f"{STARTS} simulations of this fabric take about {seconds / 60.0:.0f} min on one core: only the readings by "
-            "themselves were looked at"
+            f"{STARTS} simulations of this fabric take about {seconds / 60.0:.0f} min on one core: only the readings "
+            "by themselves were looked at"
         )
     span = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
     steps = span // nanoseconds(scenario.time.macro_step)

@@ -90,7 +90,8 @@ def _size(compared: Compared, kind: str, members: Sequence[Beside]) -> list[Doub
     stated = _stated(compared, members[0])
     text = f"distances between {kind}s are {ratio:.3g} times as simulated, and links hardly stretch"
     factor = 1.0 / conversion(stated, "m")[0]
-    fitting = [u for u in UNITS["m"] if u != stated and abs(np.log(ratio * factor * conversion(u, "m")[0])) < np.log(MEANT)]
+    others = {u: ratio * factor * conversion(u, "m")[0] for u in UNITS["m"] if u != stated}
+    fitting = [u for u, left in others.items() if abs(np.log(left)) < np.log(MEANT)]
     if fitting:
         text += f"; as `unit: {fitting[0]}` they are of its size"
         remedy = f"correct `unit` of the channels of {kind}s"
