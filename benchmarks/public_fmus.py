@@ -36,6 +36,8 @@ from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 
 STEPS, MOST = 500, 2000
+#: Relative tolerance that both hand over.
+TOLERANCE = 1e-6
 #: Local variables that are compared where there are no outputs.
 LOCALS = 20
 #: Wall time after which an FMU is given up [s].
@@ -103,6 +105,8 @@ def once(path: Path, interface: str, folder: Path) -> tuple[str, float | None, s
     grid = {"start": start, "stop": stop, "macro_step": step, "output_step": step}
     time = {name: f"{value:.9g} s" for name, value in grid.items()}
     own = {"kind": "fmu", "fmu": str(path), "integrator": INTERFACES[interface][0], "record": _locals(path)}
+    if interface == "CS":  # FMPy takes that of the default experiment, we the FMU's own
+        own["tolerance"] = TOLERANCE
     file = folder / "scenario.yaml"
     file.write_text(yaml.safe_dump({"title": path.stem, "time": time, "components": {"unit": own}}))
     try:
@@ -144,7 +148,7 @@ def _against_fmpy(
             stop_time=stop,
             step_size=step if kind == "CoSimulation" else None,
             output_interval=step,
-            relative_tolerance=1e-6,
+            relative_tolerance=TOLERANCE,
             fmi_type=kind,
             output=list(found),
             validate=False,
