@@ -186,7 +186,9 @@ def _exchanged(compared: Compared, members: Sequence[Beside]) -> list[Doubt]:
         takes = ", ".join(f"`{members[i].channel.name}` reads like `{members[columns[i]].channel.name}`" for i in cycle)
         apart = compared.units.text(float(np.max(np.abs(measured - offset - simulated)[list(cycle)])), "m")
         text = f"{takes}: each is where the other is simulated, up to {apart} from its own place"
-        remedy = "are these markers numbered as on the rig? Correct `column` of these channels, or the numbers in the rig's file"
+        remedy = (
+            "are these markers numbered as on the rig? Correct `column` of these channels, or the numbers in the rig"
+        )
         names = ", ".join(members[i].channel.name for i in cycle)
         same = (EXCHANGED,) if len(cycle) == 2 else ()
         title, z = compared.recording.title, float(np.sqrt(least))
