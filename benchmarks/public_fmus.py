@@ -1,16 +1,21 @@
-"""FMUs of public collections, run by our units and compared with FMPy's own simulation.
+"""FMUs of public collections: `cosim fmu info`, `cosim run`, and FMPy's own simulation of the same.
 
     python -m benchmarks.public_fmus FOLDER...
 
-Every .fmu below the folders that has a binary for this platform runs for 1 s in 100 steps with its own start values,
-in each interface that it offers, each in a process of its own; Co-Simulation is repeated with FMPy's `simulate_fmu`.
-The files are fetched outside the project.
+Every .fmu below the folders that has a binary for this platform is described by `fmu info` and run as a scenario of one
+component, with its own start values, over its default experiment (1 s without one, `STEPS` steps where it names no step
+size, at most `MOST` of them), in each interface that it offers, each in a process of its own. FMPy's `simulate_fmu`
+repeats it with the same steps; every number of every output is compared at every recorded time. The files are fetched
+outside the project.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import io
 import json
+import math
 import os
 import re
 import signal
@@ -22,19 +27,22 @@ from pathlib import Path
 
 import fmpy
 import numpy as np
+import yaml
 
 from benchmarks.machine import heading, results_folder
-from cosim.fmu.archive import open_fmu
-from cosim.fmu.co_simulation import CoSimulationUnit
-from cosim.fmu.model_exchange import ModelExchangeUnit
-from cosim.fmu.unit import FmuSettings
+from cosim.cli import main as cosim
+from cosim.run import RunStopped, run
+from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import NANOSECONDS, Causality, StepStatus, UnitError
 
-STEPS, SIZE = 100, NANOSECONDS // 100
+STEPS, MOST = 500, 2000
+#: Relative tolerance that both hand over.
+TOLERANCE = 1e-6
+#: Local variables that are compared where there are no outputs.
+LOCALS = 20
 #: Wall time after which an FMU is given up [s].
-LIMIT = 30
-UNITS = {"CS": CoSimulationUnit, "ME": ModelExchangeUnit}
+LIMIT = 60
+INTERFACES = {"CS": ("internal", "CoSimulation"), "ME": ("cvode", "ModelExchange")}
 
 
 @dataclass(frozen=True)
@@ -45,61 +53,124 @@ class Outcome:
         name: Path below the folder given.
         kind: FMI version and interface.
         result: `ran`, or why not.
-        deviation: Largest deviation of an output at 1 s from FMPy's, relative to max(1, value); None: not compared.
+        deviation: Largest deviation of an output from FMPy's, relative to max(1, its largest value); None: not
+            compared.
+        peer: What FMPy did where nothing could be compared.
     """
 
     name: str
     kind: str
     result: str
     deviation: float | None = None
+    peer: str = ""
 
 
-def run(path: Path, interface: str) -> tuple[str, float | None]:
-    """Result and deviation of one FMU, in this process."""
+def experiment(path: Path) -> tuple[float, float, float]:
+    """Start, stop and step [s] of an FMU's default experiment; steps are whole microseconds."""
+    found = fmpy.read_model_description(str(path), validate=False).defaultExperiment
+
+    def number(text: str | None, default: float) -> float:
+        with contextlib.suppress(TypeError, ValueError):
+            if math.isfinite(value := float(text)):  # type: ignore[arg-type]
+                return value
+        return default
+
+    start = number(found.startTime, 0.0) if found else 0.0
+    stop = number(found.stopTime, start + 1.0) if found else start + 1.0
+    stop = stop if stop > start else start + 1.0
+    step = number(found.stepSize, 0.0) if found else 0.0
+    step = max(round(step if 0.0 < step < stop - start else (stop - start) / STEPS, 6), 1e-6)
+    return start, step, start + step * min(round((stop - start) / step), MOST)
+
+
+def described(path: Path) -> str:
+    """What is wrong with `cosim fmu info` of an FMU; empty where it says something and ends as it should."""
+    out, error = io.StringIO(), io.StringIO()
     try:
-        archive = open_fmu(path)
-    except InputError as error:
-        return f"refused: {error.problem}", None
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+            sys.argv = ["cosim", "fmu", "info", str(path)]
+            cosim()
+    except SystemExit as end:
+        if end.code not in (0, None, 2):
+            return f"fmu info ended with {end.code}: {error.getvalue()[-200:]}"
+    return "" if out.getvalue() or error.getvalue() else "fmu info said nothing"
+
+
+def once(path: Path, interface: str, folder: Path) -> tuple[str, float | None, str]:
+    """Result, deviation and peer of one FMU, in this process."""
+    wrong = described(path)
+    if wrong:
+        return wrong, None, ""
+    start, step, stop = experiment(path)
+    grid = {"start": start, "stop": stop, "macro_step": step, "output_step": step}
+    time = {name: f"{value:.9g} s" for name, value in grid.items()}
+    own = {"kind": "fmu", "fmu": str(path), "integrator": INTERFACES[interface][0], "record": _locals(path)}
+    if interface == "CS":  # FMPy takes that of the default experiment, we the FMU's own
+        own["tolerance"] = TOLERANCE
+    file = folder / "scenario.yaml"
+    file.write_text(yaml.safe_dump({"title": path.stem, "time": time, "components": {"unit": own}}))
     try:
-        unit = UNITS[interface]("unit", archive, FmuSettings())
-        unit.initialise(0)
-        unit.exit_initialisation()
-        for index in range(STEPS):
-            outcome = unit.do_step(index * SIZE, SIZE)
-            if outcome.status is not StepStatus.OK:
-                return f"{outcome.status.value} at {outcome.time / NANOSECONDS:g} s", None
+        results = run(load_scenario(str(file)))
     except InputError as error:
-        return re.sub(r"/\S*/(?=binaries/)", "", error.problem), None
-    except UnitError as error:
-        return str(error), None
+        problem = re.sub(r"/[^ ]*/(?=binaries/)| \(needed by [^)]*\)", "", error.problem)
+        return f"refused: {problem}", None, ""
+    except RunStopped as error:
+        return f"stopped: {error.reason}", None, ""
     found = {
-        n: np.array(unit.get(n), dtype=float)
-        for n, v in unit.variables.items()
-        if v.causality is Causality.OUTPUT and v.type.is_float and not v.shape
+        str(n).removeprefix("unit."): v.values
+        for n, v in results.items()
+        if np.issubdtype(v.dtype, np.number) and v.dims == ("time",)
     }
-    unit.terminate()
-    return "ran", _against_fmpy(path, found) if interface == "CS" and found else None
+    if not found:
+        return "ran", None, "no number to compare"
+    return "ran", *_against_fmpy(path, INTERFACES[interface][1], (start, step, stop), results["time"].values, found)
 
 
-def _against_fmpy(path: Path, found: dict[str, np.ndarray]) -> float | None:
+def _locals(path: Path) -> list[str]:
+    """Local numbers of an FMU that has no outputs, the first `LOCALS`: else there is nothing to compare."""
+    with contextlib.suppress(Exception):  # what is wrong with it is said where it runs
+        every = fmpy.read_model_description(str(path), validate=False).modelVariables
+        if not any(v.causality == "output" for v in every):
+            kinds = ("Real", "Float64", "Float32", "Integer", "Int32")
+            named = [v.name for v in every if v.causality == "local" and v.type in kinds and not v.dimensions]
+            return named[:LOCALS]
+    return []
+
+
+def _against_fmpy(
+    path: Path, kind: str, grid: tuple[float, float, float], times: np.ndarray, found: dict[str, np.ndarray]
+) -> tuple[float | None, str]:
+    start, step, stop = grid
     try:
         result = fmpy.simulate_fmu(
             str(path),
-            stop_time=1.0,
-            step_size=0.01,
-            output_interval=0.01,
-            fmi_type="CoSimulation",
+            start_time=start,
+            stop_time=stop,
+            step_size=step if kind == "CoSimulation" else None,
+            output_interval=step,
+            relative_tolerance=TOLERANCE,
+            fmi_type=kind,
             output=list(found),
-            set_stop_time=False,
             validate=False,
+            record_events=False,
         )
-    except Exception:  # fmpy raises bare Exception
-        return None
-    last = {n: float(result[n][-1]) for n in found}
-    return max(abs(found[n] - last[n]) / max(1.0, abs(last[n])) for n in found)
+    except Exception as error:  # fmpy raises bare Exception
+        return None, f"FMPy: {str(error)[:150]}"
+    theirs = np.asarray(result["time"], dtype=float)
+    index = np.searchsorted(theirs, times - 0.5 * step)
+    index = np.minimum(index, len(theirs) - 1)
+    both = np.abs(theirs[index] - times) < 1e-6 * max(step, 1e-9) + 1e-9
+    worst = 0.0
+    for name, own in found.items():
+        other = np.asarray(result[name], dtype=float)[index][both]
+        off = np.abs(own[both].astype(float) - other)
+        off = np.where(own[both] == other, 0.0, off)
+        if len(off):
+            worst = max(worst, float(np.nanmax(off)) / max(1.0, float(np.nanmax(np.abs(other)))))
+    return worst, "" if both.all() else f"compared at {np.count_nonzero(both)} of {len(both)} times"
 
 
-def in_process(path: Path, interface: str) -> tuple[str, float | None]:
+def in_process(path: Path, interface: str) -> tuple[str, float | None, str]:
     """The same in a forked process, so that a crash or an endless step is only its own."""
     with tempfile.TemporaryFile() as answer:
         child = os.fork()
@@ -108,9 +179,10 @@ def in_process(path: Path, interface: str) -> tuple[str, float | None]:
             os.dup2(1, 2)
             signal.alarm(LIMIT)
             try:
-                text = json.dumps(run(path, interface))
+                with tempfile.TemporaryDirectory() as folder:
+                    text = json.dumps(once(path, interface, Path(folder)))
             except Exception as error:
-                text = json.dumps((f"{type(error).__name__}: {error}", None))
+                text = json.dumps((f"{type(error).__name__}: {error}", None, ""))
             answer.write(text.encode())
             answer.flush()
             os._exit(0)
@@ -118,11 +190,11 @@ def in_process(path: Path, interface: str) -> tuple[str, float | None]:
         answer.seek(0)
         data = answer.read()
     if status == -signal.SIGALRM:
-        return f"not finished in {LIMIT} s", None
+        return f"not finished in {LIMIT} s", None, ""
     if status < 0:
-        return f"crashed with {signal.Signals(-status).name}", None
-    result, deviation = json.loads(data)
-    return result, deviation
+        return f"crashed with {signal.Signals(-status).name}", None, ""
+    result, deviation, peer = json.loads(data)
+    return result, deviation, peer
 
 
 def examine(folder: Path) -> list[Outcome]:
@@ -163,6 +235,7 @@ def main(arguments: Sequence[str]) -> None:
     lines = ["| FMU | kind | result | deviation from FMPy |", "|---|---|---|---|"]
     for o in outcomes:
         deviation = "" if o.deviation is None else f"{o.deviation:.1e}"
+        deviation = "; ".join(filter(None, (deviation, o.peer.replace("|", "/").replace("\n", " "))))
         lines.append(f"| {o.name} | {o.kind} | {o.result.replace('|', '/')[:240]} | {deviation} |")
     ran = sum(o.result == "ran" for o in outcomes)
     text = heading("Public FMUs", "python -m benchmarks.public_fmus FOLDER...")

@@ -67,6 +67,8 @@ def read_text(path: Path) -> str:
     Raises:
         InputError: It cannot be read.
     """
+    if path.is_fifo():  # it would be waited for until somebody writes
+        raise InputError(path, "", "it is a pipe and no file", "give a YAML file")
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -151,7 +152,7 @@ def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:
 
     refuse_doubled(recording)
     refuse_doubled(held_out)
-    same = {p.resolve() for p in recording} & {p.resolve() for p in held_out}
+    same = {os.path.realpath(p) for p in recording} & {os.path.realpath(p) for p in held_out}
     if same:
         raise InputError(
             sorted(same)[0],

@@ -60,6 +60,8 @@ def read_tracks(file: Path) -> Table:
 
 
 def _rows(file: Path) -> list[list[str]]:
+    if file.is_fifo():
+        raise InputError(file, "", "it is a pipe and no file", "give a CSV file in UTF-8")
     try:
         text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:

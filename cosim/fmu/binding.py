@@ -147,6 +147,13 @@ class Binding(ABC):
                 remedy = "FMI names the library after the modelIdentifier; export the FMU again, or rename it"
                 raise InputError(archive.path, "binaries", missing, remedy) from error
             said = "".join(f"; it says: {m}" for m in self.messages[-3:])
+            if "nstantiate" in str(error):  # fmpy's own words where the FMU gives no instance
+                raise InputError(
+                    archive.path,
+                    f"binaries/.../{kind.modelIdentifier}",
+                    f"its binary is loaded, but gives no instance{said}",
+                    "it may need a licence, resources or a program that is not here: ask whoever exported it",
+                ) from error
             raise InputError(
                 archive.path,
                 f"binaries/.../{kind.modelIdentifier}",

@@ -35,6 +35,8 @@ def check_rules(path: Path, description: ModelDescription) -> None:
         InputError: A name is there twice, a value reference is no unsigned 32-bit number, an array is too large, or a
             start value is none of its type; with name and line of the variable.
     """
+    if description.fmiVersion.startswith("1"):  # refused as such where it would be loaded, whatever else it breaks
+        return
     first: dict[str, ModelVariable] = {}
     for v in description.modelVariables:
         other = first.setdefault(v.name, v)

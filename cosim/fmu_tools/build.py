@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 import zipfile
 from pathlib import Path
@@ -66,7 +67,11 @@ def export(name: str, version: int, coils: int, out: Path) -> Path:
 
 
 def _default_folder(folder: Path) -> Path:
-    return fmu_folder() if folder.resolve() in {f.resolve() for f in shipped_actuators().values()} else folder
+    return (
+        fmu_folder()
+        if os.path.realpath(folder) in {os.path.realpath(f) for f in shipped_actuators().values()}
+        else folder
+    )
 
 
 def _target(name: str, version: int, coils: int, out: Path) -> Path:

@@ -12,11 +12,13 @@ import xarray as xr
 from scipy.linalg.blas import dtbsv
 
 from cosim.components import FabricComponent, ProgrammeComponent, nanoseconds
+from cosim.estimate import computing_time
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.feedthrough import QUIETER, quieter, settled
+from diagnosis.check.starts import runs_from_starts
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
@@ -27,6 +29,10 @@ from diagnosis.report.user_units import Units
 MOST_STEPS = 400_000
 #: Samples of a channel that a regression looks at; more are thinned, which costs resolution in time and no truth.
 MOST_SAMPLES = 500
+#: Starts from which a fabric is simulated: they tell how far contacts scatter.
+STARTS = 3
+#: Computing time of these on one core beyond which a fabric is not simulated [s].
+LONGEST = 900.0
 #: Time constants of the lags that recalibrate a simulated channel.
 LAGS = 5
 #: Discrepancy of a model that has been recalibrated and lacks some physics, as a share of a channel's own deviation:
@@ -76,6 +82,7 @@ class Beside:
         pick: Numbers of the samples that regressions look at, shape (picked,).
         lags: Time constants of `lagged` [s], shape (LAGS,).
         lagged: The simulated course through each lag once, and twice but for the longest, shape (2 LAGS - 1, outputs).
+        scatter: What contacts do: standard deviation of one more fabric about the mean over starts, SI; else 0.
     """
 
     channel: Channel
@@ -83,6 +90,7 @@ class Beside:
     pick: np.ndarray[tuple[int], np.dtype[np.int64]]
     lags: Array
     lagged: Array
+    scatter: float = 0.0
     #: What was computed of it once; see `diagnosis.check.explain.basis` and `diagnosis.check.readings`.
     memo: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -108,8 +116,8 @@ class Beside:
 
     @cached_property
     def floor(self) -> float:
-        """Standard deviation below which a misfit says nothing: noise, rounding, and lines drawn between outputs."""
-        own = float(np.hypot(self.channel.deviation, self.channel.quantum / np.sqrt(12.0)))
+        """Standard deviation below which a misfit says nothing: noise, rounding, contacts, lines between outputs."""
+        own = float(np.sqrt(self.channel.deviation**2 + self.channel.quantum**2 / 12.0 + self.scatter**2))
         if self.simulated is None or len(self.simulated.values) < 3:
             return own
         # the error of a straight line between outputs is an eighth of the second difference
@@ -120,6 +128,11 @@ class Beside:
     def tolerance(self) -> float:
         """The same with the discrepancy that any model has."""
         return float(np.hypot(self.floor, DISCREPANCY * np.std(self.measured)))
+
+    @property
+    def is_place(self) -> bool:
+        """Whether it is a coordinate of a fabric's marker or link."""
+        return self.channel.target.kind in ("marker", "link") and self.channel.target.quantity in ("x", "y", "z")
 
     @cached_property
     def moves(self) -> bool:
@@ -207,26 +220,40 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
         InputError: The recording does not fit the scenario.
     """
     own = scenario_of(scenario, recording)
-    note = ""
+    note, runs = "", [results] if results is not None else []
     if results is None:
         note = _hindrance(own)
-        if not note:
+        if not note and has_fabric(own):
+            runs, stopped = runs_from_starts(own, STARTS)
+            note = f"{STARTS - len(runs)} of {STARTS} simulations stopped: {stopped}" if stopped else ""
+        elif not note:
             try:
-                results = run_quickly(own)
-            except RunStopped as stopped:
-                note = f"the simulation stopped: {stopped.reason}"
+                runs = [run_quickly(own)]
+            except RunStopped as error:
+                note = f"the simulation stopped: {error.reason}"
+        results = runs[0] if runs else None
     courses = tuple(_courses(own, recording))
     recording = replace(
         recording, channels={n: _settled(c, recording, courses, results) for n, c in recording.channels.items()}
     )
-    channels = {n: _beside(c, results, recording.path / "recording.yaml") for n, c in recording.channels.items()}
+    channels = {n: _beside(c, runs, recording.path / "recording.yaml") for n, c in recording.channels.items()}
+    if len(runs) > 1:
+        channels = _pooled(channels)
     return Compared(recording, own, channels, courses, note, results, scenario)
+
+
+def has_fabric(scenario: Scenario) -> bool:
+    """Whether contacts scatter in its simulation."""
+    return any(isinstance(c, FabricComponent) for c in scenario.components.values())
 
 
 def _hindrance(scenario: Scenario) -> str:
     """Why a scenario cannot be simulated in seconds; empty if it can."""
-    if any(isinstance(c, FabricComponent) for c in scenario.components.values()):
-        return "a fabric in Bullet takes minutes to simulate: only the readings by themselves were looked at"
+    if has_fabric(scenario) and (seconds := computing_time(scenario, STARTS)) > LONGEST:
+        return (
+            f"{STARTS} simulations of this fabric take about {seconds / 60.0:.0f} min on one core: only the readings "
+            "by themselves were looked at"
+        )
     span = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
     steps = span // nanoseconds(scenario.time.macro_step)
     if steps > MOST_STEPS:
@@ -279,25 +306,45 @@ def _settled(channel: Channel, recording: Recording, courses: Sequence[Course], 
     return replace(channel, deviation=noise) if noise < QUIETER * channel.deviation else channel
 
 
-def _beside(channel: Channel, results: xr.Dataset | None, source: Path) -> Beside:
+def _beside(channel: Channel, runs: Sequence[xr.Dataset], source: Path) -> Beside:
     step = max(1, -(-len(channel.times) // MOST_SAMPLES))
     pick = np.flatnonzero(~channel.is_clipped)[::step] if not channel.is_clipped.all() else np.zeros(0, np.int64)
-    series = None if results is None else series_of(results, channel.target, source)
-    if series is None:
+    if not runs:
         return Beside(channel, None, pick, np.zeros(0), np.zeros((0, 0)))
-    if not np.isfinite(series.values).all():
+    every = [series_of(results, channel.target, source) for results in runs]
+    values = np.array([one.values for one in every])
+    if not np.isfinite(values).all():
         raise InputError(
             source,
             f"channels.{channel.name}",
             "the simulation gives values that are not finite",
             "run the scenario by itself with `cosim run`",
         )
+    series = replace(every[0], values=values.mean(axis=0)) if len(runs) > 1 else every[0]
     span = float(channel.times[-1] - channel.times[0])
     least = 2.0 * float(np.median(np.diff(channel.times)))
     lags = np.geomspace(least, max(0.5 * span, 2.0 * least), LAGS)
     once = [lagged(series.times, series.values, lag) for lag in lags]
     twice = [lagged(series.times, values, lag) for values, lag in zip(once[:-1], lags)]
-    return Beside(channel, series, pick, lags, np.stack([*once, *twice]))
+    return Beside(channel, series, pick, lags, np.stack([*once, *twice]), _scatter(values))
+
+
+def _scatter(values: Array) -> float:
+    """Standard deviation of one more run about the mean of those given, shape (runs, outputs), over all outputs."""
+    count = len(values)
+    if count < 2:
+        return 0.0
+    return float(np.sqrt((1.0 + 1.0 / count) * np.mean(np.var(values, axis=0, ddof=1))))
+
+
+def _pooled(channels: Mapping[str, Beside]) -> dict[str, Beside]:
+    """Scatter of a channel is at least that of its kind: of three starts one channel's own may be small by chance."""
+    kinds: dict[tuple[str, str], list[float]] = {}
+    for b in channels.values():
+        kinds.setdefault((b.channel.target.kind, b.channel.target.quantity), []).append(b.scatter)
+    usual = {kind: float(np.sqrt(np.mean(np.square(own)))) for kind, own in kinds.items()}
+    least = {n: usual[b.channel.target.kind, b.channel.target.quantity] for n, b in channels.items()}
+    return {n: replace(b, scatter=max(b.scatter, least[n])) for n, b in channels.items()}
 
 
 def lagged(times: Array, values: Array, time_constant: float) -> Array:

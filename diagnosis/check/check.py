@@ -13,6 +13,7 @@ from diagnosis.check.clock_shift import shift_doubts
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
+from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
@@ -30,7 +31,8 @@ def check_recordings(
 ) -> tuple[Doubt, ...]:
     """Doubts about recordings, before anything is fitted.
 
-    It takes one simulation of the scenario, as it is, under the conditions of each recording, and regressions.
+    It takes one simulation of the scenario, as it is, under the conditions of each recording (of a fabric three, from
+    starts of their own), and regressions.
 
     Args:
         scenario: What the recordings are compared with.
@@ -57,7 +59,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)
         relation = [] if known else _relation(one, [o for o in every if o is not one])
-        units = unit_doubts(one)
+        units = unit_doubts(one) or size_doubts(one)
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
         if not any(d.is_serious for d in (*relation, *units)):  # milliseconds for seconds, say, are known as such
             found += _outside(one)
@@ -69,7 +71,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:
     """What is wrong between readings and programme, the explanation that is known best first."""
     timing = time_unit_doubts(one) or timing_doubts(one, others)
-    swaps = swap_doubts(one)
+    swaps = [*swap_doubts(one), *([] if size_doubts(one) else place_doubts(one))]
     if timing or swaps:
         return timing if not swaps or (timing and timing[0].z > max(d.z for d in swaps)) else swaps
     return copied_doubts(one, others) or sign_doubts(one) or shift_doubts(one) or edge_doubts(one) or switch_doubts(one)

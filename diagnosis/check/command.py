@@ -86,12 +86,6 @@ def check(
 
     One simulation for each recording. Exit code 0: no serious doubt; 1: a serious one; 2: wrong input.
     """
-    from diagnosis.check.beside import compare
-    from diagnosis.check.check import doubts_of
-    from diagnosis.check.page import write_page
-    from diagnosis.check.tables import print_check
-    from diagnosis.models.coil_network.runs import refuse_unknown
-    from diagnosis.recording.conditions import scenario_of
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import refuse_doubled
 
@@ -100,6 +94,14 @@ def check(
     refuse_doubled(recordings)
     base = load_scenario(scenario)
     loaded = [load_recording(path) for path in recordings]
+
+    from diagnosis.check.beside import compare
+    from diagnosis.check.check import doubts_of
+    from diagnosis.check.page import write_page
+    from diagnosis.check.tables import print_check
+    from diagnosis.models.coil_network.runs import refuse_unknown
+    from diagnosis.recording.conditions import scenario_of
+
     for one in loaded:  # what `cosim diagnose` would refuse is no experiment of this scenario
         refuse_unknown(scenario_of(base, one), one)
     every = [compare(base, one) for one in loaded]

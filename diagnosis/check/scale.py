@@ -75,7 +75,8 @@ def sign_doubts(compared: Compared) -> list[Doubt]:
 def _simulated(compared: Compared) -> list[Beside]:
     """Channels whose simulation changes."""
     every = [b for b in compared.channels.values() if b.simulated is not None and len(b.pick) >= FEWEST_VALUES]
-    return [b for b in every if np.ptp(b.simulated_there) > 0.0]
+    # what a fabric does within the scatter of its contacts says nothing of a size
+    return [b for b in every if np.ptp(b.simulated_there) > 0.0 and (b.moves or not b.scatter)]
 
 
 def _units(compared: Compared) -> dict[str, str]:
@@ -109,13 +110,16 @@ def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
     )
 
 
-def _score(size: _Size, unit: str) -> float:
-    """-2 log of how probable a size is, up to a constant: chi-square with two degrees of freedom."""
+def _score(size: _Size, unit: str, is_place: bool = False) -> float:
+    """-2 log of how probable a size is, up to a constant: chi-square with two degrees of freedom.
+
+    A coordinate has no level of its own: its origin is anywhere.
+    """
     found = (np.log(max(size.ranges, 1e-12)) / SPREAD) ** 2
     measured, simulated = size.levels
     if unit == "K":
         return float(found + ((measured - simulated) / ROOM) ** 2)
-    if unit in ("m", "N/m", "ohm") and measured > 0.0 and simulated > 0.0:
+    if unit in ("m", "N/m", "ohm") and not is_place and measured > 0.0 and simulated > 0.0:
         # what hangs loaded from the start has a level too: a threshold that is missed changes the range alone
         found += (np.log(measured / simulated) / SPREAD) ** 2
     return float(found)
@@ -125,7 +129,7 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
     """A size that no rig like this has, where another unit gives one that it has."""
     channel = beside.channel
     as_is = _size(beside)
-    worst = _score(as_is, channel.unit)
+    worst = _score(as_is, channel.unit, beside.is_place)
     limit = chi_square_beyond(LEVEL / max(len(compared.channels), 1), 2)
     # a channel that does not move is no question of its unit: a wire may have come off
     if worst <= limit or np.std(beside.measured) <= 3.0 * channel.deviation:
@@ -139,7 +143,7 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
         offset = other[1] - factor * own[1]
         if np.std(beside.simulated_there) <= 3.0 * factor * channel.deviation:
             continue  # in that unit the noise would hide all that is simulated
-        score = _score(_size(beside, factor, offset), channel.unit)
+        score = _score(_size(beside, factor, offset), channel.unit, beside.is_place)
         if best is None or score < best[0]:
             best = score, unit
     if best is None or best[0] > chi_square_beyond(0.05, 2) or worst - best[0] <= limit:

@@ -61,6 +61,8 @@ def read_table(path: Path) -> Sniffed:
 
 
 def _lines(path: Path) -> list[str]:
+    if path.is_fifo():
+        raise InputError(path, "", "it is a pipe and no file", "give a CSV file")
     try:
         raw = path.read_bytes()
     except OSError as error:

@@ -36,7 +36,7 @@ def swap_doubts(compared: Compared) -> list[Doubt]:
     """
     kinds: dict[tuple[str, str], list[Beside]] = defaultdict(list)
     for b in compared.channels.values():
-        if b.moves and len(b.pick) >= 24:
+        if b.moves and len(b.pick) >= 24 and not b.is_place:  # of places see `diagnosis.check.places`
             kinds[_kind(b)].append(b)
     found = []
     for members in kinds.values():
@@ -64,7 +64,7 @@ def _swaps(compared: Compared, members: list[Beside]) -> list[Doubt]:
     # a lag makes the fast of two channels the slow one: what reads as the other is simulated is no loss then
     rows, columns = linear_sum_assignment(np.where(as_simulated, np.maximum(gains, 0.0), gains), maximize=True)
     found = []
-    for cycle in _cycles(rows, columns):
+    for cycle in cycles(rows, columns):
         # every channel of an exchange must gain: one that is wrong by itself has another fault
         own = [float(gains[i, columns[i]]) for i in cycle]
         if max(own) <= level or not all(g > level or as_simulated[i, columns[i]] for g, i in zip(own, cycle)):
@@ -147,7 +147,7 @@ def _one(beside: Beside, course: Beside) -> Fit:
     return fit(beside.measured, design(course, beside.times), beside.tolerance)
 
 
-def _cycles(rows: np.ndarray, columns: np.ndarray) -> list[list[int]]:
+def cycles(rows: np.ndarray, columns: np.ndarray) -> list[list[int]]:
     """Cycles of a permutation that move something."""
     left, found = set(rows.tolist()), []
     while left:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from diagnosis.recording.recording import Recording
 
@@ -20,7 +22,7 @@ def labels(recordings: Sequence[Recording]) -> tuple[str, ...]:
         recordings apart; where two are the same folder, with their number too.
     """
     named = [r.title for r in recordings]
-    paths = [r.path.resolve().parts for r in recordings]
+    paths = [Path(os.path.realpath(r.path)).parts for r in recordings]
     shared = _shared(named)
     for depth in range(1, max((len(p) for p in paths), default=0) + 1):
         if not any(shared):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -38,7 +39,7 @@ def prepared(
 
 def refuse_doubled(recordings: Sequence[Path]) -> None:
     """Refuse a recording that is given twice: it would count as two, and everything would seem surer than it is."""
-    folders = [p.resolve() for p in recordings]
+    folders = [os.path.realpath(p) for p in recordings]  # links may point at themselves
     doubled = [given for given, folder in zip(recordings, folders) if folders.count(folder) > 1]
     if doubled:
         raise InputError(doubled[0], "", "this recording is given twice", "give each recording once")

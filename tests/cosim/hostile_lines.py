@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import zipfile
 from pathlib import Path
@@ -63,6 +64,16 @@ def lay(folder: Path) -> None:
         "sensor_noise.yaml": "channels: {coil.temperature: {noise: .inf K}}\n",
         "camera_huge.yaml": "width: 100000000\nheight: 100000000\n",
         "results.json": "[]",
+        "deep.yaml": "[" * 100_000,
+        "number.yaml": "3\n",
+        "text.yaml": "just text\n",
+        "control.yaml": "title: a\0b\n",
+        "rig_text.yaml": RIG.replace("rows: 6", "rows: six"),
+        "rig_inf.yaml": RIG.replace("rate: 60 Hz", "rate: .inf Hz"),
+        "rig_unit.yaml": RIG.replace("rate: 60 Hz", "rate: 60 kg"),
+        "rig_more.yaml": RIG + "\ncolour: red\n",
+        "one_line.csv": "frame,base_x\n",
+        "same_name.csv": "frame,base_x,base_x\n0,1,2\n1,2,3\n",
     }
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
@@ -84,6 +95,8 @@ def lay(folder: Path) -> None:
     (broken / "summary.json").write_text("{")
     for name in ("taken", "taken recording", "begun sweep"):
         (folder / name).mkdir()
+    (folder / "loop.yaml").symlink_to(folder / "loop.yaml")
+    os.mkfifo(folder / "pipe.yaml")  # a read of it would wait for ever
     (folder / "taken recording" / "recording.yaml").write_text("title: mine\n")
     (folder / "taken" / "mine.txt").write_text("mine")
     (folder / "begun sweep" / "sweep.yaml").write_text("title: mine\n")
@@ -92,6 +105,85 @@ def lay(folder: Path) -> None:
 #: Command lines that are refused: `@x` is the file x, `@out` a folder that does not exist, `@no` one that cannot be
 #: made.
 REFUSED = """
+track @rig.yaml --rig @rig.yaml --out @out
+track @text.txt --rig @rig_text.yaml --out @out
+track @text.txt --rig @rig_inf.yaml --out @out
+track @text.txt --rig @rig_unit.yaml --out @out
+track @text.txt --rig @rig_more.yaml --out @out
+track @text.txt --rig @deep.yaml --out @out
+track @text.txt --rig @control.yaml --out @out
+track @text.txt --rig @number.yaml --out @out
+track @loop.yaml --rig @loop.yaml --out @out
+track @pipe.yaml --rig @rig.yaml --out @out
+track @taken --rig @rig.yaml --out @out
+play @taken --mp4 @out.gif
+play single_coil_heating
+play '@broken run' --gif @no.gif
+play @control.yaml
+play @pipe.yaml
+play @loop.yaml
+play @taken --width nan
+play @taken --width -5
+play https://example.org/run
+sweep @control.yaml --out @out
+sweep @deep.yaml --out @out
+sweep @number.yaml --out @out
+sweep @text.yaml --out @out
+sweep @pipe.yaml --out @out
+sweep @loop.yaml --out @out
+sweep '' --out @out
+sweep @sweep.yaml --cluster nowhere --out @out
+design @control.yaml --out @out
+design @deep.yaml --out @out
+design @number.yaml --out @out
+design @text.yaml --out @out
+design @pipe.yaml --out @out
+design @loop.yaml --out @out
+design '' --out @out
+recording new @one_line.csv --scenario tclab --out @out
+recording new @same_name.csv --scenario tclab --out @out
+recording new @pipe.yaml --scenario tclab --out @out
+recording new @loop.yaml --scenario tclab --out @out
+recording new '' --scenario tclab --out @out
+recording new @tracks.csv --scenario '' --out @out
+recording new @tracks.csv --scenario @deep.yaml --out @out
+recording check '' --scenario tclab
+recording check @taken --scenario tclab
+recording check '@taken recording' --scenario tclab
+recording check @loop.yaml --scenario tclab
+recording import @one_line.csv --as @as.yaml --out @out
+recording import @same_name.csv --as @as.yaml --out @out
+recording import @pipe.yaml --as @as.yaml --out @out
+recording import @tracks.csv --as @deep.yaml --out @out
+recording import @tracks.csv --as @control.yaml --out @out
+recording import @tracks.csv --as @number.yaml --out @out
+recording import '' --as @as.yaml --out @out
+ssp import '' --out @out
+ssp import @loop.yaml --out @out
+ssp import @pipe.yaml --out @out
+ssp import @deep.yaml --out @out
+ssp import @no_structure.ssp --step nan --out @out
+ssp import @no_structure.ssp --step 0 --out @out
+ssp validate ''
+ssp validate @loop.yaml
+ssp validate @pipe.yaml
+ssp export '' --out @out.ssp
+ssp export @deep.yaml --out @out.ssp
+ssp export @number.yaml --out @out.ssp
+fmu info ''
+fmu info @loop.yaml
+fmu info @pipe.yaml
+fmu info @deep.yaml
+fmu validate ''
+fmu validate @loop.yaml
+fmu validate @pipe.yaml
+fmu build ''
+fmu build thermal_stiffness --coils 1e3
+fmu build thermal_stiffness --coils 0
+fmu export '' --out @out
+fmu new .
+fmu new ..
+fmu new 🧵
 fmu info @missing.fmu
 fmu info @folder.fmu
 fmu info @empty.fmu

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import yaml
 from scipy.integrate import solve_ivp
 
 from cosim.unit.protocol import Array
@@ -69,16 +70,26 @@ def write_recording(
     channels: dict[str, tuple[str, str, str]],
     extra: str = "",
 ) -> Path:
-    """A recording folder; inputs and channels are column and unit, channels with their noise too."""
+    """A recording folder; inputs and channels are column and unit, channels with their noise too, empty if not stated.
+
+    Column `t` is the time [s].
+    """
     folder.mkdir(parents=True, exist_ok=True)
     names = list(columns)
     table = np.column_stack([columns[n] for n in names])
     np.savetxt(folder / "data.csv", table, delimiter=",", header=",".join(names), comments="", fmt="%.12g")
-    lines = [f"title: {folder.name}", "source: a test", "table: data.csv", "time: {column: t, unit: s}", "inputs:"]
-    lines += [f"  {k}: {{column: {c}, unit: {u}}}" for k, (c, u) in inputs.items()]
-    lines += ["channels:"]
-    lines += [f"  {k}: {{column: {c}, unit: {u}, noise: {n}}}" for k, (c, u, n) in channels.items()]
-    (folder / "recording.yaml").write_text("\n".join(lines) + "\n" + extra, encoding="utf-8")
+    about = {
+        "title": folder.name,
+        "source": "a test",
+        "table": "data.csv",
+        "time": {"column": "t", "unit": "s"},
+        "inputs": {k: {"column": c, "unit": u} for k, (c, u) in inputs.items()},
+        "channels": {
+            k: {"column": c, "unit": u} | ({"noise": noise} if noise else {}) for k, (c, u, noise) in channels.items()
+        },
+    }
+    text = yaml.safe_dump({k: v for k, v in about.items() if v}, sort_keys=False, allow_unicode=True)
+    (folder / "recording.yaml").write_text(text + extra, encoding="utf-8")
     return folder
 
 

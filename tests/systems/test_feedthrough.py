@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
@@ -24,6 +23,8 @@ from diagnosis.models.systems.numbers import usual_numbers
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.usage import usage
 from evaluation.fmus.model import OdeModel
+
+from .rigs import write_recording
 
 CELL = OdeModel(
     "cell",
@@ -63,19 +64,8 @@ def record(folder: Path, seed: int, rows: int, is_after: bool, noise: str | None
         s, v = s - load[i] * STEP / 9270.0, 0.0206 * load[i] + (v - 0.0206 * load[i]) * kept
     seen = load if is_after else np.concatenate([[0.0], load[:-1]])
     values = 3.4 + 0.7 * charge - over - 0.0291 * seen + 1e-3 * rng.standard_normal(COUNT)
-    folder.mkdir()
-    table = np.column_stack([STEP * np.arange(COUNT), load, 1e3 * values])
-    np.savetxt(folder / "data.csv", table, delimiter=",", header="t,I,U", comments="", fmt="%.8g")
-    channel = {"column": "U", "unit": "mV"} | ({"noise": noise} if noise else {})
-    sidecar = {
-        "title": folder.name,
-        "source": "made",
-        "table": "data.csv",
-        "time": {"column": "t", "unit": "s"},
-        "inputs": {"bench.load": {"column": "I", "unit": "A"}},
-        "channels": {"cell.y": channel},
-    }
-    (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False))
+    columns = {"t": STEP * np.arange(COUNT), "I": load, "U": 1e3 * values}
+    write_recording(folder, columns, {"bench.load": ("I", "A")}, {"cell.y": ("U", "mV", noise or "")})
 
 
 def rig(folder: Path, rows: int, is_after: bool, noise: str | None = "1 mV", integrator: str = "cvode") -> Path:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
@@ -16,6 +15,8 @@ from diagnosis.check.beside import Compared, compare
 from diagnosis.check.clock_shift import shift_doubts, swings, turns
 from diagnosis.recording.recording import load_recording
 from evaluation.fmus.model import OdeModel
+
+from .rigs import write_recording
 
 TANK = OdeModel(
     "tank",
@@ -55,18 +56,8 @@ def record(folder: Path, seed: int, late: int) -> None:
         level[i + 1] = end + (level[i] - end) * np.exp(-outflow / area * STEP)
     values = level + 5e-4 * rng.standard_normal(COUNT)
     seen = pump[np.clip(np.arange(COUNT) - late, 0, COUNT - 1)]
-    folder.mkdir(parents=True)
-    table = np.column_stack([STEP * np.arange(COUNT), seen, 1e3 * values])
-    np.savetxt(folder / "data.csv", table, delimiter=",", header="t,P,L", comments="", fmt="%.8g")
-    sidecar = {
-        "title": folder.name,
-        "source": "made",
-        "table": "data.csv",
-        "time": {"column": "t", "unit": "s"},
-        "inputs": {"bench.pump": {"column": "P", "unit": "1"}},
-        "channels": {"tank.level": {"column": "L", "unit": "mm", "noise": "0.5 mm"}},
-    }
-    (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False))
+    columns = {"t": STEP * np.arange(COUNT), "P": seen, "L": 1e3 * values}
+    write_recording(folder, columns, {"bench.pump": ("P", "1")}, {"tank.level": ("L", "mm", "0.5 mm")})
 
 
 def rig(folder: Path, seed: int, late: int) -> Compared:
@@ -120,18 +111,9 @@ connections: [hand.force -> spring.force]
 """
     (tmp_path / "scenario.yaml").write_text(text)
     folder = tmp_path / "swing"
-    folder.mkdir()
     times = np.arange(0.0, 201.0)
-    table = np.column_stack([times, 0.25 * (1.0 - np.cos(0.2 * (times - 20.0))) * (times > 20.0)])
-    np.savetxt(folder / "data.csv", table, delimiter=",", header="t,x", comments="", fmt="%.6g")
-    sidecar = {
-        "title": "swing",
-        "source": "made",
-        "table": "data.csv",
-        "time": {"column": "t", "unit": "s"},
-        "channels": {"spring.position": {"column": "x", "unit": "m", "noise": "1 mm"}},
-    }
-    (folder / "recording.yaml").write_text(yaml.safe_dump(sidecar, sort_keys=False))
+    swung = 0.25 * (1.0 - np.cos(0.2 * (times - 20.0))) * (times > 20.0)
+    write_recording(folder, {"t": times, "x": swung}, {}, {"spring.position": ("x", "m", "1 mm")})
     swing = compare(load_scenario(tmp_path / "scenario.yaml"), load_recording(folder))
     assert swings(swing, swing.channels["spring.position"])
     assert shift_doubts(swing) == []

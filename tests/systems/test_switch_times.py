@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
@@ -22,6 +21,8 @@ from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
 from diagnosis.search.switch_times import MOST, Switch, switch_times
 from evaluation.fmus.model import OdeModel
+
+from .rigs import write_recording
 
 HUT = OdeModel(
     "hut",
@@ -58,18 +59,8 @@ def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True) 
         course[float(end)] = value
     logged = powers[np.searchsorted(instants, times, side="right")]
     air = np.array([course[float(t)] for t in times]) - 273.15 + 0.05 * rng.standard_normal(COUNT)
-    folder.mkdir()
-    table = np.column_stack([times, 1e-3 * logged, air])
-    np.savetxt(folder / "data.csv", table, delimiter=",", header="t,P,T", comments="", fmt="%.7g")
-    about = {
-        "title": folder.name,
-        "source": "computed",
-        "table": "data.csv",
-        "time": {"column": "t", "unit": "s"},
-        "inputs": {"stove.heating": {"column": "P", "unit": "kW"}},
-        "channels": {"hut.air": {"column": "T", "unit": "degC", "noise": "0.05 K"}},
-    }
-    (folder / "recording.yaml").write_text(yaml.safe_dump(about))
+    columns = {"t": times, "P": 1e-3 * logged, "T": air}
+    write_recording(folder, columns, {"stove.heating": ("P", "kW")}, {"hut.air": ("T", "degC", "0.05 K")})
     return instants
 
 
