@@ -29,6 +29,8 @@ _MARGIN = 3
 _LEAST_AREA, _MOST_AREA = 0.05, 2.0
 #: Fewest pixels that a spot may have.
 _LEAST_PIXELS = 6
+#: A marker has at least this part of its colour beyond that of its ground.
+_LEAST_BEYOND = 0.1
 
 
 @dataclass(frozen=True)
@@ -39,12 +41,14 @@ class Spots:
         pixels: Centres (u, v), shape (spots, 2) [px].
         deviation: Standard deviation of a coordinate by noise, shape (spots,) [px].
         area: Sum of the shares of pixels that are covered, shape (spots,) [px].
+        contrast: Strength of its colour above that of the ground, of 255, shape (spots,).
         edges: For each spot points on its outline, shape (points, 2) [px].
     """
 
     pixels: Array
     deviation: Array
     area: Array
+    contrast: Array
     edges: tuple[Array, ...]
 
 
@@ -78,9 +82,9 @@ class Detector:
         boxes = self._boxes(strength, max(_LEVEL * level, _FLOOR)) if level > _FLOOR else []
         found = [s for s in (self._spot(picture, strength, box) for box in boxes) if s is not None]
         if not found:
-            return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), ())
-        centre, deviation, area, edge = zip(*found)
-        return Spots(np.array(centre), np.array(deviation), np.array(area), tuple(edge))
+            return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0), ())
+        centre, deviation, area, contrast, edge = zip(*found)
+        return Spots(np.array(centre), np.array(deviation), np.array(area), np.array(contrast), tuple(edge))
 
     def _strength(self, picture: AnyArray) -> AnyArray:
         """How much of the marker's colour each pixel has, shape (height, width), bytes."""
@@ -109,8 +113,8 @@ class Detector:
 
     def _spot(
         self, picture: AnyArray, strength: AnyArray, box: tuple[int, int, int, int]
-    ) -> tuple[Array, float, float, Array] | None:
-        """Centre, deviation, area and outline of the spot in a box; None where it touches the picture's border."""
+    ) -> tuple[Array, float, float, float, Array] | None:
+        """Centre, deviation, area, contrast and outline of the spot in a box; None where it touches the picture's border."""
         x, y, wide, high = box
         left, top, right, bottom = x - _MARGIN, y - _MARGIN, x + wide + _MARGIN, y + high + _MARGIN
         if left < 0 or top < 0 or right > strength.shape[1] or bottom > strength.shape[0]:
@@ -123,6 +127,8 @@ class Detector:
         share, base, peak = _shares(values)
         if peak - base < _FLOOR:
             return None
+        if self.colour not in PLAIN:
+            share = _beyond_ground(picture[cut].astype(np.float64), share)
         weights = np.clip((share - _NONE) / (_ALL - _NONE), 0.0, 1.0)
         weights = self._of_middle(weights)
         total = float(weights.sum())
@@ -134,7 +140,7 @@ class Detector:
         edge = ((weights > 0.0) & (weights < 1.0)).astype(np.float64)
         lever = float(np.sum(edge * ((u[None, :] - centre[0]) ** 2 + (v[:, None] - centre[1]) ** 2))) / 2.0
         deviation = noise / (_ALL - _NONE) * np.sqrt(lever) / total
-        return centre, float(deviation), total, _outline(share, left, top)
+        return centre, float(deviation), total, peak - base, _outline(share, left, top)
 
     def _of_middle(self, weights: Array) -> Array:
         """Only what belongs to the largest spot: a neighbour that reaches into the box does not count."""
@@ -158,6 +164,31 @@ def _shares(values: Array) -> tuple[Array, float, float]:
     inside = values[values > base + 0.75 * (high - base)]
     peak = float(np.median(inside)) if inside.size else high
     return (values - base) / max(peak - base, 1e-9), base, peak
+
+
+def _beyond_ground(picture: Array, share: Array) -> Array:
+    """Share of each pixel that is covered, by the part of its colour that the ground around this spot does not have.
+
+    Under a lamp with a colour grey is not grey: a bright and a dark ground then differ in a fixed mixture of the colours,
+    which moves a marker that lies before both. The weights taken here are 0 for the ground's own colour, however
+    bright, and largest for this marker.
+
+    Args:
+        picture: Around the spot, shape (height, width, 3).
+        share: A first estimate, by the marker's nominal colour, shape (height, width).
+    """
+    border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]])
+    total = border.sum(axis=1)
+    bright = border[total > 0.1 * float(total.max())]
+    covered = picture[share > _ALL]
+    if not len(bright) or not len(covered):
+        return share
+    ground = np.median(bright / bright.sum(axis=1, keepdims=True), axis=0)
+    marker = np.median(covered, axis=0)
+    beyond = marker - (marker @ ground) / (ground @ ground) * ground
+    if beyond @ beyond < _LEAST_BEYOND**2 * (marker @ marker):
+        return share
+    return _shares(picture @ beyond)[0]
 
 
 def _noise(share: Array, weights: Array) -> float:
@@ -184,30 +215,32 @@ def _outline(share: Array, left: int, top: int) -> Array:
     return np.concatenate(found)
 
 
-def outline_error(edges: Sequence[Array], centres: Array) -> float:
-    """Error of a centre that does not average out over time [px]: of pixels, and of compression in blocks.
+def outline_error(edges: Sequence[Array], centres: Array, contrast: Array) -> float:
+    """Error of a centre by pixels, noise, and compression in blocks, for a contrast of 1 [px].
 
     A shift of the centre is the first harmonic of an outline's distance from it, over the angle. The third and fifth
     have the same causes and nearly the same size, and neither a shift nor a lean of the disc (the second) nor the
-    square grid of pixels (the fourth) makes them.
+    square grid of pixels (the fourth) makes them. What rounds and quantises colours does so by the same steps
+    everywhere: it moves the outline of a marker with half the contrast twice as far.
 
     Args:
         edges: Outlines of whole markers, each of shape (points, 2) [px].
         centres: Shape (outlines, 2) [px].
+        contrast: Of each of them, of 255, shape (outlines,).
 
     Returns:
-        Root mean square of the coefficients of these harmonics, without those beyond four deviations, which
-        something that cuts into an outline makes; 0 without outlines.
+        Root mean square of the coefficients of these harmonics times the contrast, without those beyond four
+        deviations, which something that cuts into an outline makes; 0 without outlines.
     """
     squares = []
-    for edge, centre in zip(edges, centres):
+    for edge, centre, strength in zip(edges, centres, contrast):
         if len(edge) < 16:
             continue
         away = edge - centre
         angle = np.arctan2(away[:, 1], away[:, 0])
         columns = [np.ones_like(angle)] + [f(k * angle) for k in (1, 2, 3, 4, 5) for f in (np.cos, np.sin)]
         found = np.linalg.lstsq(np.stack(columns, axis=1), np.hypot(away[:, 0], away[:, 1]), rcond=None)[0]
-        squares += [float(found[k]) ** 2 for k in (5, 6, 9, 10)]
+        squares += [float(strength * found[k]) ** 2 for k in (5, 6, 9, 10)]
     if not squares:
         return 0.0
     kept = [s for s in squares if s <= 16.0 * float(np.median(squares)) / 0.6745**2]

@@ -50,13 +50,14 @@ def radius_of(pictures: Sequence[Spots], sight: Sight, count: int) -> float:
     return float(np.sqrt(np.median(every) / np.pi)) if every.size else float("nan")
 
 
-def places_of(spots: Spots, sight: Sight, radius: float) -> Places:
+def places_of(spots: Spots, sight: Sight, radius: float, error: float) -> Places:
     """Spots of a picture as places; parts of one marker are put together.
 
     Args:
         spots: As detected.
         sight: The camera.
         radius: Of a whole marker [m].
+        error: Of a whole marker's centre, for a contrast of 1 [px]: `chainmail.camera.detect.outline_error`.
     """
     if not len(spots.area):
         return Places(np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0))
@@ -64,12 +65,14 @@ def places_of(spots: Spots, sight: Sight, radius: float) -> Places:
     places = sight.places(spots.pixels)
     is_there = np.isfinite(places).all(axis=1)
     share = np.where(is_there, spots.area * pixel**2 / (np.pi * radius**2), 0.0)
-    covariance = ((spots.deviation * pixel) ** 2)[:, None, None] * np.eye(2)
+    own = error / spots.contrast
+    covariance = ((np.maximum(spots.deviation, own) * pixel) ** 2)[:, None, None] * np.eye(2)
     whole = np.flatnonzero(is_there & (share >= WHOLE))
     out = [(places[i], covariance[i], share[i]) for i in whole]
     for group in _groups(places, np.flatnonzero(is_there & (share < WHOLE)), radius):
         edges = sight.places(np.concatenate([spots.edges[i] for i in group]))
-        circle = fit_circle(edges[np.isfinite(edges).all(axis=1)], radius, float(pixel[group[0]]))
+        largest = group[int(np.argmax(spots.contrast[group]))]
+        circle = fit_circle(edges[np.isfinite(edges).all(axis=1)], radius, float(pixel[largest]), float(own[largest]))
         total = float(share[group].sum())
         # Of a sliver nobody can say where its centre is: it counts as hidden.
         if circle is not None and total >= _LEAST:
