@@ -16,7 +16,7 @@ from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
 from chainmail.camera.rig import FabricLayout, Rig
 from chainmail.camera.sight import Sight, sight_of
-from chainmail.camera.spots import WHOLE, places_of, radius_of
+from chainmail.camera.spots import Size, places_of, size_of
 from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
@@ -89,9 +89,10 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
             "put it back, or give `clock.stamps`",
         )
     times, said = frame_times(rig.clock, np.array(stamps), frames.rate, rig_file, video)
-    radius = _radius(pictures, rig, rig_file, sight, count)
-    error, contrast = _error(pictures, sight, radius)
-    places = [places_of(spots, sight, radius, error) for spots in pictures]
+    size = _size(pictures, rig, rig_file, sight, count)
+    radius = size.radius
+    error, contrast = _error(pictures, sight, size)
+    places = [places_of(spots, sight, size, error) for spots in pictures]
     assign = (
         fabric_assigner(_weave(layout))
         if isinstance(layout, FabricLayout)
@@ -185,9 +186,10 @@ def _spots(
     return pictures, stamps, np.array(repeated, dtype=bool)
 
 
-def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: int) -> float:
-    """Radius of the markers [m], measured."""
-    radius = radius_of(pictures, sight, count)
+def _size(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: int) -> Size:
+    """Size of the markers, measured, and compared with the rig's."""
+    size = size_of(pictures, sight, count)
+    radius = size.radius
     if not np.isfinite(radius):
         raise InputError(
             rig_file,
@@ -203,7 +205,7 @@ def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count
             f"spots of this colour are {2e3 * radius:.3g} mm across, not {rig.markers.diameter}",
             "correct diameter, colour, or the scale of the plane",
         )
-    return radius
+    return size
 
 
 def _middle(frames: Frames) -> Array:
@@ -211,12 +213,12 @@ def _middle(frames: Frames) -> Array:
     return np.array([[frames.shape[1] / 2.0, frames.shape[0] / 2.0]])
 
 
-def _error(pictures: list[Spots], sight: Sight, radius: float) -> tuple[float, float]:
+def _error(pictures: list[Spots], sight: Sight, size: Size) -> tuple[float, float]:
     """Error of whole markers by their outlines for a contrast of 1 [px], and their median contrast."""
     edges, centres, contrast = [], [], []
     for spots in pictures[:: max(1, len(pictures) // _SAMPLES)]:
         pixel = sight.pixel_length(spots.pixels)
-        for number in np.flatnonzero(spots.area * pixel**2 > WHOLE * np.pi * radius**2):
+        for number in np.flatnonzero(spots.area * pixel**2 > size.whole * np.pi * size.radius**2):
             edges.append(spots.edges[number])
             centres.append(spots.pixels[number])
             contrast.append(spots.contrast[number])
