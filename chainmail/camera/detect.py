@@ -29,6 +29,8 @@ _MARGIN = 3
 _LEAST_AREA, _MOST_AREA = 0.05, 2.0
 #: Fewest pixels that a spot may have.
 _LEAST_PIXELS = 6
+#: Pixels above this share are covered; fewest of them that show how light changes across a marker.
+_INSIDE, _FEWEST_INSIDE = 0.75, 40
 #: A marker has at least this part of its colour beyond that of its ground.
 _LEAST_BEYOND = 0.1
 
@@ -129,17 +131,20 @@ class Detector:
             return None
         if self.colour not in PLAIN:
             share = _beyond_ground(picture[cut].astype(np.float64), share)
-        weights = np.clip((share - _NONE) / (_ALL - _NONE), 0.0, 1.0)
-        weights = self._of_middle(weights)
+        weights = self._of_middle(_weights(share))
         total = float(weights.sum())
         if total < _LEAST_PIXELS or total > _MOST_AREA * self._area:
             return None
         u, v = np.arange(left, right), np.arange(top, bottom)
-        centre = np.array([weights.sum(axis=0) @ u, weights.sum(axis=1) @ v]) / total
+        centre = _centroid(weights, u, v)
         noise = _noise(share, weights)
         edge = ((weights > 0.0) & (weights < 1.0)).astype(np.float64)
         lever = float(np.sum(edge * ((u[None, :] - centre[0]) ** 2 + (v[:, None] - centre[1]) ** 2))) / 2.0
-        deviation = noise / (_ALL - _NONE) * np.sqrt(lever) / total
+        # The lit side of a marker that a gradient or the edge of a shadow crosses counts more than the other. By how much
+        # is not corrected, since compression makes gradients that are none; it is how far the centre may be off.
+        even = np.where(weights > 0.0, _weights(share / _lighting(share)), 0.0)
+        lit = float(np.linalg.norm(_centroid(even, u, v) - centre)) / np.sqrt(2.0) if even.any() else 0.0
+        deviation = max(noise / (_ALL - _NONE) * np.sqrt(lever) / total, lit)
         return centre, float(deviation), total, peak - base, _outline(share, left, top)
 
     def _of_middle(self, weights: Array) -> Array:
@@ -153,6 +158,14 @@ class Detector:
         return np.where(self._cv2.dilate(others, np.ones((3, 3), np.uint8)) > 0, 0.0, weights)
 
 
+def _weights(share: Array) -> Array:
+    return np.clip((share - _NONE) / (_ALL - _NONE), 0.0, 1.0)
+
+
+def _centroid(weights: Array, u: AnyArray, v: AnyArray) -> Array:
+    return np.array([weights.sum(axis=0) @ u, weights.sum(axis=1) @ v]) / float(weights.sum())
+
+
 def _shares(values: Array) -> tuple[Array, float, float]:
     """Share of each pixel that is covered, and the strengths that stand for none and all of it.
 
@@ -161,9 +174,23 @@ def _shares(values: Array) -> tuple[Array, float, float]:
     border = np.concatenate([values[0], values[-1], values[1:-1, 0], values[1:-1, -1]])
     base = float(np.median(border))
     high = float(np.quantile(values, 0.98))
-    inside = values[values > base + 0.75 * (high - base)]
+    inside = values[values > base + _INSIDE * (high - base)]
     peak = float(np.median(inside)) if inside.size else high
     return (values - base) / max(peak - base, 1e-9), base, peak
+
+
+def _lighting(share: Array) -> Array:
+    """Light on a marker relative to its median: a plane through what is covered, between the half and twice of it."""
+    is_inside = share > _INSIDE
+    v, u = np.nonzero(is_inside)
+    if len(u) < _FEWEST_INSIDE:
+        return np.ones_like(share)
+    middle_u, middle_v = float(u.mean()), float(v.mean())
+    columns = np.stack([np.ones(len(u)), u - middle_u, v - middle_v], axis=1)
+    level, right, down = np.linalg.lstsq(columns, share[is_inside], rcond=None)[0]
+    high, wide = share.shape
+    plane = level + right * (np.arange(wide) - middle_u)[None, :] + down * (np.arange(high) - middle_v)[:, None]
+    return np.asarray(np.clip(plane, 0.5, 2.0))
 
 
 def _beyond_ground(picture: Array, share: Array) -> Array:
