@@ -19,7 +19,7 @@ from cosim.unit.protocol import AnyArray, Array
 
 #: A spot's pixels count from this share of its brightness (none) to that (all); straight in between.
 _NONE, _ALL = 0.15, 0.85
-#: Pixels above this share of the brightest markers' level belong to a spot.
+#: Pixels above this share of the way from the ground to the brightest markers' level belong to a spot.
 _LEVEL = 0.3
 #: No spot is sought below this strength, of 255: noise of a camera in the dark.
 _FLOOR = 18.0
@@ -81,7 +81,9 @@ class Detector:
         """Spots of a picture (height, width, 3) of bytes; the largest ones, at most three for each marker."""
         strength = self._strength(picture)
         level = self._level(strength)
-        boxes = self._boxes(strength, max(_LEVEL * level, _FLOOR)) if level > _FLOOR else []
+        # Under a lamp of the markers' colour the ground has some of it too: half of all pixels are ground.
+        ground = float(np.median(strength[::4, ::4]))
+        boxes = self._boxes(strength, max(ground + _LEVEL * (level - ground), _FLOOR)) if level > _FLOOR else []
         found = [s for s in (self._spot(picture, strength, box) for box in boxes) if s is not None]
         if not found:
             return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0), ())
