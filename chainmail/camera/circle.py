@@ -72,9 +72,7 @@ def _candidates(points: Array, radius: float) -> Array:
     return np.concatenate([middle + high * across, middle - high * across])
 
 
-def _refined(
-    points: Array, centre: Array, radius: float, slack: float, pixel: float, error: float
-) -> Circle | None:
+def _refined(points: Array, centre: Array, radius: float, slack: float, pixel: float, error: float) -> Circle | None:
     for _ in range(_STEPS):
         away = points - centre
         distance = np.linalg.norm(away, axis=1)
