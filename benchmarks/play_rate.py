@@ -1,6 +1,7 @@
 """`python -m benchmarks.play_rate [--screenshot DIR]`: pictures a second of `cosim play` in headless Chromium.
 
-Software renderer (SwiftShader), 1000 x 700. Fabrics of formulas with 1000 frames, of 18 and of 288 links; the page plays
+Software renderer (SwiftShader), 1000 x 700. Fabrics of formulas with 1000 frames, of 18 and of 288 links; the
+page plays
 for a few seconds and counts its own pictures. Needs Chromium on the PATH.
 """
 

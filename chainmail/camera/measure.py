@@ -118,7 +118,8 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
         *sight.notes,
         f"time: {said}",
         f"markers: {2e3 * radius:.2f} mm across",
-        f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; by its scatter over time {factor:.2f} times that",
+        f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; "
+        f"by its scatter over time {factor:.2f} times that",
     )
     if cut:
         notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
