@@ -30,7 +30,7 @@ class Circle:
     covariance: Array
 
 
-def fit_circle(points: Array, radius: float, pixel: float) -> Circle | None:
+def fit_circle(points: Array, radius: float, pixel: float, error: float = 0.0) -> Circle | None:
     """The circle on whose rim most of an outline lies, and outside of which nothing does.
 
     Pairs of points give two circles each; the best is refined by least squares on its points. What hides the rest cuts
@@ -40,6 +40,7 @@ def fit_circle(points: Array, radius: float, pixel: float) -> Circle | None:
         points: Outline, shape (points, 2) [m].
         radius: Of the marker [m].
         pixel: Length of a pixel [m]: a point of an outline is known to a fifth of it.
+        error: Of the centre of a whole marker, by what points of an outline have in common [px].
 
     Returns:
         None where too little of a rim is seen to say where its centre is.
@@ -57,7 +58,7 @@ def fit_circle(points: Array, radius: float, pixel: float) -> Circle | None:
     best = int(np.argmax(on - 3.0 * outside))
     if outside[best] > 0.04 * len(points):
         return None
-    return _refined(points, centres[best], radius, slack, pixel)
+    return _refined(points, centres[best], radius, slack, pixel, error)
 
 
 def _candidates(points: Array, radius: float) -> Array:
@@ -71,7 +72,7 @@ def _candidates(points: Array, radius: float) -> Array:
     return np.concatenate([middle + high * across, middle - high * across])
 
 
-def _refined(points: Array, centre: Array, radius: float, slack: float, pixel: float) -> Circle | None:
+def _refined(points: Array, centre: Array, radius: float, slack: float, pixel: float, error: float) -> Circle | None:
     for _ in range(_STEPS):
         away = points - centre
         distance = np.linalg.norm(away, axis=1)
@@ -89,4 +90,8 @@ def _refined(points: Array, centre: Array, radius: float, slack: float, pixel: f
         return None
     # Points of an outline are not independent: neighbours share pixels, and about a third of them count.
     scatter = max(float(np.sqrt(np.mean((distance[is_on] - radius) ** 2))), 0.2 * pixel)
-    return Circle(centre, 3.0 * scatter**2 * np.linalg.inv(information) + (0.05 * pixel) ** 2 * np.eye(2))
+    # An error that moves the whole circle by `error` is spread over all of its outline, which crosses 8 r lines of the
+    # grid; through a piece of it less is averaged, and not the same in all directions.
+    whole = (error * pixel) ** 2 * (4.0 * radius / pixel)
+    spread = np.linalg.inv(information)
+    return Circle(centre, (3.0 * scatter**2 + whole) * spread + (0.05 * pixel) ** 2 * np.eye(2))

@@ -95,4 +95,25 @@ def largest_curvature(centres: Array, covariance: Array) -> Curvature:
     place = np.where(is_fast, largest, place)
     sign = np.where(is_fast, np.sign(own[frames, largest]), sign)
     values = np.where(known, sign * own[frames, place], np.nan)
-    return Curvature(values, np.where(known, deviation[frames, place], np.nan), np.where(known, place + 2, 0))
+    spread = np.hypot(deviation[frames, place], _by_choice(np.abs(mean), deviation, place))
+    return Curvature(values, np.where(known, spread, np.nan), np.where(known, place + 2, 0))
+
+
+def _by_choice(mean: Array, deviation: Array, place: AnyArray) -> Array:
+    """How much too large a curvature is on average because its row was chosen as the largest, shape (frames,) [1/m].
+
+    Errors of compression stay while a fabric hardly moves, so the mean over pictures that chooses has them too. Of two
+    normal values with means d apart and a difference that scatters by s, the larger one is too large by
+    s phi(d / s), phi being the normal density.
+
+    Args:
+        mean: Over neighbouring pictures, shape (frames, rows - 2) [1/m].
+        deviation: Of single pictures, shape (frames, rows - 2) [1/m].
+        place: Of the largest, shape (frames,).
+    """
+    frames = np.arange(len(mean))
+    apart = mean[frames, place][:, None] - mean
+    both = np.maximum(np.hypot(deviation, deviation[frames, place][:, None]), 1e-12)
+    excess = both * np.exp(-(np.minimum(apart / both, 9.0) ** 2) / 2.0) / np.sqrt(2.0 * np.pi)
+    excess[frames, place] = 0.0
+    return np.asarray(np.sqrt(np.sum(excess**2, axis=1)))

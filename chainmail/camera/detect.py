@@ -19,7 +19,7 @@ from cosim.unit.protocol import AnyArray, Array
 
 #: A spot's pixels count from this share of its brightness (none) to that (all); straight in between.
 _NONE, _ALL = 0.15, 0.85
-#: Pixels above this share of the brightest markers' level belong to a spot.
+#: Pixels above this share of the way from the ground to the brightest markers' level belong to a spot.
 _LEVEL = 0.3
 #: No spot is sought below this strength, of 255: noise of a camera in the dark.
 _FLOOR = 18.0
@@ -29,6 +29,10 @@ _MARGIN = 3
 _LEAST_AREA, _MOST_AREA = 0.05, 2.0
 #: Fewest pixels that a spot may have.
 _LEAST_PIXELS = 6
+#: Pixels above this share are covered; fewest of them that show how light changes across a marker.
+_INSIDE, _FEWEST_INSIDE = 0.75, 40
+#: A marker has at least this part of its colour beyond that of its ground.
+_LEAST_BEYOND = 0.1
 
 
 @dataclass(frozen=True)
@@ -39,12 +43,14 @@ class Spots:
         pixels: Centres (u, v), shape (spots, 2) [px].
         deviation: Standard deviation of a coordinate by noise, shape (spots,) [px].
         area: Sum of the shares of pixels that are covered, shape (spots,) [px].
+        contrast: Strength of its colour above that of the ground, of 255, shape (spots,).
         edges: For each spot points on its outline, shape (points, 2) [px].
     """
 
     pixels: Array
     deviation: Array
     area: Array
+    contrast: Array
     edges: tuple[Array, ...]
 
 
@@ -75,12 +81,14 @@ class Detector:
         """Spots of a picture (height, width, 3) of bytes; the largest ones, at most three for each marker."""
         strength = self._strength(picture)
         level = self._level(strength)
-        boxes = self._boxes(strength, max(_LEVEL * level, _FLOOR)) if level > _FLOOR else []
+        # Under a lamp of the markers' colour the ground has some of it too: half of all pixels are ground.
+        ground = float(np.median(strength[::4, ::4]))
+        boxes = self._boxes(strength, max(ground + _LEVEL * (level - ground), _FLOOR)) if level > _FLOOR else []
         found = [s for s in (self._spot(picture, strength, box) for box in boxes) if s is not None]
         if not found:
-            return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), ())
-        centre, deviation, area, edge = zip(*found)
-        return Spots(np.array(centre), np.array(deviation), np.array(area), tuple(edge))
+            return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0), ())
+        centre, deviation, area, contrast, edge = zip(*found)
+        return Spots(np.array(centre), np.array(deviation), np.array(area), np.array(contrast), tuple(edge))
 
     def _strength(self, picture: AnyArray) -> AnyArray:
         """How much of the marker's colour each pixel has, shape (height, width), bytes."""
@@ -109,8 +117,9 @@ class Detector:
 
     def _spot(
         self, picture: AnyArray, strength: AnyArray, box: tuple[int, int, int, int]
-    ) -> tuple[Array, float, float, Array] | None:
-        """Centre, deviation, area and outline of the spot in a box; None where it touches the picture's border."""
+    ) -> tuple[Array, float, float, float, Array] | None:
+        """Centre, deviation, area, contrast and outline of the spot in a box; None where it touches the
+        picture's border."""
         x, y, wide, high = box
         left, top, right, bottom = x - _MARGIN, y - _MARGIN, x + wide + _MARGIN, y + high + _MARGIN
         if left < 0 or top < 0 or right > strength.shape[1] or bottom > strength.shape[0]:
@@ -123,18 +132,24 @@ class Detector:
         share, base, peak = _shares(values)
         if peak - base < _FLOOR:
             return None
-        weights = np.clip((share - _NONE) / (_ALL - _NONE), 0.0, 1.0)
-        weights = self._of_middle(weights)
+        if self.colour not in PLAIN:
+            share = _beyond_ground(picture[cut].astype(np.float64), share)
+        weights = self._of_middle(_weights(share))
         total = float(weights.sum())
         if total < _LEAST_PIXELS or total > _MOST_AREA * self._area:
             return None
         u, v = np.arange(left, right), np.arange(top, bottom)
-        centre = np.array([weights.sum(axis=0) @ u, weights.sum(axis=1) @ v]) / total
+        centre = _centroid(weights, u, v)
         noise = _noise(share, weights)
         edge = ((weights > 0.0) & (weights < 1.0)).astype(np.float64)
         lever = float(np.sum(edge * ((u[None, :] - centre[0]) ** 2 + (v[:, None] - centre[1]) ** 2))) / 2.0
-        deviation = noise / (_ALL - _NONE) * np.sqrt(lever) / total
-        return centre, float(deviation), total, _outline(share, left, top)
+        # The lit side of a marker that a gradient or the edge of a shadow crosses counts more than the other.
+        # By how much
+        # is not corrected, since compression makes gradients that are none; it is how far the centre may be off.
+        even = np.where(weights > 0.0, _weights(share / _lighting(share)), 0.0)
+        lit = float(np.linalg.norm(_centroid(even, u, v) - centre)) / np.sqrt(2.0) if even.any() else 0.0
+        deviation = max(noise / (_ALL - _NONE) * np.sqrt(lever) / total, lit)
+        return centre, float(deviation), total, peak - base, _outline(share, left, top)
 
     def _of_middle(self, weights: Array) -> Array:
         """Only what belongs to the largest spot: a neighbour that reaches into the box does not count."""
@@ -147,6 +162,14 @@ class Detector:
         return np.where(self._cv2.dilate(others, np.ones((3, 3), np.uint8)) > 0, 0.0, weights)
 
 
+def _weights(share: Array) -> Array:
+    return np.clip((share - _NONE) / (_ALL - _NONE), 0.0, 1.0)
+
+
+def _centroid(weights: Array, u: AnyArray, v: AnyArray) -> Array:
+    return np.array([weights.sum(axis=0) @ u, weights.sum(axis=1) @ v]) / float(weights.sum())
+
+
 def _shares(values: Array) -> tuple[Array, float, float]:
     """Share of each pixel that is covered, and the strengths that stand for none and all of it.
 
@@ -155,9 +178,49 @@ def _shares(values: Array) -> tuple[Array, float, float]:
     border = np.concatenate([values[0], values[-1], values[1:-1, 0], values[1:-1, -1]])
     base = float(np.median(border))
     high = float(np.quantile(values, 0.98))
-    inside = values[values > base + 0.75 * (high - base)]
+    inside = values[values > base + _INSIDE * (high - base)]
     peak = float(np.median(inside)) if inside.size else high
     return (values - base) / max(peak - base, 1e-9), base, peak
+
+
+def _lighting(share: Array) -> Array:
+    """Light on a marker relative to its median: a plane through what is covered, between the half and twice of it."""
+    is_inside = share > _INSIDE
+    v, u = np.nonzero(is_inside)
+    if len(u) < _FEWEST_INSIDE:
+        return np.ones_like(share)
+    middle_u, middle_v = float(u.mean()), float(v.mean())
+    columns = np.stack([np.ones(len(u)), u - middle_u, v - middle_v], axis=1)
+    level, right, down = np.linalg.lstsq(columns, share[is_inside], rcond=None)[0]
+    high, wide = share.shape
+    plane = level + right * (np.arange(wide) - middle_u)[None, :] + down * (np.arange(high) - middle_v)[:, None]
+    return np.asarray(np.clip(plane, 0.5, 2.0))
+
+
+def _beyond_ground(picture: Array, share: Array) -> Array:
+    """Share of each pixel that is covered, by the part of its colour that the ground around this spot does not have.
+
+    Under a lamp with a colour grey is not grey: a bright and a dark ground then differ in a fixed mixture of
+    the colours,
+    which moves a marker that lies before both. The weights taken here are 0 for the ground's own colour, however
+    bright, and largest for this marker.
+
+    Args:
+        picture: Around the spot, shape (height, width, 3).
+        share: A first estimate, by the marker's nominal colour, shape (height, width).
+    """
+    border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]])
+    total = border.sum(axis=1)
+    bright = border[total > 0.1 * float(total.max())]
+    covered = picture[share > _ALL]
+    if not len(bright) or not len(covered):
+        return share
+    ground = np.median(bright / bright.sum(axis=1, keepdims=True), axis=0)
+    marker = np.median(covered, axis=0)
+    beyond = marker - (marker @ ground) / (ground @ ground) * ground
+    if beyond @ beyond < _LEAST_BEYOND**2 * (marker @ marker):
+        return share
+    return _shares(picture @ beyond)[0]
 
 
 def _noise(share: Array, weights: Array) -> float:
@@ -184,30 +247,32 @@ def _outline(share: Array, left: int, top: int) -> Array:
     return np.concatenate(found)
 
 
-def outline_error(edges: Sequence[Array], centres: Array) -> float:
-    """Error of a centre that does not average out over time [px]: of pixels, and of compression in blocks.
+def outline_error(edges: Sequence[Array], centres: Array, contrast: Array) -> float:
+    """Error of a centre by pixels, noise, and compression in blocks, for a contrast of 1 [px].
 
     A shift of the centre is the first harmonic of an outline's distance from it, over the angle. The third and fifth
     have the same causes and nearly the same size, and neither a shift nor a lean of the disc (the second) nor the
-    square grid of pixels (the fourth) makes them.
+    square grid of pixels (the fourth) makes them. What rounds and quantises colours does so by the same steps
+    everywhere: it moves the outline of a marker with half the contrast twice as far.
 
     Args:
         edges: Outlines of whole markers, each of shape (points, 2) [px].
         centres: Shape (outlines, 2) [px].
+        contrast: Of each of them, of 255, shape (outlines,).
 
     Returns:
-        Root mean square of the coefficients of these harmonics, without those beyond four deviations, which
-        something that cuts into an outline makes; 0 without outlines.
+        Root mean square of the coefficients of these harmonics times the contrast, without those beyond four
+        deviations, which something that cuts into an outline makes; 0 without outlines.
     """
     squares = []
-    for edge, centre in zip(edges, centres):
+    for edge, centre, strength in zip(edges, centres, contrast):
         if len(edge) < 16:
             continue
         away = edge - centre
         angle = np.arctan2(away[:, 1], away[:, 0])
         columns = [np.ones_like(angle)] + [f(k * angle) for k in (1, 2, 3, 4, 5) for f in (np.cos, np.sin)]
         found = np.linalg.lstsq(np.stack(columns, axis=1), np.hypot(away[:, 0], away[:, 1]), rcond=None)[0]
-        squares += [float(found[k]) ** 2 for k in (5, 6, 9, 10)]
+        squares += [float(strength * found[k]) ** 2 for k in (5, 6, 9, 10)]
     if not squares:
         return 0.0
     kept = [s for s in squares if s <= 16.0 * float(np.median(squares)) / 0.6745**2]

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from chainmail.camera.identify import CLEAR, Chain, Expected, Weave, identify
-from chainmail.camera.spots import WHOLE, Places
+from chainmail.camera.spots import Places
 from chainmail.camera.tracks import GAP, PART, SEEN, Tracks
 from cosim.unit.protocol import AnyArray, Array
 
@@ -89,7 +89,7 @@ def _tracks(times: Array, pictures: Sequence[Places], chains: Sequence[Chain | N
         own = chain.spots[has]
         places[frame, has], covariance[frame, has] = spots.places[own], spots.covariance[own]
         share[frame, has] = spots.share[own]
-        state[frame, has] = np.where(spots.share[own] >= WHOLE, SEEN, PART)
+        state[frame, has] = np.where(spots.is_whole[own], SEEN, PART)
         margin[frame] = min(chain.margin, 99.0)
     return Tracks(times, places, covariance, share, state, margin)
 

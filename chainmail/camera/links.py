@@ -13,12 +13,14 @@ from cosim.unit.protocol import AnyArray, Array
 
 #: Weights of the third difference, which removes any course that is a parabola over four pictures.
 _THIRD = np.array([-1.0, 3.0, -3.0, 1.0])
-#: Bounds of the factor by which scatter over time corrects the deviations.
-_SMALLEST, _LARGEST, _ENOUGH = 0.5, 4.0, 20
+#: Largest factor by which scatter over time corrects the deviations, and fewest differences that tell it.
+_LARGEST, _ENOUGH = 4.0, 20
 #: Deviation of the window over which a link's length is averaged [s], and most pictures in it.
 _WINDOW, _MOST = 0.1, 12.0
 #: Mean and median of a length that differ by so many deviations of its noise: the link moves fast.
 _FAST = 2.0
+#: Three readings of one length seldom span more than so many deviations (one in 50 does).
+_NOISE_OF_THREE = 4.0
 #: A link's length cannot be trusted nearer than this [m]: it slides and rattles.
 _RATTLE = 4e-5
 #: A link whose length is off by so many deviations, and so much [m], has a wrong marker.
@@ -27,16 +29,17 @@ _WRONG, _LEAST_WRONG = 6.0, 8e-4
 _LONGEST = 0.4
 
 
-def with_errors(tracks: Tracks, steady: float) -> tuple[Tracks, float]:
-    """Deviations in accord with the scatter of the tracks over time and with errors that stay, and the factor.
+def with_errors(tracks: Tracks) -> tuple[Tracks, float]:
+    """Deviations in accord with the scatter of the tracks over time, and the factor.
 
     Third differences of whole markers hold noise and little motion; their median over all markers and pictures, over
-    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small. Markers
-    that are seen in part have deviations of their own outline, and keep them.
+    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small:
+    it is 1 at
+    least, since errors that stay from picture to picture do not show in differences. Markers that are seen in part have
+    deviations of their own outline, and keep them.
 
     Args:
         tracks: As followed.
-        steady: Deviation of the error that does not change from picture to picture [m]; it holds some of the noise.
     """
     is_whole = tracks.state == SEEN
     places = np.where(is_whole[..., None], tracks.places, np.nan)
@@ -48,11 +51,9 @@ def with_errors(tracks: Tracks, steady: float) -> tuple[Tracks, float]:
         scaled = np.abs(np.asarray(difference)) / np.sqrt(np.asarray(variance))
         known = scaled[np.isfinite(scaled)]
         if known.size >= _ENOUGH:
-            factor = float(np.clip(np.median(known) / 0.6745, _SMALLEST, _LARGEST))
-    noise = factor**2 * np.where(is_whole, tracks.covariance[..., 0, 0], np.nan)
-    rest = max(steady**2 - float(np.nanmedian(noise)), (0.5 * steady) ** 2) if is_whole.any() else steady**2
-    whole = factor**2 * tracks.covariance + rest * np.eye(2)
-    return replace(tracks, covariance=np.where(is_whole[..., None, None], whole, tracks.covariance)), factor
+            factor = float(np.clip(np.median(known) / 0.6745, 1.0, _LARGEST))
+    scale = np.where(is_whole[..., None, None], factor**2, 1.0)
+    return replace(tracks, covariance=scale * tracks.covariance), factor
 
 
 def lengths(tracks: Tracks) -> Array:
@@ -61,12 +62,17 @@ def lengths(tracks: Tracks) -> Array:
     return np.asarray(np.hypot(step[..., 0], step[..., 1]))
 
 
-def smooth_lengths(tracks: Tracks) -> tuple[Array, Array]:
+def smooth_lengths(tracks: Tracks, grain: float) -> tuple[Array, Array]:
     """Length of every link over time, and how far it may be off, both of shape (frames, links) [m].
 
     A mean over neighbouring pictures in which both markers are whole. Where a link contracts faster than that, the
     median of about as many pictures: it follows every course that only falls or only rises, and a wrong marker in fewer
-    than half of them does not move it. What mean and median differ by is then how far it may be off.
+    than half of them does not move it. What mean and median differ by is then how far it may be off. A mean over
+    pictures in which the markers hardly move has the error of one of them.
+
+    Args:
+        tracks: Of both ends of every link.
+        grain: Errors of a place are others after it has moved so far [m].
     """
     own = lengths(tracks)
     is_whole = (tracks.state[:, 0::2] == SEEN) & (tracks.state[:, 1::2] == SEEN)
@@ -80,7 +86,50 @@ def smooth_lengths(tracks: Tracks) -> tuple[Array, Array]:
     off = np.abs(mean - middle)
     noise = _typical(np.where(is_whole, np.hypot(*np.sqrt(_along(tracks))), np.nan))
     is_fast = off > _FAST * noise + _RATTLE
-    return np.where(is_fast, middle, mean), np.hypot(_RATTLE, np.where(is_fast, off, 0.0))
+    course, half = _jumps(own, noise)
+    length = np.where(half > 2.0 * noise, course, np.where(is_fast, middle, mean))
+    moved = half + np.where(is_fast, off, 0.0)
+    return length, np.sqrt(_RATTLE**2 + moved**2 + noise**2 / _independent(tracks, grain, wide))
+
+
+def _independent(tracks: Tracks, grain: float, wide: float) -> Array:
+    """How many pictures of a mean over time have errors of their own, shape (frames, links)."""
+    step = np.diff(tracks.places, axis=0, prepend=tracks.places[:1])
+    noise = np.sum(tracks.deviation**2, axis=2)
+    way = np.sqrt(np.maximum(np.sum(step**2, axis=2) - 2.0 * noise, 0.0))
+    both = np.nan_to_num(way[:, 0::2] + way[:, 1::2]) / 2.0
+    count = 2.0 * np.sqrt(np.pi) * wide
+    travelled = count * gaussian_filter1d(both, wide, axis=0, mode="nearest", truncate=6.0)
+    return np.clip(1.0 + travelled / max(grain, 1e-9), 1.0, max(count, 1.0))
+
+
+def _jumps(own: Array, noise: Array) -> tuple[Array, Array]:
+    """Where a link changes its length between neighbouring pictures by more than noise: the middle, and half of it.
+
+    A link that snaps may have any length in between while a picture is exposed. Gaps are bridged straight.
+
+    Args:
+        own: Lengths as read, shape (frames, links) [m].
+        noise: Deviation of a length, shape (links,) [m].
+
+    Returns:
+        Middle of the lengths of the picture before and after, and half of what they, and this one, differ by beyond
+        noise; both of shape (frames, links) [m].
+    """
+    course, half = own.copy(), np.zeros_like(own)
+    for link in range(own.shape[1]):
+        known = np.flatnonzero(np.isfinite(own[:, link]))
+        if len(known) < 2:
+            continue
+        # Values of the nearest readings before and after, the own one where there is one.
+        at = np.arange(len(own))
+        place = np.searchsorted(known, at)
+        before = own[known[np.clip(place - 1, 0, None)], link]
+        after = own[known[np.clip(np.searchsorted(known, at, side="right"), None, len(known) - 1)], link]
+        three = np.stack([before, np.where(np.isfinite(own[:, link]), own[:, link], before), after])
+        half[:, link] = np.maximum(np.ptp(three, axis=0) - _NOISE_OF_THREE * np.nan_to_num(noise[link]), 0.0) / 2.0
+        course[:, link] = (np.max(three, axis=0) + np.min(three, axis=0)) / 2.0
+    return course, half
 
 
 def _medians(values: Array, reach: int) -> Array:
@@ -134,14 +183,18 @@ class Links:
         return np.arctan2(step[..., 1], step[..., 0])
 
 
-def fit_links(tracks: Tracks) -> Links:
+def fit_links(tracks: Tracks, grain: float = 0.0) -> Links:
     """Rigid links through the readings: hidden markers rebuilt, others moved along their link as far as both allow.
 
     A link keeps its length between neighbouring pictures but for a rattle. Where one marker is hidden its place follows
     from the other, that length, and the link's angle between the pictures before and after; how far angles of this link
     are off such a line elsewhere in the video tells the deviation.
+
+    Args:
+        tracks: With their errors.
+        grain: Errors of a place are others after it has moved so far [m].
     """
-    length, loose = smooth_lengths(tracks)
+    length, loose = smooth_lengths(tracks, grain)
     checked = _without_wrong(tracks, length)
     return _adjusted(_rebuilt(checked, length, loose), length, loose)
 

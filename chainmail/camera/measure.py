@@ -16,15 +16,17 @@ from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
 from chainmail.camera.rig import FabricLayout, Rig
 from chainmail.camera.sight import Sight, sight_of
-from chainmail.camera.spots import WHOLE, places_of, radius_of
+from chainmail.camera.spots import Size, places_of, size_of
 from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import AnyArray
+from cosim.unit.protocol import AnyArray, Array
 
 #: A marker whose measured diameter is off by this factor is not what the rig describes.
 _OTHER_SIZE = 1.4
 #: A held row that moves by so much [m], while the last one moves by less than this share of it, is no held row.
 _HELD, _STILL = 5e-3, 0.3
+#: Errors of a marker's centre by pixels and blocks are others after it has moved by so many pixels.
+_GRAIN = 4.0
 #: Frames whose outlines are looked at.
 _SAMPLES = 60
 #: Fewest frames of a recording.
@@ -87,8 +89,10 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
             "put it back, or give `clock.stamps`",
         )
     times, said = frame_times(rig.clock, np.array(stamps), frames.rate, rig_file, video)
-    radius = _radius(pictures, rig, rig_file, sight, count)
-    places = [places_of(spots, sight, radius) for spots in pictures]
+    size = _size(pictures, rig, rig_file, sight, count)
+    radius = size.radius
+    error, contrast = _error(pictures, sight, size)
+    places = [places_of(spots, sight, size, error) for spots in pictures]
     assign = (
         fabric_assigner(_weave(layout))
         if isinstance(layout, FabricLayout)
@@ -106,22 +110,23 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
         )
     if isinstance(layout, FabricLayout):
         _check_direction(followed, layout, rig_file)
-    steady = _steady(pictures, sight, radius)
-    tracks, factor = with_errors(followed, steady)
+    tracks, factor = with_errors(followed)
     moving = without_repeats(tracks, is_repeated)
     tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"), radius)
+    pixel = float(sight.pixel_length(_middle(frames))[0])
     notes = (
         *sight.notes,
         f"time: {said}",
         f"markers: {2e3 * radius:.2f} mm across",
-        f"noise: {factor:.2f} times that of single pictures; error that stays: {1e6 * steady:.0f} um",
+        f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; "
+        f"by its scatter over time {factor:.2f} times that",
     )
     if cut:
         notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
     late = int(np.sum(is_repeated & (moving.state == GAP).all(axis=1)))
     if late:
         notes = (*notes, f"{late} pictures repeat the one before them while the markers move: they are gaps")
-    return _finished(tracks, rig, sight, notes, tuple(len(p) for p in places))
+    return _finished(tracks, rig, sight, _GRAIN * pixel, notes, tuple(len(p) for p in places))
 
 
 def _check_direction(tracks: Tracks, layout: FabricLayout, rig_file: Path) -> None:
@@ -149,11 +154,13 @@ def _travel(tracks: Tracks, markers: slice) -> float:
     return float(np.max(np.ptp(np.quantile(own, (0.1, 0.9), axis=0), axis=0))) if len(own) else 0.0
 
 
-def _finished(tracks: Tracks, rig: Rig, sight: Sight, notes: tuple[str, ...], spots: tuple[int, ...]) -> Measured:
+def _finished(
+    tracks: Tracks, rig: Rig, sight: Sight, grain: float, notes: tuple[str, ...], spots: tuple[int, ...]
+) -> Measured:
     largest = rig.largest_noise.to("m")
     if not isinstance(rig.markers.layout, FabricLayout):
         return Measured(tracks.without(_vague(tracks, largest)), None, None, sight, notes, spots)
-    links = fit_links(tracks.without(_vague(tracks, largest)))
+    links = fit_links(tracks.without(_vague(tracks, largest)), grain)
     links = replace(links, tracks=links.tracks.without(_vague(links.tracks, largest)))
     curvature = largest_curvature(links.centres, links.centre_covariance)
     # What the fiducials leave open moves all places alike: it is no noise of a curvature.
@@ -169,8 +176,7 @@ def _vague(tracks: Tracks, largest: float) -> np.ndarray[tuple[int, ...], np.dty
 def _spots(
     frames: Frames, rig: Rig, sight: Sight, count: int, on_frame: Callable[[int], None]
 ) -> tuple[list[Spots], list[float], AnyArray]:
-    centre = np.array([[frames.shape[1] / 2.0, frames.shape[0] / 2.0]])
-    pixel = float(sight.pixel_length(centre)[0])
+    pixel = float(sight.pixel_length(_middle(frames))[0])
     detector = Detector(rig.markers.colour, rig.markers.diameter.to("m") / pixel, count)
     pictures, stamps, repeated = [], [], []
     for frame in frames:
@@ -181,9 +187,10 @@ def _spots(
     return pictures, stamps, np.array(repeated, dtype=bool)
 
 
-def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: int) -> float:
-    """Radius of the markers [m], measured."""
-    radius = radius_of(pictures, sight, count)
+def _size(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: int) -> Size:
+    """Size of the markers, measured, and compared with the rig's."""
+    size = size_of(pictures, sight, count)
+    radius = size.radius
     if not np.isfinite(radius):
         raise InputError(
             rig_file,
@@ -199,19 +206,26 @@ def _radius(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count
             f"spots of this colour are {2e3 * radius:.3g} mm across, not {rig.markers.diameter}",
             "correct diameter, colour, or the scale of the plane",
         )
-    return radius
+    return size
 
 
-def _steady(pictures: list[Spots], sight: Sight, radius: float) -> float:
-    """Error of whole markers that does not change from picture to picture [m]."""
-    edges, centres, pixels = [], [], []
+def _middle(frames: Frames) -> Array:
+    """Middle of the picture, shape (1, 2) [px]."""
+    return np.array([[frames.shape[1] / 2.0, frames.shape[0] / 2.0]])
+
+
+def _error(pictures: list[Spots], sight: Sight, size: Size) -> tuple[float, float]:
+    """Error of whole markers by their outlines for a contrast of 1 [px], and their median contrast."""
+    edges, centres, contrast = [], [], []
     for spots in pictures[:: max(1, len(pictures) // _SAMPLES)]:
         pixel = sight.pixel_length(spots.pixels)
-        for number in np.flatnonzero(spots.area * pixel**2 > WHOLE * np.pi * radius**2):
+        for number in np.flatnonzero(spots.area * pixel**2 > size.whole * np.pi * size.radius**2):
             edges.append(spots.edges[number])
             centres.append(spots.pixels[number])
-            pixels.append(pixel[number])
-    return outline_error(edges, np.array(centres)) * float(np.median(pixels)) if edges else 0.0
+            contrast.append(spots.contrast[number])
+    if not edges:
+        return 0.0, 1.0
+    return outline_error(edges, np.array(centres), np.array(contrast)), float(np.median(contrast))
 
 
 def _weave(layout: FabricLayout) -> Weave:

@@ -12,8 +12,9 @@ from chainmail.camera.detect import Spots
 from chainmail.camera.sight import Sight
 from cosim.unit.protocol import AnyArray, Array
 
-#: A spot with less than this share of a marker's area is fitted with a circle.
-WHOLE = 0.94
+#: A spot with less than this share of a marker's area is hidden in part, unless areas scatter: then with so many
+#: deviations less, but never with less than the third number.
+WHOLE, _SCATTER, _LOWEST = 0.94, 4.0, 0.85
 #: With less than this share seen, an outline may be that of another circle.
 _LEAST = 0.2
 
@@ -26,56 +27,89 @@ class Places:
         places: (y, z), shape (spots, 2) [m].
         covariance: Shape (spots, 2, 2) [m^2].
         share: Of a marker that is seen, shape (spots,).
+        is_whole: Whether the whole marker is seen, as far as its area tells, shape (spots,).
     """
 
     places: Array
     covariance: Array
     share: Array
+    is_whole: AnyArray
 
     def __len__(self) -> int:
         return len(self.share)
 
 
-def radius_of(pictures: Sequence[Spots], sight: Sight, count: int) -> float:
-    """Radius of a marker [m]: that of the median area of the largest spots of each picture.
+@dataclass(frozen=True)
+class Size:
+    """Size of the markers, as measured.
 
-    Returns:
-        Not a number where no picture has a spot.
+    Args:
+        radius: [m]; not a number where no picture has a spot.
+        whole: A spot with less than this share of a marker's area is fitted with a circle.
+    """
+
+    radius: float
+    whole: float = WHOLE
+
+
+def size_of(pictures: Sequence[Spots], sight: Sight, count: int) -> Size:
+    """Size of a marker: that of the median area of the largest spots of each picture.
+
+    Compression makes areas scatter. The lower one of what scatters alike above the median is still a whole marker.
+
+    Args:
+        pictures: Spots of each picture.
+        sight: The camera.
+        count: Number of markers.
     """
     areas = []
     for spots in pictures[:: max(1, len(pictures) // 400)]:
         own = spots.area * sight.pixel_length(spots.pixels) ** 2
         areas.append(np.sort(own)[::-1][:count])
     every = np.concatenate(areas) if areas else np.zeros(0)
-    return float(np.sqrt(np.median(every) / np.pi)) if every.size else float("nan")
+    if not every.size:
+        return Size(float("nan"))
+    median = float(np.median(every))
+    above = every[every >= median] / median - 1.0
+    scatter = float(np.median(above)) / 0.6745
+    return Size(float(np.sqrt(median / np.pi)), float(np.clip(1.0 - _SCATTER * scatter, _LOWEST, WHOLE)))
 
 
-def places_of(spots: Spots, sight: Sight, radius: float) -> Places:
+def places_of(spots: Spots, sight: Sight, size: Size, error: float) -> Places:
     """Spots of a picture as places; parts of one marker are put together.
 
     Args:
         spots: As detected.
         sight: The camera.
-        radius: Of a whole marker [m].
+        size: Of a whole marker.
+        error: Of a whole marker's centre, for a contrast of 1 [px]: `chainmail.camera.detect.outline_error`.
     """
+    radius = size.radius
     if not len(spots.area):
-        return Places(np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0))
+        return Places(np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0, dtype=bool))
     pixel = sight.pixel_length(spots.pixels)
     places = sight.places(spots.pixels)
     is_there = np.isfinite(places).all(axis=1)
     share = np.where(is_there, spots.area * pixel**2 / (np.pi * radius**2), 0.0)
-    covariance = ((spots.deviation * pixel) ** 2)[:, None, None] * np.eye(2)
-    whole = np.flatnonzero(is_there & (share >= WHOLE))
-    out = [(places[i], covariance[i], share[i]) for i in whole]
-    for group in _groups(places, np.flatnonzero(is_there & (share < WHOLE)), radius):
+    own = error / spots.contrast
+    # A strip at the rim that is hidden and not told from scatter moves the centroid by its share of a radius at most.
+    strip = np.where(share < WHOLE, (1.0 - share) * radius / 2.0, 0.0)
+    variance = (np.maximum(spots.deviation, own) * pixel) ** 2 + strip**2
+    covariance = variance[:, None, None] * np.eye(2)
+    whole = np.flatnonzero(is_there & (share >= size.whole))
+    out = [(places[i], covariance[i], share[i], True) for i in whole]
+    for group in _groups(places, np.flatnonzero(is_there & (share < size.whole)), radius):
         edges = sight.places(np.concatenate([spots.edges[i] for i in group]))
-        circle = fit_circle(edges[np.isfinite(edges).all(axis=1)], radius, float(pixel[group[0]]))
+        largest = group[int(np.argmax(spots.contrast[group]))]
+        circle = fit_circle(edges[np.isfinite(edges).all(axis=1)], radius, float(pixel[largest]), float(own[largest]))
         total = float(share[group].sum())
         # Of a sliver nobody can say where its centre is: it counts as hidden.
         if circle is not None and total >= _LEAST:
-            out.append((circle.centre, circle.covariance, total))
-    found = [np.array(part) for part in zip(*out)] if out else [np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0)]
-    return Places(found[0], found[1], found[2])
+            out.append((circle.centre, circle.covariance, total, total >= WHOLE))
+    if not out:
+        return Places(np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0, dtype=bool))
+    found = [np.array(part) for part in zip(*out)]
+    return Places(found[0], found[1], found[2], found[3])
 
 
 def _groups(places: Array, small: AnyArray, radius: float) -> list[AnyArray]:

@@ -2,7 +2,8 @@
 
 Each case is a small fabric with one concealed effect or none, filmed, and recorded from the video and from the true
 places of its markers. The search runs on both recordings, on simulations that all cases share: an ensemble of starts,
-and every effect at its start values. The first M cases go through the whole of `cosim diagnose --brief` besides, with
+and every effect at its start values from several of them. The first M cases go through the whole of `cosim
+diagnose --brief` besides, with
 simulations where effects were fitted and a second recording that judges. What is done in the folder is kept, and the
 same command goes on.
 """
@@ -28,9 +29,9 @@ from diagnosis.search.search import Settings
 from evaluation.camera.case import RECORDINGS, SCENARIO, SOURCES, kinds_of, make
 from evaluation.camera.score import DIAGNOSIS, SEARCH, page
 
-#: A search on shared simulations, without any where effects were fitted; ensemble and starts of effects are those
-#: that `cosim diagnose` takes for large fabrics.
-SHARED = Effort(6, 1, 2, hopeful=0)
+#: A search on shared simulations, without any where effects were fitted. They are made once for all cases, so that
+#: several starts of every effect cost little; from one start each, the starts' scatter would choose among effects.
+SHARED = Effort(12, 4, 4, hopeful=0)
 
 
 def main() -> int:
@@ -42,18 +43,18 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--so-far", action="store_true", help="tables of what is done")
     given = parser.parse_args()
-    folders = [given.out / f"case_{n + 1}" for n in range(given.cases)]
+    folders = [given.out / f"case_{n + 1}" for n in range(max(given.cases, given.whole))]
     kept = Cache(given.out / "simulations")
     if not given.so_far:
-        _all(given.out, folders, given.seed, given.whole, kept)
+        _all(folders, given.seed, given.cases, given.whole, kept)
     text = "\n".join(page(folders, file) for file in (SEARCH, DIAGNOSIS))
     (given.out / "page.md").write_text(text, encoding="utf-8")
     print(text)
     return 0
 
 
-def _all(out: Path, folders: list[Path], seed: int, whole: int, kept: Cache) -> None:
-    for is_whole, count in ((False, len(folders)), (True, min(whole, len(folders)))):
+def _all(folders: list[Path], seed: int, searched: int, whole: int, kept: Cache) -> None:
+    for is_whole, count in ((False, searched), (True, whole)):
         for number, (folder, kind) in enumerate(zip(folders[:count], kinds_of(count))):
             make(folder, seed, number, RECORDINGS if is_whole else RECORDINGS[:1])
             for source in SOURCES:
