@@ -1,4 +1,4 @@
-"""The structured search: from all rows hot to fewer and hotter ones, each step judged by runs."""
+"""The structured search: from few hot rows at the root to more and cooler ones, each step judged by runs."""
 
 from __future__ import annotations
 
@@ -136,7 +136,10 @@ class Search:
         """
         entry = self.ledger.judged(candidate)
         if entry.is_met and not self._room:
-            runs = [entry, *self.ledger.fine_batch(candidate, STARTS[1:])]
+            # Of one fidelity: a coarse run differs from fine ones by more than starts do.
+            starts = STARTS if entry.fidelity == "coarse" else STARTS[1:]
+            own = [] if entry.fidelity == "coarse" else [entry]
+            runs = [*own, *self.ledger.fine_batch(candidate, starts)]
             complete = np.array([e.distances for e in runs if not e.failure])
             scatter = np.std(complete, axis=0, ddof=1) if len(complete) > 1 else np.zeros(len(entry.distances))
             shares = [w.share for w in self.ledger.task.wanted]
@@ -204,7 +207,7 @@ class Search:
         )
 
     def _feasible(self, outcome: Outcome) -> None:
-        """Down the stairs of rows and temperatures: fewer rows while the request is met, hotter where it is not."""
+        """From the root outward: the fewest rows that can do, hottest first, then cooler while the request is met."""
         self.tell("all rows cold")
         cold = self.ledger.judged(self._need(()))
         if cold.is_met:
@@ -221,28 +224,28 @@ class Search:
         patterns = [p for p in patterns if len(p) <= len(first.rows)]
         self._screen(cold, outcome)
         best: Candidate | None = None
-        level, is_nested = 0, self.ledger.task.vary.rows_heated == "any"
-        for pattern in patterns:
+        for pattern in reversed(patterns):
             if outcome.chain is not None and self._is_hopeless(pattern, outcome.chain):
                 outcome.notes.append(
                     f"not run: heated rows {', '.join(map(str, pattern))}; with these rows straight "
                     "the cold ones alone sag too much, by the row model"
                 )
                 continue
-            level = level if is_nested else 0
-            while level < len(self.levels):
-                made = self.candidate(pattern, self.levels[level])
-                if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
-                    break  # hotter costs more
-                self.tell(made.text())
-                if self._meets(made):
-                    best = made
-                    break
-                level += 1
-            if level == len(self.levels) and is_nested:
-                break  # fewer rows sag more
+            best = self._coolest(pattern, best)
         if best is not None:
             self._cooler_rows(best)
+
+    def _coolest(self, pattern: tuple[int, ...], best: Candidate | None) -> Candidate | None:
+        """The coolest level at which a pattern meets the request, from the hottest that costs less than the best."""
+        for hot in reversed(self.levels):
+            made = self.candidate(pattern, hot)
+            if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
+                continue
+            self.tell(made.text())
+            if not self._meets(made):
+                break  # cooler sags more
+            best = made
+        return best
 
     def _on_schedule(self, schedule: Schedule) -> None:
         """Rows one after another, hotter where what is wanted is not met."""
