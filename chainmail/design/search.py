@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -169,6 +170,7 @@ class Search:
             outcome.notes.append(f"the search ended early: {spent}")
         found = self._accepted()
         if not found:
+            self._run_nearest()
             raise self._unmet()
         self._last_check(found, outcome)
         return outcome
@@ -355,9 +357,20 @@ class Search:
                 return
             outcome.notes.append(f"fresh starts rejected {candidate.text()}")
 
+    def _run_nearest(self) -> None:
+        """Run the design that came nearest with the scenario's own settings: a coarse run's number is off."""
+        decided = [(min(e.distances), c) for c, e in self.ledger.decided().items() if not e.failure]
+        if not decided:
+            return
+        nearest = max(decided, key=lambda d: d[0])[1]
+        if self.ledger.decided()[nearest].fidelity == "coarse":
+            with contextlib.suppress(BudgetSpent):
+                self.ledger.fine_batch(nearest, STARTS[:1])
+
     def _unmet(self) -> Impossible:
         """What of the request no run met, and how near one came."""
-        complete = [e for e in self.ledger.entries if not e.failure]
+        entries = [e for e in self.ledger.entries if not e.failure]
+        complete = [e for e in entries if e.fidelity != "coarse"] or entries
         if not complete:
             reasons = "; ".join(dict.fromkeys(" ".join(e.failure.split()) for e in self.ledger.entries))
             return Impossible(f"no run reached its end: {reasons}", "correct the scenario")
@@ -366,7 +379,7 @@ class Search:
         unit = self.ledger.units[worst]
         wanted = self.ledger.task.wanted[worst]
         tried = len({e.candidate for e in self.ledger.entries})
-        most = max((e.candidate for e in complete), key=lambda c: len(c.rows))
+        most = max((e.candidate for e in entries), key=lambda c: len(c.rows))
         hottest = f", of which one heats rows {', '.join(map(str, most.rows))}" if most.rows else ""
         return Impossible(
             f"{wanted.text()}: no run of {tried} designs reached it{hottest}",
