@@ -1,7 +1,8 @@
-"""The structured search: from all rows hot to fewer and hotter ones, each step judged by runs."""
+"""The structured search: from few hot rows at the root to more and cooler ones, each step judged by runs."""
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -136,7 +137,10 @@ class Search:
         """
         entry = self.ledger.judged(candidate)
         if entry.is_met and not self._room:
-            runs = [entry, *self.ledger.fine_batch(candidate, STARTS[1:])]
+            # Of one fidelity: a coarse run differs from fine ones by more than starts do.
+            starts = STARTS if entry.fidelity == "coarse" else STARTS[1:]
+            own = [] if entry.fidelity == "coarse" else [entry]
+            runs = [*own, *self.ledger.fine_batch(candidate, starts)]
             complete = np.array([e.distances for e in runs if not e.failure])
             scatter = np.std(complete, axis=0, ddof=1) if len(complete) > 1 else np.zeros(len(entry.distances))
             shares = [w.share for w in self.ledger.task.wanted]
@@ -166,6 +170,7 @@ class Search:
             outcome.notes.append(f"the search ended early: {spent}")
         found = self._accepted()
         if not found:
+            self._run_nearest()
             raise self._unmet()
         self._last_check(found, outcome)
         return outcome
@@ -204,7 +209,7 @@ class Search:
         )
 
     def _feasible(self, outcome: Outcome) -> None:
-        """Down the stairs of rows and temperatures: fewer rows while the request is met, hotter where it is not."""
+        """From the root outward: the fewest rows that can do, hottest first, then cooler while the request is met."""
         self.tell("all rows cold")
         cold = self.ledger.judged(self._need(()))
         if cold.is_met:
@@ -221,28 +226,28 @@ class Search:
         patterns = [p for p in patterns if len(p) <= len(first.rows)]
         self._screen(cold, outcome)
         best: Candidate | None = None
-        level, is_nested = 0, self.ledger.task.vary.rows_heated == "any"
-        for pattern in patterns:
+        for pattern in reversed(patterns):
             if outcome.chain is not None and self._is_hopeless(pattern, outcome.chain):
                 outcome.notes.append(
                     f"not run: heated rows {', '.join(map(str, pattern))}; with these rows straight "
                     "the cold ones alone sag too much, by the row model"
                 )
                 continue
-            level = level if is_nested else 0
-            while level < len(self.levels):
-                made = self.candidate(pattern, self.levels[level])
-                if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
-                    break  # hotter costs more
-                self.tell(made.text())
-                if self._meets(made):
-                    best = made
-                    break
-                level += 1
-            if level == len(self.levels) and is_nested:
-                break  # fewer rows sag more
+            best = self._coolest(pattern, best)
         if best is not None:
             self._cooler_rows(best)
+
+    def _coolest(self, pattern: tuple[int, ...], best: Candidate | None) -> Candidate | None:
+        """The coolest level at which a pattern meets the request, from the hottest that costs less than the best."""
+        for hot in reversed(self.levels):
+            made = self.candidate(pattern, hot)
+            if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
+                continue
+            self.tell(made.text())
+            if not self._meets(made):
+                break  # cooler sags more
+            best = made
+        return best
 
     def _on_schedule(self, schedule: Schedule) -> None:
         """Rows one after another, hotter where what is wanted is not met."""
@@ -352,9 +357,20 @@ class Search:
                 return
             outcome.notes.append(f"fresh starts rejected {candidate.text()}")
 
+    def _run_nearest(self) -> None:
+        """Run the design that came nearest with the scenario's own settings: a coarse run's number is off."""
+        decided = [(min(e.distances), c) for c, e in self.ledger.decided().items() if not e.failure]
+        if not decided:
+            return
+        nearest = max(decided, key=lambda d: d[0])[1]
+        if self.ledger.decided()[nearest].fidelity == "coarse":
+            with contextlib.suppress(BudgetSpent):
+                self.ledger.fine_batch(nearest, STARTS[:1])
+
     def _unmet(self) -> Impossible:
         """What of the request no run met, and how near one came."""
-        complete = [e for e in self.ledger.entries if not e.failure]
+        entries = [e for e in self.ledger.entries if not e.failure]
+        complete = [e for e in entries if e.fidelity != "coarse"] or entries
         if not complete:
             reasons = "; ".join(dict.fromkeys(" ".join(e.failure.split()) for e in self.ledger.entries))
             return Impossible(f"no run reached its end: {reasons}", "correct the scenario")
@@ -363,7 +379,7 @@ class Search:
         unit = self.ledger.units[worst]
         wanted = self.ledger.task.wanted[worst]
         tried = len({e.candidate for e in self.ledger.entries})
-        most = max((e.candidate for e in complete), key=lambda c: len(c.rows))
+        most = max((e.candidate for e in entries), key=lambda c: len(c.rows))
         hottest = f", of which one heats rows {', '.join(map(str, most.rows))}" if most.rows else ""
         return Impossible(
             f"{wanted.text()}: no run of {tried} designs reached it{hottest}",
