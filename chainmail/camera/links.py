@@ -100,7 +100,7 @@ def _independent(tracks: Tracks, grain: float, wide: float) -> Array:
     both = np.nan_to_num(way[:, 0::2] + way[:, 1::2]) / 2.0
     count = 2.0 * np.sqrt(np.pi) * wide
     travelled = count * gaussian_filter1d(both, wide, axis=0, mode="nearest", truncate=6.0)
-    return np.clip(1.0 + travelled / max(grain, 1e-9), 1.0, max(count, 1.0))
+    return np.asarray(np.clip(1.0 + travelled / max(grain, 1e-9), 1.0, max(count, 1.0)))
 
 
 def _jumps(own: Array, noise: Array) -> tuple[Array, Array]:
