@@ -35,16 +35,14 @@ def start_doubts(compared: Compared) -> list[Doubt]:
     A recording that begins when the simulated rig has been driven already has no start to compare: what it begins with
     is the model's doing.
     """
-    uncertain = compared.recording.uncertain.items()
-    stated = [v.number * conversion(v.unit or "K", "K")[0] for key, v in uncertain if "temperature" in key]
-    spread = max(stated, default=0.0)
     found = []
     members = [b for b in compared.channels.values() if b.channel.unit == "K" and b.simulated is not None]
     limit = normal_beyond(LEVEL / (2.0 * max(len(members), 1)))
-    usual = max(spread, RIG_START)
     for beside in members:
         if _is_driven_before(beside):
             continue
+        spread = _stated(compared, beside)
+        usual = max(spread, RIG_START)
         off, deviation = _off(beside)
         if _grows(beside, off):
             continue
@@ -62,10 +60,17 @@ def _others(compared: Compared) -> list[Doubt]:
     What stays as far off is no start: an offset of a sensor, or a number of the model.
     """
     found: list[Doubt] = []
-    if compared.recording.beginning or any("initial" in key for key in compared.recording.uncertain):
+    if compared.recording.beginning:
         return found
     every = [b for b in compared.channels.values() if b.channel.unit != "K" and b.simulated is not None]
-    every = [b for b in every if not _is_flow(b) and not _is_driven_before(b) and len(b.pick) > FEWEST_VALUES]
+    every = [
+        b
+        for b in every
+        if not _stated(compared, b) > 0.0
+        and not _is_flow(b)
+        and not _is_driven_before(b)
+        and len(b.pick) > FEWEST_VALUES
+    ]
     limit = normal_beyond(LEVEL / (2.0 * max(len(every), 1)))
     for beside in every:
         off, deviation = _off(beside)
@@ -87,6 +92,25 @@ def _others(compared: Compared) -> list[Doubt]:
                 Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
             )
     return found
+
+
+def _stated(compared: Compared, beside: Beside) -> float:
+    """Largest stated deviation of a number of this recording that a channel may begin with, in its SI unit; 0: none.
+
+    Units of this project call such numbers initial; an FMU calls its start values as it likes: what has the quantity of
+    the channel, in its component, may be one.
+    """
+    own = beside.channel.name.split(".")[0]
+    found = [0.0]
+    for key, value in compared.recording.uncertain.items():
+        is_called = "initial" in key or "temperature" in key
+        if not (is_called or key.split(".")[0] == own):
+            continue
+        try:
+            found.append(value.number * conversion(value.unit or beside.channel.unit, beside.channel.unit)[0])
+        except ValueError:
+            continue  # another quantity
+    return max(found)
 
 
 def _is_driven_before(beside: Beside) -> bool:

@@ -87,7 +87,7 @@ def notes(
     if named.described:
         if verdict is Verdict.CANNOT_TELL:
             told.append(
-                f"Accepted, as it improves the prediction of the {_basis(adequacy)} but not identified, so it does "
+                f"Accepted, as it improves the prediction of {_judges(found, adequacy)} but not identified, so it does "
                 f"not decide: {named.described}. The rig, a sensor or an input may do that."
             )
         else:
@@ -187,6 +187,12 @@ def _fault(accepted: str, doubts: Sequence[Doubt]) -> str:
 def _basis(adequacy: Adequacy) -> str:
     """Which readings judged, within a sentence: a clause at its end is closed by a comma."""
     return f"{adequacy.basis}," if "," in adequacy.basis else adequacy.basis
+
+
+def _judges(found: Sequence[Finding], adequacy: Adequacy) -> str:
+    """Which readings accepted findings improve: those of a stretch of one recording are judged by others of it."""
+    judged = {f.judged_by or adequacy.basis for f in found if f.is_accepted}
+    return f"the {_basis(adequacy)}" if judged <= {adequacy.basis} else "readings that were left out of its fit,"
 
 
 def noise_of(adequacy: Adequacy) -> str:

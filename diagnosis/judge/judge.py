@@ -546,9 +546,10 @@ def _cancelled(other: tuple[Effect, Spot]) -> str:
 def _dragged(far: tuple[Parameter, float], titles: Sequence[str]) -> str:
     """Why a law has no name with which a parameter of the model has to be far from what is stated."""
     parameter, z = far
+    side = "above" if z > 0.0 else "below"
     return (
-        f"with it {parameter_words(titled(parameter, titles))} is {abs(z):.1f} prior deviations from the stated "
-        "value, where recalibration alone does not move it: another law that leaves it alone may be what acts"
+        f"with it {parameter_words(titled(parameter, titles))} is {abs(z):.1f} prior deviations {side} the stated "
+        "value, which it is not without it: another law that leaves it alone may be what acts"
     )
 
 

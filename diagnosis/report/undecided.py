@@ -33,13 +33,13 @@ _UNJUDGED = (
 )
 #: What would decide about a fault with begin and end, which no other recording can show.
 _OF_ONE_RECORDING = (
-    "Repeat that recording with a second sensor beside the one that is suspected: a fault of a sensor does not come "
-    "back in both, and what does belongs to the rig."
+    "Repeat the recording of the fault with a second sensor beside the one that is suspected: a fault of a sensor does "
+    "not come back in both, and what does belongs to the rig."
 )
 #: What would decide about structure that no effect explains.
 _UNEXPLAINED = (
-    "Repeat that recording: what comes back in the same channel and window belongs to the rig, what does not was a "
-    "disturbance. A second sensor there tells the sensor from the rig."
+    "Repeat the recording in which most is left: what comes back in the same channel and window belongs to the rig, "
+    "what does not was a disturbance. A second sensor there tells the sensor from the rig."
 )
 
 

@@ -68,7 +68,7 @@ def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_pat
     for part in (
         "coil[2,5].temperature (steps), 30.0 to 42.0 s: standardised sum of residuals at least 7.70; noise alone stays",
         "driven alone, coil[2,5] departs most (thermal)",
-        "Repeat that recording: what comes back",
+        "Repeat the recording in which most is left: what comes back",
         "out/amended/scenario.yaml (recalibrated, nothing added)",
         "noise alone stays below the limit in 99 of 100",
     ):
@@ -117,7 +117,7 @@ def test_the_summary_says_why_and_what_would_decide(told: Diagnosis, width: int)
 def test_an_experiment_that_was_designed_takes_the_place_of_a_repeat(tmp_path: Path) -> None:
     text = page_of(replace(unexplained(), next_experiment=EXPERIMENT), [], tmp_path)
     assert "Staircase for 60 s would decide." in text
-    assert "Repeat that recording" not in text
+    assert "Repeat the recording" not in text
     # What the held-out recordings reject is not among the rivals of an experiment: both are reported.
     assert "Record a programme of the training" in page_of(
         replace(rejected(), next_experiment=EXPERIMENT), [], tmp_path

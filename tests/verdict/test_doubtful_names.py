@@ -98,4 +98,4 @@ def test_a_dragged_parameter_takes_the_name_and_is_called_by_its_name():
     moved = replace(explanation.fit, point=Point(base, explanation.fit.point.terms))
     (found,) = findings(training, outcome, replace(accepted, explanation=replace(explanation, fit=moved)), ["first"])
     assert found.standing is Standing.UNNAMED
-    assert any("slope is 9.0 prior deviations from the stated value" in d for d in found.doubts)
+    assert any("slope is 9.0 prior deviations below the stated value" in d for d in found.doubts)
