@@ -65,17 +65,23 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     readings = readings_of(model.runs, [""] * len(model.runs))
     time = np.asarray(model.layout.time)[readings.chosen]
     left, change = left[readings.chosen], np.abs(change[readings.chosen])
-    most, worst = 0.0, ""
+    most, worst, is_whole = 0.0, "", True
     for number, recording in enumerate(readings.of_channel):
         own = readings.channel == number
         outside = own & ((time < begin) | (time > end)) & ~readings.is_wild
         if recording != term.recording or not change[own].any() or not outside.any():
             continue
+        is_whole = False
         size, rest = float(change[own].max()), float(np.sqrt(np.mean(left[outside] ** 2)))
         if size >= STANDS_OUT * rest:
             return ""
         if size / rest > most:
             most, worst = size / rest, readings.channels[number].name
+    if is_whole and change.any():
+        return (
+            "it lasts for the whole recording, so that no reading outside tells a fault of a while from one that lasts: "
+            "a zero that is off (gauge for absolute, say) is estimated where `bias_bound` of its channel is stated"
+        )
     where = f" of {worst}" if worst else ""
     return (
         f"it does not stand out: it changes the readings{where} by {most:.1f} times what the model leaves of them "
