@@ -79,7 +79,7 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
             most, worst = size / rest, readings.channels[number].name
     if is_whole and change.any():
         return (
-            "it lasts for the whole recording, so that no reading outside tells a fault of a while from one that lasts: "
+            "it lasts for the whole recording, so that no reading outside tells a fault of a while from a lasting one: "
             "a zero that is off (gauge for absolute, say) is estimated where `bias_bound` of its channel is stated"
         )
     where = f" of {worst}" if worst else ""

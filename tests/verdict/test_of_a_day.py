@@ -118,7 +118,7 @@ def test_a_fault_stands_out_from_three_times_what_is_left_outside_its_interval(o
 
 
 def test_a_fault_that_lasts_for_the_whole_recording_says_so_and_names_the_remedy():
-    """Gauge for absolute: a box over everything is no fault of a while, and there is nothing outside to compare with."""
+    """Gauge for absolute: a box over everything is no fault of a while, and nothing is outside to compare with."""
     model = Faulty(LINE + 5.0 * NOISE, 1)
     point = Point(np.zeros(2), {FAULT: (5.0 * NOISE, -0.1, 1.1)})
     reason = hidden_fault(model, point, FAULT)
