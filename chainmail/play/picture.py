@@ -23,6 +23,8 @@ _OPACITY = 0.38
 _BEHIND = 3e-4
 #: Rays per pixel along each side.
 _FINE = 2
+#: Longest and shortest bar of colours, in heights of a letter.
+_LONGEST_BAR, _SHORTEST_BAR = 8.0, 3.0
 #: Height of the strip of one curve, in heights of the letters.
 _STRIP = 4.2
 
@@ -100,14 +102,21 @@ class Painter:
                     pen.ellipse(box, _rgb(colour) if is_disc else None, _INK if not is_disc else None, 2)
 
     def _legend(self, picture: Image.Image, pen: ImageDraw.ImageDraw, time: float) -> None:
-        m = self.letters
-        bar = Image.fromarray(np.broadcast_to(palette()[None], (1, 256, 3)).copy()).resize((8 * m, m))
-        pen.text((m, 0.8 * m), f"{self.low:.4g} {self.unit}", _INK, self.font)
-        at = round(m + pen.textlength(f"{self.low:.4g} {self.unit}", self.font) + m / 2)
-        picture.paste(bar, (at, round(0.95 * m)))
-        pen.text((at + 8.5 * m, 0.8 * m), f"{self.high:.4g} {self.unit}  {self.quantity.name}", _INK, self.font)
+        m, width = self.letters, self.style.size[0]
+        low, high = f"{self.low:.4g} {self.unit}", f"{self.high:.4g} {self.unit}  {self.quantity.name}"
         clock = f"t = {time:.2f} s"
-        pen.text((self.style.size[0] - m - pen.textlength(clock, self.font), 0.8 * m), clock, _INK, self.font)
+        low_long, high_long, clock_long = (pen.textlength(text, self.font) for text in (low, high, clock))
+        free = width - 4.0 * m - low_long - high_long
+        # Where a narrow picture leaves no room for a bar beside the time, the time goes below it.
+        line = 0.8 * m if free - clock_long >= _SHORTEST_BAR * m else 2.2 * m
+        room = free - (clock_long if line < m else 0.0)
+        length = max(round(min(_LONGEST_BAR * m, room)), m)
+        bar = Image.fromarray(np.broadcast_to(palette()[None], (1, 256, 3)).copy()).resize((length, m))
+        pen.text((m, 0.8 * m), low, _INK, self.font)
+        at = round(m + low_long + m / 2)
+        picture.paste(bar, (at, round(0.95 * m)))
+        pen.text((at + length + m / 2, 0.8 * m), high, _INK, self.font)
+        pen.text((width - m - clock_long, line), clock, _INK, self.font)
 
     def _curves(
         self, pen: ImageDraw.ImageDraw, curves: Sequence[tuple[Curve, Array | None]], top: int, time: float
