@@ -127,7 +127,7 @@ def test_an_input_that_no_programme_gives(tmp_path: Path, monkeypatch: Patch, ca
 
 def test_a_unit_of_a_channel_that_nobody_knows(tmp_path: Path, monkeypatch: Patch, capsys: Captured) -> None:
     scenario = _rig(tmp_path)
-    _edited(tmp_path / "run" / "recording.yaml", ("unit: m, noise: 1 mm", "unit: span, noise: 1 span"))
+    _edited(tmp_path / "run" / "recording.yaml", ("unit: m", "unit: span"), ("noise: 1 mm", "noise: 1 span"))
     said = _refusal(scenario, monkeypatch, capsys)
     assert "channels.rig.position" in said
     assert "span" in said
