@@ -118,8 +118,7 @@ class Detector:
     def _spot(
         self, picture: AnyArray, strength: AnyArray, box: tuple[int, int, int, int]
     ) -> tuple[Array, float, float, float, Array] | None:
-        """Centre, deviation, area, contrast and outline of the spot in a box; None where it touches the
-        picture's border."""
+        """Centre, deviation, area, contrast and outline of the spot in a box; None at the picture's border."""
         x, y, wide, high = box
         left, top, right, bottom = x - _MARGIN, y - _MARGIN, x + wide + _MARGIN, y + high + _MARGIN
         if left < 0 or top < 0 or right > strength.shape[1] or bottom > strength.shape[0]:
@@ -143,9 +142,8 @@ class Detector:
         noise = _noise(share, weights)
         edge = ((weights > 0.0) & (weights < 1.0)).astype(np.float64)
         lever = float(np.sum(edge * ((u[None, :] - centre[0]) ** 2 + (v[:, None] - centre[1]) ** 2))) / 2.0
-        # The lit side of a marker that a gradient or the edge of a shadow crosses counts more than the other.
-        # By how much
-        # is not corrected, since compression makes gradients that are none; it is how far the centre may be off.
+        # The lit side of a marker that a gradient or the edge of a shadow crosses counts more than the other. That is
+        # not corrected, since compression makes gradients that are none; it is how far the centre may be off.
         even = np.where(weights > 0.0, _weights(share / _lighting(share)), 0.0)
         lit = float(np.linalg.norm(_centroid(even, u, v) - centre)) / np.sqrt(2.0) if even.any() else 0.0
         deviation = max(noise / (_ALL - _NONE) * np.sqrt(lever) / total, lit)
@@ -200,10 +198,9 @@ def _lighting(share: Array) -> Array:
 def _beyond_ground(picture: Array, share: Array) -> Array:
     """Share of each pixel that is covered, by the part of its colour that the ground around this spot does not have.
 
-    Under a lamp with a colour grey is not grey: a bright and a dark ground then differ in a fixed mixture of
-    the colours,
-    which moves a marker that lies before both. The weights taken here are 0 for the ground's own colour, however
-    bright, and largest for this marker.
+    Under a lamp with a colour grey is not grey: a bright and a dark ground then differ in a fixed mixture of the
+    colours, which moves a marker that lies before both. The weights taken here are 0 for the ground's own colour,
+    however bright, and largest for this marker.
 
     Args:
         picture: Around the spot, shape (height, width, 3).

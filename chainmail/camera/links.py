@@ -33,10 +33,9 @@ def with_errors(tracks: Tracks) -> tuple[Tracks, float]:
     """Deviations in accord with the scatter of the tracks over time, and the factor.
 
     Third differences of whole markers hold noise and little motion; their median over all markers and pictures, over
-    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small:
-    it is 1 at
-    least, since errors that stay from picture to picture do not show in differences. Markers that are seen in part have
-    deviations of their own outline, and keep them.
+    what the deviations say, is the factor. A slow video of a fast motion makes it too large, never too small: it is 1
+    at least, since errors that stay from picture to picture do not show in differences. Markers that are seen in part
+    have deviations of their own outline, and keep them.
 
     Args:
         tracks: As followed.
