@@ -61,14 +61,23 @@ class _UniqueKeyLoader(yaml.CSafeLoader):
         return super().construct_mapping(node, deep)
 
 
+def refuse_pipe(path: Path, remedy: str) -> None:
+    """Refuse a named pipe in the place of a file: it would be waited for until somebody writes.
+
+    Raises:
+        InputError: It is one.
+    """
+    if path.is_fifo():
+        raise InputError(path, "", "it is a pipe and no file", remedy)
+
+
 def read_text(path: Path) -> str:
     """Text of a file.
 
     Raises:
         InputError: It cannot be read.
     """
-    if path.is_fifo():  # it would be waited for until somebody writes
-        raise InputError(path, "", "it is a pipe and no file", "give a YAML file")
+    refuse_pipe(path, "give a YAML file")
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:

@@ -15,6 +15,7 @@ import numpy as np
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
+from cosim.yaml_file import refuse_pipe
 
 Kind = Literal["deeplabcut", "optitrack", "plain"]
 #: Fields that stand for no value.
@@ -60,8 +61,7 @@ def read_tracks(file: Path) -> Table:
 
 
 def _rows(file: Path) -> list[list[str]]:
-    if file.is_fifo():
-        raise InputError(file, "", "it is a pipe and no file", "give a CSV file in UTF-8")
+    refuse_pipe(file, "give a CSV file in UTF-8")
     try:
         text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:

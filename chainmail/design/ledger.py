@@ -23,7 +23,7 @@ from cosim.unit.quantity import PhysicalValue
 #: Coarse settings: a fifth of the iterations and not longer steps, a third of the time. With friction anchors two
 #: designs of 2 x 8 rows with 20 g read 3.3 mm less and 1.0 mm more sag than with 200 iterations, MuJoCo 14 mm more.
 #: They stop at no overlap; `GATE` judges it.
-BULLET = Settings(
+COARSE = Settings(
     "bullet",
     {"micro_step": PhysicalValue(0.5, "ms"), "iterations": 40, "penetration_limit": PhysicalValue(8.0, "mm")},
 )
@@ -93,7 +93,6 @@ class Ledger:
     def __post_init__(self) -> None:
         fabric = self.rig.scenario.components[self.rig.fabric]
         assert isinstance(fabric, FabricComponent)
-        self.coarse_settings = BULLET
         self._is_mujoco = fabric.engine == "mujoco"
 
     def can_be_coarse(self) -> bool:
@@ -184,7 +183,7 @@ class Ledger:
         )
         outputs[SPENT] = Output(quantity="energy")
         packer = Packer()
-        given = [self.coarse_settings if f == "coarse" else None for f in fidelities]
+        given = [COARSE if f == "coarse" else None for f in fidelities]
         texts = [packed_text(scenario_for(c, self.rig, g, s), packer) for c, g, s in zip(candidates, given, starts)]
         shared = Shared(packer.files(), outputs, {})
         results = self.batches.results(simulate, shared, [Job(run_key(shared, t), t) for t in texts])

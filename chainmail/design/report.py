@@ -11,7 +11,7 @@ import numpy as np
 
 from chainmail.design.candidate import Candidate, Rig, scenario_for
 from chainmail.design.impossible import Impossible
-from chainmail.design.ledger import Entry, Ledger
+from chainmail.design.ledger import COARSE, Entry, Ledger
 from chainmail.design.search import APART, ERROR, Outcome, Search
 from chainmail.design.sequential import Verdict, share_interval
 
@@ -193,7 +193,7 @@ def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:
         ]
         lines += [
             "",
-            f"Coarse runs ({ledger.coarse_settings.engine}) read farther on the right side than fine ones of "
+            f"Coarse runs ({COARSE.engine}) read farther on the right side than fine ones of "
             f"the same start, over {len(ledger.pairs())} pairs: {'; '.join(told)}.",
         ]
     return lines

@@ -44,9 +44,9 @@ def place_doubts(compared: Compared) -> list[Doubt]:
 
 def size_doubts(compared: Compared) -> list[Doubt]:
     """At most one doubt for each kind: distances between its members are no such fabric's."""
-    found = []
+    found, axes = [], _axes(compared)
     for kind in ("marker", "link"):
-        members = [b for (own, _), every in _axes(compared).items() if own == kind for b in every]
+        members = [b for (own, _), every in axes.items() if own == kind for b in every]
         found += _size(compared, kind, members)
     return found
 

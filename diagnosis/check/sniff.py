@@ -10,6 +10,7 @@ import numpy as np
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
+from cosim.yaml_file import refuse_pipe
 from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant
 
 #: Lines before the header that are looked through.
@@ -61,8 +62,7 @@ def read_table(path: Path) -> Sniffed:
 
 
 def _lines(path: Path) -> list[str]:
-    if path.is_fifo():
-        raise InputError(path, "", "it is a pipe and no file", "give a CSV file")
+    refuse_pipe(path, "give a CSV file")
     try:
         raw = path.read_bytes()
     except OSError as error:

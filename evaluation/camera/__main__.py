@@ -2,10 +2,9 @@
 
 Each case is a small fabric with one concealed effect or none, filmed, and recorded from the video and from the true
 places of its markers. The search runs on both recordings, on simulations that all cases share: an ensemble of starts,
-and every effect at its start values from several of them. The first M cases go through the whole of `cosim
-diagnose --brief` besides, with
-simulations where effects were fitted and a second recording that judges. What is done in the folder is kept, and the
-same command goes on.
+and every effect at its start values from several of them. The first M cases go through the whole of
+`cosim diagnose --brief` besides, with simulations where effects were fitted and a second recording that judges. What is
+done in the folder is kept, and the same command goes on.
 """
 
 from __future__ import annotations
