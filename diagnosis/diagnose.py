@@ -56,7 +56,7 @@ from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.shares import titled
 from diagnosis.search.structure import structure
-from diagnosis.ways import is_cheap, other_ways
+from diagnosis.ways import other_ways
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def diagnose(
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
     is_open = accepted.agreement.is_rejected and not is_small(accepted)
-    if judge is not None and is_open and is_cheap(given):
+    if judge is not None and is_open and given.can_be_searched_again:
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)

@@ -20,14 +20,6 @@ from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
 
-#: Derivatives of residuals by parameters from which another search would take minutes.
-MOST = 200_000
-
-
-def is_cheap(model: DiagnosisModel) -> bool:
-    """Whether another search of the model takes a minute at most: a network of coils or heaters that is not large."""
-    return model.is_fast and len(model.layout.time) * len(model.parameters) < MOST
-
 
 def other_ways(
     model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None] = lambda text: None

@@ -110,6 +110,7 @@ class Law:
         delays: Inputs as they were some time ago.
         is_named: Whether it is an effect with a name.
         confused_with: Identifiers that data often cannot tell from it, with what decides.
+        is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """
 
     identifier: str
@@ -123,3 +124,4 @@ class Law:
     delays: tuple[Delay, ...] = ()
     is_named: bool = True
     confused_with: Mapping[str, str] = field(default_factory=dict)
+    is_completing: bool = False

@@ -121,6 +121,11 @@ class ClosedLoopModel(ModelBase):
         return () if self.system_laws is None else self.system_laws.untried
 
     @property
+    def can_be_searched_again(self) -> bool:
+        """See `CosimModel`."""
+        return self.model.can_be_searched_again
+
+    @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
         return self.model.has_ridges

@@ -330,7 +330,8 @@ def _fit(
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     others = [q.name for symbol, q in symbols.items() if symbol == "o"]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
-    return Fit(law, placed, Term(identifier, label, domain, parameters, law.is_named, what))
+    term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
+    return Fit(law, placed, term)
 
 
 class _Scale:
