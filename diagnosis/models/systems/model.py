@@ -19,6 +19,7 @@ from diagnosis.models.sensor_chain import read
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.numbers import usual_numbers
+from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import Fit, fits, places_of
 from diagnosis.models.systems.sensors import reach_of, sensor_laws_of
 from diagnosis.recording.conditions import scenario_of
@@ -67,8 +68,12 @@ class SystemModel(CompiledModel):
         batches: Batches | None = None,
     ) -> None:
         super().__init__(scenario, recordings, free, (), batches)
-        self._found = {fit.term: (number, fit) for number, fit in enumerate(found)}
-        placed = [fit.placed for fit in found]
+        #: Law to what it adds, by the numbers that the compiled code has for each, and its place.
+        self._found: dict[Term, tuple[range, Fit]] = {}
+        placed: list[Placed] = []
+        for fit in found:
+            self._found[fit.term] = range(len(placed), len(placed) + len(fit.every)), fit
+            placed += fit.every
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
@@ -92,8 +97,9 @@ class SystemModel(CompiledModel):
         added: dict[str, list[AddedTermEntry]] = {}
         for term, values in point.terms.items():
             if term in self._found:
-                placed = self._found[term][1].placed
-                added.setdefault(placed.component, []).append(placed.entry(values))
+                fit = self._found[term][1]
+                for placed in fit.every:
+                    added.setdefault(placed.component, []).append(placed.entry(fit.values_of(placed, values)))
         return replace(found, added={name: tuple(entries) for name, entries in added.items()})
 
     def _numbers_at(self, point: Point, number: int | None) -> Changes:
@@ -154,7 +160,11 @@ class SystemModel(CompiledModel):
 
     def _prediction(self, point: Point, number: int) -> list[Array] | None:
         changes = self._numbers_at(point, number)
-        laws = {self._found[t][0]: v for t, v in point.terms.items() if t in self._found}
+        laws: dict[int, Sequence[float]] = {}
+        for term, amounts in point.terms.items():
+            if term in self._found:
+                own, fit = self._found[term]
+                laws |= {n: fit.values_of(placed, amounts) for n, placed in zip(own, fit.every)}
         fast = self._fast[number]
         rows = fast.simulate(changes, laws)
         if rows is None:

@@ -81,8 +81,7 @@ def sensor_laws_of(channels: Mapping[str, Reach], sample_step: float, macro_step
             own = _sized(identifier, number, sample_step, macro_step)
             term = Term(identifier, channel, "measurement", (own,), law=law.replace("pi", "middle"))
             found.append(UnitLaw(ComponentTerm(term, channel, ()), name))
-        for law in _of_readings(channel, reach):
-            found.append(law)
+        found += _of_readings(channel, reach)
     return found
 
 
