@@ -27,8 +27,8 @@ class Role(Enum):
     STATE = "rate of a state"
     #: Derivative of any state s but a position, over another state or input o.
     PAIR = "rate of a state over another quantity"
-    #: Derivative of a velocity v of a position x, beside another velocity v_2 of a position x_2 of the same FMU; d and
-    #: w are what the positions and the velocities are apart by.
+    #: Derivative of a velocity v, beside another one v_2 of the same FMU; d and w are what the positions and the
+    #: velocities are apart by.
     COUPLED_VELOCITY = "rate of a velocity beside another one"
     #: Derivative of a temperature T beside another one T_2; d is what they are apart by.
     COUPLED_TEMPERATURE = "rate of a temperature beside another one"

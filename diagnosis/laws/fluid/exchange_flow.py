@@ -6,12 +6,12 @@ LAW = Law(
     identifier="exchange_flow",
     name="laminar flow between two vessels",
     role=Role.COUPLED_LEVEL,
-    formula="-flow * (h - h_2)",
+    formula="-flow * d",
     numbers=(
         Number("flow", "rate/d", "rate of fall per difference", (0.05, 0.5)),
         Number(
             "ratio",
-            "h/h",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of cross sections",
             (0.3, 1.0, 3.0),
             1e3,
@@ -23,6 +23,6 @@ LAW = Law(
         "leak": "the level of the other vessel decides",
         "turbulent_exchange_flow": "differences of different size decide",
     },
-    reaction="ratio * flow * (h - h_2)",
+    reaction="ratio * flow * d",
     reacts_on="h_2",
 )

@@ -6,12 +6,12 @@ LAW = Law(
     identifier="turbulent_exchange_flow",
     name="turbulent flow between two vessels",
     role=Role.COUPLED_LEVEL,
-    formula="-flow * sqrt(abs(h - h_2)) * tanh((h - h_2) / rounding)",
+    formula="-flow * sqrt(abs(d)) * tanh(d / rounding)",
     numbers=(
         Number("flow", "rate/d**0.5", "rate of fall per root of the difference", (0.05, 0.5)),
         Number(
             "ratio",
-            "h/h",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of cross sections",
             (0.3, 1.0, 3.0),
             1e3,
@@ -23,6 +23,6 @@ LAW = Law(
     confused_with={
         "exchange_flow": "differences of different size decide",
     },
-    reaction="ratio * flow * sqrt(abs(h - h_2)) * tanh((h - h_2) / rounding)",
+    reaction="ratio * flow * sqrt(abs(d)) * tanh(d / rounding)",
     reacts_on="h_2",
 )

@@ -6,12 +6,12 @@ LAW = Law(
     identifier="exchange",
     name="heat between two parts",
     role=Role.COUPLED_TEMPERATURE,
-    formula="-exchange * (T - T_2)",
+    formula="-exchange * d",
     numbers=(
         Number("exchange", "rate/d", "rate of cooling per difference", (0.05, 0.5)),
         Number(
             "ratio",
-            "T/T",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of heat capacities",
             (0.3, 1.0, 3.0),
             1e3,
@@ -22,6 +22,6 @@ LAW = Law(
     confused_with={
         "heat_loss": "the temperature of the other part decides",
     },
-    reaction="ratio * exchange * (T - T_2)",
+    reaction="ratio * exchange * d",
     reacts_on="T_2",
 )

@@ -11,7 +11,7 @@ LAW = Law(
         Number("emission", "rate/d/T_abs**3", "rate of cooling per difference of fourth powers", (0.05, 0.5)),
         Number(
             "ratio",
-            "T/T",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of heat capacities",
             (0.3, 1.0, 3.0),
             1e3,

@@ -6,12 +6,12 @@ LAW = Law(
     identifier="coupling_cubic_spring",
     name="spring between two parts that hardens or softens",
     role=Role.COUPLED_VELOCITY,
-    formula="-stiffness_3 * (x - x_2) ** 3",
+    formula="-stiffness_3 * d ** 3",
     numbers=(
         Number("stiffness_3", "rate/d**3", "acceleration per cube of the distance apart", (0.05, -0.05), 1e3, None),
         Number(
             "ratio",
-            "x/x",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of inertias",
             (0.3, 1.0, 3.0),
             1e3,
@@ -22,6 +22,6 @@ LAW = Law(
     confused_with={
         "coupling_play": "small and large torques decide",
     },
-    reaction="ratio * stiffness_3 * (x - x_2) ** 3",
+    reaction="ratio * stiffness_3 * d ** 3",
     reacts_on="v_2",
 )

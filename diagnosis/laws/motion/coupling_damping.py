@@ -6,12 +6,12 @@ LAW = Law(
     identifier="coupling_damping",
     name="damper between two parts",
     role=Role.COUPLED_VELOCITY,
-    formula="-damping * (v - v_2)",
+    formula="-damping * w",
     numbers=(
         Number("damping", "rate/w", "deceleration per difference of the velocities", (0.05, 0.3)),
         Number(
             "ratio",
-            "x/x",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of inertias",
             (0.3, 1.0, 3.0),
             1e3,
@@ -22,6 +22,6 @@ LAW = Law(
     confused_with={
         "viscous_damping": "motion of both parts together decides",
     },
-    reaction="ratio * damping * (v - v_2)",
+    reaction="ratio * damping * w",
     reacts_on="v_2",
 )

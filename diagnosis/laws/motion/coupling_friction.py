@@ -6,12 +6,12 @@ LAW = Law(
     identifier="coupling_friction",
     name="dry friction between two parts",
     role=Role.COUPLED_VELOCITY,
-    formula="-friction * tanh((v - v_2) / rounding)",
+    formula="-friction * tanh(w / rounding)",
     numbers=(
         Number("friction", "rate", "deceleration by friction", (0.05, 0.3)),
         Number(
             "ratio",
-            "x/x",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of inertias",
             (0.3, 1.0, 3.0),
             1e3,
@@ -24,6 +24,6 @@ LAW = Law(
         "dry_friction": "motion of both parts together decides",
         "coupling_damping": "motions of different sizes decide",
     },
-    reaction="ratio * friction * tanh((v - v_2) / rounding)",
+    reaction="ratio * friction * tanh(w / rounding)",
     reacts_on="v_2",
 )

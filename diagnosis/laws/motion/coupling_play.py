@@ -6,13 +6,13 @@ LAW = Law(
     identifier="coupling_play",
     name="play between two coupled parts (backlash)",
     role=Role.COUPLED_VELOCITY,
-    formula="stiffness * min(max(x - x_2, -play), play)",
+    formula="stiffness * min(max(d, -play), play)",
     numbers=(
         Number("stiffness", "rate/d", "acceleration per distance apart that the play takes away", (0.5, 3.0)),
         Number("play", "d", "way to either side on which nothing couples them", (0.3, 1.0), 20.0),
         Number(
             "ratio",
-            "x/x",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of inertias",
             (0.3, 1.0, 3.0),
             1e3,
@@ -23,6 +23,6 @@ LAW = Law(
     confused_with={
         "coupling_cubic_spring": "small and large torques decide",
     },
-    reaction="-ratio * stiffness * min(max(x - x_2, -play), play)",
+    reaction="-ratio * stiffness * min(max(d, -play), play)",
     reacts_on="v_2",
 )

@@ -6,12 +6,12 @@ LAW = Law(
     identifier="coupling_spring",
     name="spring between two parts",
     role=Role.COUPLED_VELOCITY,
-    formula="-stiffness * (x - x_2)",
+    formula="-stiffness * d",
     numbers=(
         Number("stiffness", "rate/d", "acceleration per distance apart", (0.05, 0.5)),
         Number(
             "ratio",
-            "x/x",
+            "d/d",
             "what the other part gets, as a multiple: the ratio of inertias",
             (0.3, 1.0, 3.0),
             1e3,
@@ -22,6 +22,6 @@ LAW = Law(
     confused_with={
         "stiffness": "the motion of the other part decides",
     },
-    reaction="ratio * stiffness * (x - x_2)",
+    reaction="ratio * stiffness * d",
     reacts_on="v_2",
 )

@@ -187,7 +187,8 @@ class ClosedLoopModel(ModelBase):
 def _unit_law(fit: Fit) -> UnitLaw:
     """What a law at a place says about itself."""
     place = ComponentTerm(fit.term, fit.term.place, ())
-    return UnitLaw(place, fit.law.name, fit.law.source, fit.law.confused_with)
+    name = f"{fit.law.name} ({fit.beside})" if fit.beside else fit.law.name
+    return UnitLaw(place, name, fit.law.source, fit.law.confused_with)
 
 
 def _compared(recording: Recording) -> ComparedRun:

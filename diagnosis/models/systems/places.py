@@ -19,7 +19,7 @@ from diagnosis.models.systems.fast import FastSystem, Rows
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
-from diagnosis.models.systems.targets import targets
+from diagnosis.models.systems.targets import is_of, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -37,12 +37,14 @@ class Fit:
         placed: In the names of the FMU.
         term: For the search.
         reaction: What is added with it to the other part of which it loses or gets something; None: nothing.
+        beside: Name of that part, or of the surroundings where there are several; empty where there is one choice.
     """
 
     law: Law
     placed: Placed
     term: Term
     reaction: Placed | None = None
+    beside: str = ""
 
     @property
     def every(self) -> tuple[Placed, ...]:
@@ -84,7 +86,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         if not fmu.is_model_exchange:
             outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
-        own.velocity_of = _velocities(systems[0], fmu, own)
+        own.velocity_of, own.twist_of = _kinematics(systems[0], fmu, own)
         own.apart = _apart(fmu, own, courses, step)
         own.untried = _untried(fmu, own)
         found.append(own)
@@ -156,7 +158,9 @@ def _apart(
             continue
         keys = [(own.component, f"state {n}") for n in (one, other)]
         gaps = [{keys[0]: c[keys[0]] - c[keys[1]]} for c in courses]
-        found[one, other] = _quantities(fmu, (one,), (keys[0],), gaps, step)[one]
+        gap = _quantities(fmu, (one,), (keys[0],), gaps, step)[one]
+        found[one, other] = replace(gap, name=f"({one} - {other})")
+        found[other, one] = replace(gap, name=f"({other} - {one})", middle=-gap.middle)
     return found
 
 
@@ -168,23 +172,35 @@ def _is_nameable(name: str) -> bool:
         return False
 
 
-def _velocities(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, str]:
-    """Positions with the states that are their derivatives, asked of the equations at random points."""
+def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str, str], dict[str, tuple[str, str]]]:
+    """Positions with the states that are their derivatives, and states whose derivative is a difference of two others.
+
+    The equations are asked at random points.
+    """
     if len(fmu.states) < 2 or set(fmu.states) != set(own.states):
-        return {}
+        return {}, {}
     rng = np.random.default_rng(SEED)
     names = list(fmu.states)
     middle = np.array([own.states[n].middle for n in names])
     size = np.array([own.states[n].size for n in names])
-    found: dict[str, str] = {}
     points = middle + size * rng.standard_normal((PROBES, len(names)))
     rates = np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+    velocities: dict[str, str] = {}
+    twists: dict[str, tuple[str, str]] = {}
     for i, position in enumerate(names):
-        for j, velocity in enumerate(names):
-            scale = np.max(np.abs(points[:, j])) or 1.0
-            if i != j and np.allclose(rates[:, i], points[:, j], rtol=1e-9, atol=1e-12 * scale):
-                found[position] = velocity
-    return found
+        others = [j for j in range(len(names)) if j != i]
+        for j in others:
+            if _are_equal(rates[:, i], points[:, j], points[:, j]):
+                velocities[position] = names[j]
+        for j, k in itertools.permutations(others, 2):
+            if _are_equal(rates[:, i], points[:, j] - points[:, k], points[:, [j, k]]):
+                twists[position] = names[j], names[k]
+    return velocities, twists
+
+
+def _are_equal(rates: Array, values: Array, parts: Array) -> bool:
+    """Whether rates are some values, to the rounding of what these are made of."""
+    return bool(np.allclose(rates, values, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(parts)) or 1.0)))
 
 
 # fitting laws
@@ -259,10 +275,15 @@ def _fit(
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
-    others = [q.name for symbol, q in symbols.items() if symbol in ("o", law.reacts_on)]
+    beside = ""
+    if law.reacts_on:
+        beside = symbols[law.reacts_on].name
+    elif "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
+        beside = symbols["T_a"].name  # which of them are the surroundings
+    others = [beside] if beside else [q.name for symbol, q in symbols.items() if symbol == "o"]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
-    return Fit(law, placed, term, reaction)
+    return Fit(law, placed, term, reaction, beside)
 
 
 def _reaction(

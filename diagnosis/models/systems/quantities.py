@@ -34,7 +34,8 @@ class Places:
         inputs: Inputs that are connected.
         outputs: Outputs of a Co-Simulation FMU.
         velocity_of: Position to its velocity.
-        apart: Two states of one unit to what they are apart by.
+        apart: Two states of one unit to what they are apart by, whose name is that difference as a formula.
+        twist_of: State whose derivative is the difference of two others, to these two.
         untried: Where no law can be tried, and why.
     """
 
@@ -44,4 +45,5 @@ class Places:
     outputs: dict[str, Quantity] = field(default_factory=dict)
     velocity_of: dict[str, str] = field(default_factory=dict)
     apart: dict[tuple[str, str], Quantity] = field(default_factory=dict)
+    twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
     untried: list[str] = field(default_factory=list)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeVar
 
 from cosim.unit.quantity import cycles_and_angles, parse_unit
 from diagnosis.laws.law import Role
 from diagnosis.models.systems.quantities import Places, Quantity
 
+_T = TypeVar("_T")
 #: Units of what a vessel holds.
 _LENGTHS = ("m", "rad", "m^3", "Pa")
 #: `added_terms` target, its quantity, and symbol to quantity.
@@ -60,16 +62,21 @@ def _coupled(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[
     """Two states of one kind, each pair once."""
     q = own.states
     if role is Role.COUPLED_VELOCITY:
-        for (x, v), (x_2, v_2) in itertools.combinations(own.velocity_of.items(), 2):
-            if (x, x_2) in own.apart and (between := own.apart.get((v, v_2)) or own.apart.get((v_2, v))):
-                both = {"x": q[x], "v": q[v], "x_2": q[x_2], "v_2": q[v_2], "d": own.apart[x, x_2], "w": between}
-                yield f"der({v})", q[v], both
+        between = {(v, v_2): own.apart.get((x, x_2)) for (x, v), (x_2, v_2) in _pairs(own.velocity_of.items())}
+        between |= {pair: q[twist] for twist, pair in own.twist_of.items()}
+        for (v, v_2), distance in between.items():
+            if distance is not None and (v, v_2) in own.apart:
+                yield f"der({v})", q[v], {"v": q[v], "v_2": q[v_2], "d": distance, "w": own.apart[v, v_2]}
         return
     units, symbol = (("K",), "T") if role is Role.COUPLED_TEMPERATURE else (_LENGTHS, "h")
     alone = [n for n in free if n not in own.velocity_of.values() and is_of(q[n], *units)]
-    for one, other in itertools.combinations(alone, 2):
+    for one, other in _pairs(alone):
         if (one, other) in own.apart:
             yield f"der({one})", q[one], {symbol: q[one], f"{symbol}_2": q[other], "d": own.apart[one, other]}
+
+
+def _pairs(some: Iterable[_T]) -> Iterator[tuple[_T, _T]]:
+    return itertools.combinations(some, 2)
 
 
 def _single(
@@ -83,7 +90,7 @@ def _single(
         rooms = [q for q in own.inputs.values() if is_of(q, "K")]
         for name, q in alone.items():
             if is_of(q, "K"):
-                for room in rooms[:1]:
+                for room in rooms:
                     yield f"der({name})", q, {"T": q, "T_a": room}
     else:
         units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
