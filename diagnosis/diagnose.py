@@ -22,7 +22,7 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
-from diagnosis.judge.doubts import doubted, of_another_experiment
+from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts
 from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline, notes
@@ -178,6 +178,7 @@ def diagnose(
     units = written_units([r.units for r in both])
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
+    doubts = without_explained_starts(doubts, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)

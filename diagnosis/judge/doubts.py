@@ -112,6 +112,12 @@ def _is_at_start(finding: Finding, doubts: Sequence[Doubt]) -> bool:
     )
 
 
+def without_explained_starts(doubts: Sequence[Doubt], findings: Sequence[Finding]) -> tuple[Doubt, ...]:
+    """Doubts without starts that an accepted law of their sensor explains: there is nothing to state then."""
+    sensors = [f for f in findings if f.is_accepted and f.unit in MEASURED]
+    return tuple(d for d in doubts if d.kind != "start" or not any(is_explained(d, f) for f in sensors))
+
+
 def is_explained(doubt: Doubt, finding: Finding) -> bool:
     """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording.
 

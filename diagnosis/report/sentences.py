@@ -179,6 +179,19 @@ def thinning(diagnosis: Diagnosis) -> str:
     return f"Of very many readings a part was used, at even distances and as they are: {told}."
 
 
+#: Zero of a clock [s] from which it counts from a date, which no person reads in seconds.
+EPOCH = 1e8
+
+
+def clocks(diagnosis: Diagnosis, units: Units = IN_SI) -> str:
+    """From when times are counted, where that is not the zero of a table's own clock; empty where it is."""
+    shifted = [r for r in diagnosis.recordings if 0.0 < abs(r.zero) < EPOCH]
+    if not shifted:
+        return ""
+    told = listed([f"{units.text(r.zero, 's')} of {clean(r.title)}" for r in shifted], 4)
+    return f"Times are counted from the scenario's zero; in the clock of its table that is {told}."
+
+
 def moved_text(moved: Moved, units: Units = IN_SI) -> str:
     """How far a number was moved, its value where that is known, and whether that is no measurement."""
     preferred = user_unit(moved.unit, units.written)

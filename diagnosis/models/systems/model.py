@@ -38,7 +38,7 @@ CHECKED, AGREED = 8, 1e-3
 #: Macro-steps over which a run of the co-simulation is compared.
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
-SEARCHED_AGAIN = 50_000
+SEARCHED_AGAIN = 30_000
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
 
