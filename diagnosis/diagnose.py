@@ -308,15 +308,19 @@ def _accepted(
         judge is None or judge.can_be_fitted,
         on_progress,
     )
-    if accepted.agreement.is_rejected and not accepted.agreement.is_irregular and can_be_moved(model):
-        on_progress("asking whether what is left has the form of other laws at the same place")
+    if can_be_moved(model):
+        on_progress("asking what speaks against the names of laws")
         accepted = _with_doubts_of_names(model, accepted)
     return accepted, unfitted.readings
 
 
 def _with_doubts_of_names(model: DiagnosisModel, accepted: Accepted) -> Accepted:
-    """The same with what speaks against the names of accepted laws of a model that readings reject."""
+    """The same with what speaks against the names of accepted laws: others that cancel them, or that have their form.
+
+    Of the form is asked where readings reject the model: else nothing is left that has one.
+    """
     fit = accepted.explanation.fit
     laws = [t for t in fit.point.terms if t.is_named and t.unit != "measurement" and t.recording is None]
-    forms = {t: share_at_place(model, fit, companions(model, t)) for t in laws}
+    has_rest = accepted.agreement.is_rejected and not accepted.agreement.is_irregular
+    forms = {t: share_at_place(model, fit, companions(model, t)) for t in laws} if has_rest else {}
     return replace(accepted, forms=forms, opposed=opposed(model, fit.point, laws))

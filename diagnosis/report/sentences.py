@@ -108,6 +108,10 @@ def improvement(diagnosis: Diagnosis) -> str:
             is_part = 2 * len(part) < sum(f.is_held_out == is_held_out for f in diagnosis.fit)
             own = mean_chi_square(part, is_held_out) if is_part else None
             where = f"; where findings show most: {_course(own)}" if own else ""
+            right = diagnosis.adequacy
+            if is_held_out and right is not None and right.day:  # what judged is not what the rows hold
+                name += ", numbers of the day as written down"
+                where += f"; with those numbers estimated, as judged: {_course(right.chi_square)}"
             return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"
     return "no recording was judged"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.agreement import agreement
-from diagnosis.judge.diagnosis import Doubt, Used, Verdict
+from diagnosis.judge.diagnosis import Doubt, Moved, Used, Verdict
 from diagnosis.judge.doubts import doubted, without_explained_starts
 from diagnosis.judge.headline import how_right
 from diagnosis.judge.judge import _open_ones
@@ -16,7 +16,7 @@ from diagnosis.judge.location import Remainder
 from diagnosis.judge.unfitted import readings_of
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
-from diagnosis.report.sentences import clocks
+from diagnosis.report.sentences import clocks, improvement
 from diagnosis.report.undecided import what_decides
 from tests.diagnosis.report_examples import CONTACT, LAG
 from tests.verdict.lines import Run, Series
@@ -100,6 +100,17 @@ def test_what_is_left_in_several_recordings_has_come_back_already() -> None:
     ]
     assert what_decides(replace(told, fit=tuple(fits))).startswith("What is left is in 2 of 3 training recordings")
     assert what_decides(replace(told, fit=tuple(fits[::2]))).startswith("Repeat the recording in which most is left")
+
+
+def test_rows_without_the_numbers_of_the_day_stand_beside_what_judged() -> None:
+    """ "Agrees" stood above a chi-square of 9.98 that was not the one that had judged."""
+    told = diagnosis(Verdict.RECALIBRATED)
+    day = (Moved("room of third", "K", 0.6, False, 2.0),)
+    chi = {"before": 25.0, "recalibrated": 1.03, "after": 1.03}
+    with_day = improvement(replace(told, adequacy=replace(ADEQUACY, day=day, chi_square=chi)))
+    assert "(held out, numbers of the day as written down)" in with_day
+    assert "with those numbers estimated, as judged: 25.0 before, 1.03 recalibrated only, 1.03 after" in with_day
+    assert "as judged" not in improvement(replace(told, adequacy=replace(ADEQUACY, day=(), chi_square=chi)))
 
 
 @pytest.mark.parametrize(

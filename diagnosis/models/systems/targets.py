@@ -18,8 +18,11 @@ Target = tuple[str, Quantity, dict[str, Quantity]]
 
 
 def targets(own: Places, role: Role) -> Iterator[Target]:
-    """What a law of a role can be added to: `added_terms` target, its quantity, and symbol to quantity."""
-    free = {n: q for n, q in own.states.items() if n not in own.velocity_of}
+    """What a law of a role can be added to: `added_terms` target, its quantity, and symbol to quantity.
+
+    A position and a twist are none: their derivatives are velocities, whatever acts.
+    """
+    free = {n: q for n, q in own.states.items() if n not in own.velocity_of and n not in own.twist_of}
     if role is Role.VELOCITY:
         yield from _motions(own, free)
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
