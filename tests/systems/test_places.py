@@ -120,7 +120,8 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
     for law in library():
         first = law.numbers[0]
         assert law.source
-        assert first.least is None or first.least == 0.0, law.identifier  # 0 is within the bounds
+        lowest = -first.most if first.least is None else first.least
+        assert lowest <= 0.0 < first.most, law.identifier  # 0 is within the bounds
     assert {law.role for law in library()} == set(Role)
 
 
