@@ -13,6 +13,7 @@ from diagnosis.check.clock_shift import shift_doubts
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
+from diagnosis.check.odd_one_out import odd_ones
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
@@ -53,7 +54,7 @@ def check_recordings(
 
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
-    found: list[Doubt] = still_doubts(every)
+    found: list[Doubt] = [*still_doubts(every), *odd_ones(every)]
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow

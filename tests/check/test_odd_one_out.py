@@ -1,0 +1,40 @@
+"""A recording that the scenario misses while it meets its siblings, and recordings that it misses alike."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from cosim.scenario import load_scenario
+from diagnosis.check.check import check_recordings
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import load_recording
+from tests.systems.rigs import COUNT, drive, oscillator, oscillator_recordings
+
+
+def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
+    found = check_recordings(load_scenario(str(folder / "scenario.yaml")), [load_recording(r) for r in recordings])
+    return [d for d in found if d.kind == "odd one out"]
+
+
+def test_the_recording_with_another_run_s_input_is_named_and_nulls_and_missing_laws_are_not(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    null = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    assert _doubts(tmp_path, null) == []
+    assert _doubts(tmp_path, null[:2]) == []  # of two, either may be the odd one
+    table = pd.read_csv(null[1] / "data.csv")
+    table["u"] = drive(17, 0.4)  # the input of a run that is none of these
+    table.to_csv(null[1] / "data.csv", index=False)
+    assert len(table) == COUNT
+    (told,) = _doubts(tmp_path, null)
+    assert told.recording == "run_2"
+    assert not told.is_serious
+    assert "of the variance of each other recording" in told.statement
+
+
+def test_a_law_that_is_missing_in_all_recordings_makes_none_of_them_odd(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -4.0 * float(np.tanh(v / 0.02)))
+    assert _doubts(tmp_path, recordings) == []
