@@ -67,6 +67,8 @@ def _all_fmus(folder):
 
 def _fmus(folder, coils, target):
     command = ["make", "-j2", "-C", ROOT / "fmus", f"PYTHON={sys.executable}", f"BUILD={folder}", f"COILS={coils}"]
-    done = subprocess.run([*command, target], capture_output=True, text=True, check=False)
+    # As from a shell: a make above this one has job slots and flags of its own.
+    plain = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+    done = subprocess.run([*command, target], capture_output=True, text=True, check=False, env=plain)
     assert done.returncode == 0, done.stderr
     assert "warning" not in done.stderr, done.stderr
