@@ -44,7 +44,7 @@ real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=fold
 	$(BIN)/python -m evaluation.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
 
 test: dev fmus  ## the test suite (about ten minutes on two cores)
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m "not slow"
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
 test-wheel: dev  ## build the wheel, install it outside the clone and use it (two minutes)
 	$(BIN)/python -m pytest -m slow tests/install
@@ -61,7 +61,7 @@ nightly: setup fmus  ## a fabric of 276 links, heated row by row, to its end (an
 	$(BIN)/cosim run large_row_by_row $(if $(wildcard runs/large_row_by_row/scenario.yaml),--resume)
 
 test-slow: dev fmus  ## tests that take minutes each
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
 
 check: lint types imports  ## style, types and import rules
 

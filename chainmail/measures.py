@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from scipy.optimize import least_squares
 
 from chainmail.equations import Gompertz
 from cosim.unit.protocol import Array
@@ -108,6 +107,8 @@ def refit(temperature: Array, stiffness: Array, guess: Gompertz) -> Refit:
 
     def residual(p: Array) -> Array:
         return curve(p)(temperature) - stiffness
+
+    from scipy.optimize import least_squares  # late: loading it takes half a second
 
     start = np.array([guess.a, np.log(guess.b), guess.c, guess.d])
     found = least_squares(residual, start, x_scale=np.abs(start), xtol=1e-14, ftol=1e-14, gtol=1e-14)

@@ -15,19 +15,16 @@ from rich.console import Console
 from chainmail.compare.figure import draw
 from chainmail.compare.layout import Layout, layout_of
 from chainmail.compare.measures import measures
+from chainmail.compare.one import INTERRUPTED, run_one
 from chainmail.compare.table import Columns, as_csv, as_json, as_markdown, show
 from chainmail.compare.variants import Variant, actuator_name, label_of, variant
 from chainmail.figures.draw import open_run
 from cosim.alone import alone
-from cosim.assemble import assemble
-from cosim.progress import Board, report_to, reporter
-from cosim.run import RunStopped, run
-from cosim.run_folder import RunFolder, write_atomically, writing
-from cosim.scenario import Scenario, load_scenario
+from cosim.progress import Board, report_to
+from cosim.run_folder import write_atomically, writing
+from cosim.scenario import load_scenario
 from cosim.shipped import shipped_actuators
 from cosim.unit.errors import InputError
-
-INTERRUPTED = "interrupted; the same command goes on from here"
 
 
 @dataclass(frozen=True)
@@ -49,32 +46,6 @@ class Request:
     component: str | None = None
     jobs: int = 1
     changes: Sequence[str] = ()
-
-
-def run_one(made: Variant, folder: Path, number: int) -> str:
-    """Run or resume one variant, which has this number on the board; returns an empty text, or why it stopped."""
-    kept = RunFolder(folder)
-    try:
-        is_begun = kept.scenario.exists()
-        if kept.is_complete():
-            _refuse_other(kept, made.scenario)
-            return ""
-        run(made.scenario, folder, is_begun, reporter(number))
-    except RunStopped as stopped:
-        return INTERRUPTED if stopped.is_interrupt else stopped.reason
-    except InputError as error:
-        return str(error)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    return ""
-
-
-def _refuse_other(kept: RunFolder, scenario: Scenario) -> None:
-    assembly = assemble(scenario)
-    try:
-        kept.refuse_other(assembly.scenario, assembly.parameters)
-    finally:
-        assembly.system.terminate()
 
 
 def compare(request: Request, out: Path | None = None) -> int:

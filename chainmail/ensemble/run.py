@@ -3,35 +3,27 @@
 from __future__ import annotations
 
 import multiprocessing
-import signal
 import time as clock
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
-from rich.console import Console
 
 from chainmail.ensemble.combine import bands, combined, spread
 from chainmail.ensemble.files import write_netcdf, write_series
 from chainmail.ensemble.folder import EnsembleFolder
 from chainmail.ensemble.members import member
+from chainmail.ensemble.one import Ended, OnStart, ignore_interrupts_between_runs, run_start
 from chainmail.figures.draw import open_run
 from cosim.alone import alone
 from cosim.assemble import assemble
-from cosim.progress import OnProgress, progress_bar
-from cosim.run import Progress, RunStopped, record
 from cosim.run_folder import replacing, writing
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
-
-#: Told of a start, counted from 1, and how far it is.
-OnStart = Callable[[int, Progress], None]
 
 
 @dataclass(frozen=True)
@@ -47,13 +39,6 @@ class Outcome:
     complete: tuple[int, ...]
     failures: dict[int, str]
     is_interrupted: bool = False
-
-
-@dataclass(frozen=True)
-class _Ended:
-    reason: str = ""
-    is_interrupt: bool = False
-    is_input: bool = False
 
 
 def run_ensemble(
@@ -114,26 +99,26 @@ def run_ensemble(
 
 def _each(
     scenario: Scenario, folder: EnsembleFolder, starts: int, jobs: int, csv: bool, on_progress: OnStart | None
-) -> Iterator[tuple[int, _Ended]]:
+) -> Iterator[tuple[int, Ended]]:
     """Starts as they end; at last number 0 where the user interrupted them."""
     waiting = [s for s in range(1, starts + 1) if not folder.member(s).is_complete()]
     if min(jobs, len(waiting)) <= 1:
         for start in waiting:
-            ended = _one(scenario, start, folder.member(start).path, csv, on_progress)
+            ended = run_start(scenario, start, folder.member(start).path, csv, on_progress)
             yield start, ended
             if ended.is_interrupt:
                 return
         return
     context = multiprocessing.get_context("spawn")  # Bullet and ngspice hold state that must not be forked
     count = min(jobs, len(waiting))
-    under_way: dict[Future[_Ended], int] = {}
+    under_way: dict[Future[Ended], int] = {}
     is_interrupted = False
-    with ProcessPoolExecutor(count, mp_context=context, initializer=_ignore_interrupts_between_runs) as pool:
+    with ProcessPoolExecutor(count, mp_context=context, initializer=ignore_interrupts_between_runs) as pool:
         while waiting or under_way:
             # No more are handed over than run: what waits in the pool's own queue would begin after an interrupt.
             while waiting and len(under_way) < count and not is_interrupted:
                 start = waiting.pop(0)
-                under_way[pool.submit(_one, scenario, start, folder.member(start).path, csv)] = start
+                under_way[pool.submit(run_start, scenario, start, folder.member(start).path, csv)] = start
             try:
                 done = wait(under_way, return_when=FIRST_COMPLETED).done
             except KeyboardInterrupt:  # the processes have got it too, and stop after their macro-step
@@ -147,10 +132,10 @@ def _each(
             if is_interrupted:
                 waiting.clear()
     if is_interrupted:
-        yield 0, _Ended("interrupted", is_interrupt=True)
+        yield 0, Ended("interrupted", is_interrupt=True)
 
 
-def _result(future: Future[_Ended], path: Path) -> _Ended:
+def _result(future: Future[Ended], path: Path) -> Ended:
     try:
         return future.result()
     except BrokenProcessPool as error:
@@ -160,41 +145,6 @@ def _result(future: Future[_Ended], path: Path) -> _Ended:
             "a process died while it simulated; most often memory ran out",
             "go on with `--resume --jobs 1`, which shows why",
         ) from error
-
-
-def _ignore_interrupts_between_runs() -> None:
-    """A process without work waits for some, whatever happens: its parent ends it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def _one(scenario: Scenario, start: int, path: Path, csv: bool, told: OnStart | None = None) -> _Ended:
-    """Run or resume one start; in a process of its own, or here."""
-    given = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        return _run_one(scenario, start, path, csv, told)
-    finally:
-        signal.signal(signal.SIGINT, given)
-
-
-def _run_one(scenario: Scenario, start: int, path: Path, csv: bool, told: OnStart | None) -> _Ended:
-    is_begun = (path / "scenario.yaml").is_file()
-    try:
-        with _progress(start, told) as on_progress:
-            record(member(scenario, start), path, is_begun, on_progress, csv)
-    except RunStopped as stopped:
-        return _Ended(stopped.reason, stopped.is_interrupt)
-    except InputError as error:
-        return _Ended(str(error), is_input=True)
-    except KeyboardInterrupt:
-        return _Ended("interrupted", is_interrupt=True)
-    return _Ended()
-
-
-def _progress(start: int, told: OnStart | None) -> AbstractContextManager[OnProgress]:
-    if told is not None:
-        return nullcontext(partial(told, start))
-    return progress_bar(f"start {start}", Console(stderr=True, force_terminal=False))
 
 
 def _write(

@@ -6,9 +6,11 @@ import importlib
 import logging
 import os
 import re
+import signal
 import socket
+import threading
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from typing import Any, Protocol
 
 from cosim.compute.result import Result, Task, Work
@@ -78,7 +80,7 @@ class DaskPlace:
         Raises:
             InputError: The cluster does not answer, or lost a worker again and again.
         """
-        client, dask = self._connected(), _distributed()
+        client, dask = self._connected(), distributed()
         if self._shared is None or self._shared[0] is not shared:
             # A result that others depend on: loaded once per process, and made again where a process is lost.
             self._shared = (shared, client.submit(_same, shared, pure=False))
@@ -114,42 +116,16 @@ class DaskPlace:
         future = client.submit(work, self._shared[1] if self._shared else None, task.given, pure=False)
         try:
             return future.result()  # type: ignore[no-any-return]
-        except _distributed().KilledWorker:
+        except distributed().KilledWorker:
             return Result((), "its process died again and again; `isolation: process` of its FMUs finds the one")
         finally:
             client.cancel([future], force=True)
 
     def _connected(self) -> Any:
         if self._client is None:
-            try:
-                self._client = self._open.enter_context(self._connect())
-            except (OSError, TimeoutError) as error:
-                if self._address is not None:
-                    raise _unreachable(self._address, error) from error
-                what, remedy = f"its processes do not answer: {error}", "run with `--jobs 1`"
-                raise InputError("local cluster", "", what, remedy) from error
+            self._client = self._open.enter_context(dask_client(self._jobs, self._address))
             self.parallel = max(1, sum(self._client.nthreads().values()))
         return self._client
-
-    def _connect(self) -> AbstractContextManager[Any]:
-        dask = _distributed()
-        if self._address is not None:
-            client: Any = dask.Client(self._address, timeout=CONNECT_TIME)
-            if not client.nthreads():
-                client.close()
-                raise TimeoutError("it has no workers")
-            return client  # type: ignore[no-any-return]
-        # One thread each: ngspice and Bullet are not made for two threads, and a fabric keeps a core busy by itself.
-        cluster = dask.LocalCluster(
-            n_workers=self._jobs,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address="127.0.0.1:0",
-            memory_limit=0,
-            silence_logs=logging.CRITICAL,
-        )
-        self._open.callback(cluster.close)
-        return dask.Client(cluster)  # type: ignore[no-any-return]
 
     def close(self) -> None:
         """See `Place`."""
@@ -180,9 +156,68 @@ def _same(shared: Any) -> Any:
     return shared
 
 
-def _distributed() -> Any:
+def distributed() -> Any:
     """Dask's package, late: it takes half a second, which one process need not spend."""
     return importlib.import_module("distributed")
+
+
+@contextmanager
+def dask_client(jobs: int, address: str | None = None, is_deaf: bool = False) -> Iterator[Any]:
+    """Dask's client of a running cluster, or of processes of this machine, which end with the block.
+
+    Args:
+        jobs: Processes on this machine, one thread each; not used where an address is given.
+        address: Of the scheduler of a running cluster.
+        is_deaf: Whether processes of this machine ignore Ctrl-C, which a terminal sends to all: the first process ends
+            them.
+
+    Raises:
+        InputError: The cluster does not answer or has no workers, or the processes do not answer.
+    """
+    with ExitStack() as opened:
+        try:
+            client = opened.enter_context(_opened(opened, jobs, address, is_deaf))
+        except (OSError, TimeoutError, ValueError) as error:
+            if address is not None:
+                raise _unreachable(address, error) from error
+            what, remedy = f"its processes do not answer: {error}", "run with `--jobs 1`"
+            raise InputError("local cluster", "", what, remedy) from error
+        yield client
+
+
+def _opened(opened: ExitStack, jobs: int, address: str | None, is_deaf: bool) -> AbstractContextManager[Any]:
+    dask = distributed()
+    if address is not None:
+        client: Any = dask.Client(address, timeout=CONNECT_TIME)
+        if not client.nthreads():
+            client.close()
+            raise TimeoutError("it has no workers")
+        return client  # type: ignore[no-any-return]
+    # One thread each: ngspice and Bullet are not made for two threads, and a fabric keeps a core busy by itself.
+    with _interrupts_ignored() if is_deaf else nullcontext():
+        cluster = dask.LocalCluster(
+            n_workers=jobs,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,
+            silence_logs=logging.CRITICAL,
+        )
+    opened.callback(cluster.close)
+    return dask.Client(cluster)  # type: ignore[no-any-return]
+
+
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Processes that are started here inherit that they ignore Ctrl-C."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    previous = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
 
 
 def choose_place(jobs: int | None = None, address: str | None = None, goes_on: bool = False) -> Place:

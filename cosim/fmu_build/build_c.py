@@ -71,7 +71,8 @@ def build_c(folder: Path, version: int, coils: int, target: Path) -> list[str]:
         flags = ["-fPIC", "-fvisibility=hidden", "-shared", *include]
         with ThreadPoolExecutor(1) as pool:  # the compiler runs twice at the same time
             built = pool.submit(_compile, folder, [*WARNINGS, *flags, "-o", str(library), *names, "-lm"], sources)
-            said = _compile(folder, [*WARNINGS, f"-I{sources}", "-o", str(describe), *generator], FMUS)
+            # This program runs once: to optimise it takes longer than it runs.
+            said = _compile(folder, ["-O0", *WARNINGS, f"-I{sources}", "-o", str(describe), *generator], FMUS)
             said += built.result()
         (root / "modelDescription.xml").write_bytes(_output(folder, describe, str(version)))
         if version == 3:

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
-import logging
-import signal
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.unit.errors import InputError
+from cosim.compute.cluster import dask_client, distributed
 
-#: Time in which a cluster must answer [s].
-CONNECT_TIME = 30.0
 #: Cases that wait at each worker: files of cases travel with them, so only a few are under way.
 WAITING = 2
 
@@ -55,7 +49,7 @@ class Workers:
         yield from self._spread(work, tasks)
 
     def _spread(self, work: Callable[..., Any], tasks: Mapping[str, Given]) -> Iterator[tuple[str, Any]]:
-        dask = _distributed()
+        dask = distributed()
         left = iter(tasks.items())
         names: dict[Any, str] = {}
         suspects: list[str] = []
@@ -99,57 +93,10 @@ def workers(jobs: int, address: str | None = None) -> Iterator[Workers]:
         address: Of a running Dask scheduler; `jobs` does not matter then.
 
     Raises:
-        InputError: The cluster does not answer or has no workers.
+        InputError: As of `cosim.compute.cluster.dask_client`.
     """
     if address is None and jobs == 1:
         yield Workers(None, 1)
         return
-    dask = _distributed()
-    if address is not None:
-        try:
-            client = dask.Client(address, timeout=CONNECT_TIME)
-        except (OSError, TimeoutError, ValueError) as error:
-            raise _unreachable(address, error) from error
-        with client:
-            if not client.nthreads():
-                raise _unreachable(address, "it has no workers")
-            yield Workers(client, sum(client.nthreads().values()))
-        return
-    with _deaf_to_interrupts():
-        cluster = dask.LocalCluster(
-            n_workers=jobs,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address="127.0.0.1:0",
-            memory_limit=0,
-            silence_logs=logging.CRITICAL,
-        )
-    with cluster, dask.Client(cluster) as client:
-        yield Workers(client, jobs)
-
-
-@contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Processes that are started here ignore Ctrl-C, which a terminal sends to all: the first process ends them."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    previous = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, previous)
-
-
-def _distributed() -> Any:
-    """Dask's package, late: it takes half a second, which one worker need not spend."""
-    return importlib.import_module("distributed")
-
-
-def _unreachable(address: str, why: object) -> InputError:
-    return InputError(
-        "--cluster",
-        "",
-        f"the cluster at {address} does not answer: {why}",
-        "give the address that `dask scheduler` prints, with workers of this version",
-    )
+    with dask_client(jobs, address, is_deaf=True) as client:
+        yield Workers(client, jobs if address is None else sum(client.nthreads().values()))

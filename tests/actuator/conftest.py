@@ -1,27 +1,16 @@
 """Actuator FMUs built from the sources as they are now, and the command line called in this process."""
 
-import subprocess
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
 
 from cosim import cli
 
-ROOT = Path(__file__).resolve().parents[2]
-
 
 @pytest.fixture(scope="session", autouse=True)
 def fmus(shipped_fmus):
     """Folder of the FMUs; those of FMI 2.0 for 36 and for 6 coils."""
-    done = subprocess.run(
-        ["make", "-C", ROOT / "fmus", f"PYTHON={sys.executable}", f"BUILD={shipped_fmus}", "COILS=6"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
         patch.setenv("OPENBLAS_NUM_THREADS", "1")

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,9 +20,9 @@ from cosim.run import run
 from cosim.run_folder import RunFolder
 from cosim.scenario import load_scenario
 
-from .conftest import ROOT
 from .scenarios import changed, quantity, short
 
+ROOT = Path(__file__).resolve().parents[2]
 LAYOUT = Layout("actuator", "circuit", "load", 1.0, 21.0)
 
 

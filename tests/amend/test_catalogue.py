@@ -45,9 +45,10 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> AmendedModel:
 def _check(term: CandidateTerm, everything: AmendedModel, folder: Path) -> None:
     given = bench.scenario()
     amended = amend_like(everything, bench.changes(given, [term]), folder)
-    size, quantity = bench.difference(run(amended.scenario), bench.by_network(given, [term]))
+    results = run(amended.scenario)
+    size, quantity = bench.difference(results, bench.by_network(given, [term]))
     assert size < SAME, f"{quantity} differs by {size:.2g}"
-    without, _ = bench.difference(run(amended.scenario), bench.by_network(given, []))
+    without, _ = bench.difference(results, bench.by_network(given, []))
     assert without > 1e3 * SAME, "the term does nothing here"
 
 

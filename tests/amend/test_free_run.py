@@ -27,6 +27,7 @@ from tests.amend import bench
 
 #: On the end of a step of network and co-simulation: what comes within a step is spread over it, and the steps differ.
 INSTANT = 4.0
+RADIANT = ("radiation@all coils", "tilt@all coils")
 _SENSORS = SensorFile.model_validate(
     {
         "default": {"rate": "7 Hz"},
@@ -54,6 +55,18 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Recording:
 @pytest.fixture(scope="module")
 def model(recording: Recording) -> CoilNetworkModel:
     return CoilNetworkModel(bench.scenario(), [recording], catalogue())
+
+
+@pytest.fixture(scope="module")
+def plain(model: CoilNetworkModel, tmp_path_factory: pytest.TempPathFactory) -> AmendedModel:
+    """The recalibrated scenario; terms of sensors leave its FMUs as they are."""
+    return amend(bench.scenario(), model, _point(model), tmp_path_factory.mktemp("plain"))
+
+
+@pytest.fixture(scope="module")
+def radiant(model: CoilNetworkModel, tmp_path_factory: pytest.TempPathFactory) -> AmendedModel:
+    """A scenario with radiation and tilt."""
+    return amend(bench.scenario(), model, _point(model, *RADIANT), tmp_path_factory.mktemp("radiant"))
 
 
 def _point(model: CoilNetworkModel, *wanted: str) -> Point:
@@ -91,8 +104,6 @@ def _largest(model: CoilNetworkModel, point: Point, free: dict[str, Any]) -> flo
         ("temperature_dependent_resistance@all coils", "supply_source_resistance"),
         ("open_coil@coil[1,2]",),
         ("slide_friction@all coils", "sensor_gain@coil[1,1].temperature", "sensor_lag@every extension"),
-        ("wrong_identity",),
-        ("unnamed_value_linear_amperes@coil[2,1].temperature",),
     ],
     ids=lambda w: ", ".join(w) or "recalibrated",
 )
@@ -101,6 +112,21 @@ def test_a_free_run_gives_what_the_network_predicts(
 ) -> None:
     point = _point(model, *wanted)
     amended = amend(bench.scenario(), model, point, tmp_path)
+    _gives_what_is_predicted(amended, point, model, recording)
+
+
+@pytest.mark.parametrize("wanted", ["wrong_identity", "unnamed_value_linear_amperes@coil[2,1].temperature"])
+def test_a_free_run_gives_what_the_network_predicts_of_a_sensor(
+    wanted: str, model: CoilNetworkModel, plain: AmendedModel, recording: Recording, tmp_path: Path
+) -> None:
+    point = _point(model, wanted)
+    amended = amend_like(plain, changes_of(bench.scenario(), model, point), tmp_path)
+    _gives_what_is_predicted(amended, point, model, recording)
+
+
+def _gives_what_is_predicted(
+    amended: AmendedModel, point: Point, model: CoilNetworkModel, recording: Recording
+) -> None:
     # Macro-steps of 50 ms against the network's second-order steps: the tolerance that the report states.
     assert _largest(model, point, free_run(amended, recording, model.runs[0].times)) < TOLERANCE
     before = free_run_of(bench.scenario(), recording, model.runs[0].times)
@@ -108,12 +134,11 @@ def test_a_free_run_gives_what_the_network_predicts(
 
 
 def test_a_free_run_tells_a_sensor_the_current_of_its_coil_though_no_current_is_recorded(
-    model: CoilNetworkModel, recording: Recording, tmp_path: Path
+    model: CoilNetworkModel, plain: AmendedModel, recording: Recording, tmp_path: Path
 ) -> None:
     """With and without the term the run is the same: what the sensor adds is the run's own current, by its law."""
     term = "unnamed_value_linear_amperes@coil[2,1].temperature"
-    amended = amend(bench.scenario(), model, _point(model, term), tmp_path / "on")
-    plain = amend(bench.scenario(), model, _point(model), tmp_path / "off")
+    amended = amend_like(plain, changes_of(bench.scenario(), model, _point(model, term)), tmp_path / "on")
     times = model.runs[0].times["temperature"]
     found = free_run(amended, recording, {"temperature": times})["temperature"]
     # clocks of quantities are late each in its own way: here the currents are read by that of the temperatures
@@ -154,17 +179,16 @@ def _under(recording: Recording, components: dict[str, Any]) -> Recording:
     ids=["programme", "ambient", "what was recalibrated"],
 )
 def test_the_conditions_of_another_recording_hold_in_the_amended_scenario(
-    components: dict[str, Any], model: CoilNetworkModel, recording: Recording, tmp_path: Path
+    components: dict[str, Any], model: CoilNetworkModel, radiant: AmendedModel, recording: Recording
 ) -> None:
-    amended = amend(bench.scenario(), model, _point(model, "radiation@all coils", "tilt@all coils"), tmp_path)
     other = _under(recording, components)
     there = CoilNetworkModel(bench.scenario(), [other], catalogue())
-    same = {str(t): v for t, v in _point(model, "radiation@all coils", "tilt@all coils").terms.items()}
-    point = _point(there, "radiation@all coils", "tilt@all coils")  # another rig has other values to start from
+    same = {str(t): v for t, v in _point(model, *RADIANT).terms.items()}
+    point = _point(there, *RADIANT)  # another rig has other values to start from
     point = Point(point.base, {t: same[str(t)] for t in point.terms})
-    free = free_run(amended, other, there.runs[0].times)
+    free = free_run(radiant, other, there.runs[0].times)
     assert _largest(there, point, free) < TOLERANCE
-    assert _largest(model, _point(model, "radiation@all coils", "tilt@all coils"), free) > 10 * TOLERANCE
+    assert _largest(model, _point(model, *RADIANT), free) > 10 * TOLERANCE
 
 
 def test_terms_stand_in_the_scenario_with_units_and_beside_it_for_sensors(

@@ -111,8 +111,12 @@ def test_the_catalogue_holds_every_effect_that_was_asked_for():
     assert sum(not t.is_named for t in catalogue()) > 50
 
 
-@pytest.mark.parametrize("term", ALL)
-def test_a_law_is_a_formula_of_known_names(term: CandidateTerm):
+def test_a_law_is_a_formula_of_known_names():
+    for term in catalogue():
+        _has_known_names(term)
+
+
+def _has_known_names(term: CandidateTerm) -> None:
     known = LAW_NAMES | set(READABLE) | set(COIL_FIELDS) | {"t"}
     known |= {p.name for p in term.parameters} | {s.name for s in term.states}
     known |= {p.name + end for p in term.parameters for end in ("_a", "_b") if "pairs" in term.lines}
@@ -121,8 +125,8 @@ def test_a_law_is_a_formula_of_known_names(term: CandidateTerm):
         assert len(sides) == 2, equation
         for side in sides:
             names = {n.id for n in ast.walk(ast.parse(side.strip(), mode="eval")) if isinstance(n, ast.Name)}
-            assert names <= known, names - known
-    assert all(p.name in term.law for p in term.parameters)
+            assert names <= known, (term.identifier, names - known)
+    assert all(p.name in term.law for p in term.parameters), term.identifier
 
 
 @pytest.mark.parametrize("term", [pytest.param(t, id=t.identifier) for t in NAMED])

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import chainmail.ensemble.run as ensembles
+import chainmail.ensemble.one as single
 from chainmail.ensemble.combine import combined, spread
 from chainmail.ensemble.folder import EnsembleFolder
 from chainmail.ensemble.members import member
@@ -119,7 +119,7 @@ def interrupting(title, *settings):
 def test_an_interrupted_ensemble_goes_on_to_the_same_result(whole, tmp_path, monkeypatch):
     out = tmp_path / "out"
     with monkeypatch.context() as patched:
-        patched.setattr(ensembles, "progress_bar", interrupting)
+        patched.setattr(single, "progress_bar", interrupting)
         outcome = ran(out)
     assert outcome.is_interrupted
     assert outcome.complete == (1,)
@@ -145,7 +145,7 @@ def test_a_start_that_stops_is_named_and_the_others_remain(tmp_path, monkeypatch
         changed = {**found.components, "fabric": fabric.model_copy(update={"solver": solver})}
         return found.model_copy(update={"components": changed})
 
-    monkeypatch.setattr(ensembles, "member", strict_in_the_second)
+    monkeypatch.setattr(single, "member", strict_in_the_second)
     said: list[str] = []
     outcome = ran(tmp_path / "out", say=said.append)
     assert outcome.complete == (1, 3)
@@ -179,7 +179,7 @@ def test_the_command_line_runs_refuses_and_reports(tmp_path, monkeypatch, capsys
     bad.write_text(tiny(0.1, penetration_limit=PhysicalValue(1e-4, "mm")).to_yaml(True))
     assert ended(monkeypatch, "run", bad, "--out", tmp_path / "bad", "--starts", 2, "--jobs", 1) == FAILED
     assert "stopped: start 2: fabric at t =" in capsys.readouterr().err
-    monkeypatch.setattr(ensembles, "progress_bar", interrupting)
+    monkeypatch.setattr(single, "progress_bar", interrupting)
     assert ended(monkeypatch, "run", file, "--out", tmp_path / "cut", "--starts", 2, "--jobs", 1) == INTERRUPTED
     assert f"cosim run {tmp_path / 'cut'} --resume" in capsys.readouterr().err
 

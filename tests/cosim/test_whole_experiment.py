@@ -1,5 +1,7 @@
 """The paper's experiment from begin to end, circuit and actuators without the fabric: nothing feeds back from it."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -17,9 +19,15 @@ def experiment(name, warm=False):
     return with_parameters(scenario, "actuator", **coefficient) if warm else scenario
 
 
+@functools.cache
+def whole_run(name, warm=False):
+    """Results that nothing interrupted; nobody changes them."""
+    return run(experiment(name, warm))
+
+
 @pytest.mark.parametrize(("name", "warm"), [(VARIANTS[0], False), (VARIANTS[0], True), (VARIANTS[1], False)])
 def test_electrical_energy_is_stored_or_given_to_the_air_to_the_last_joule(name, warm):
-    result = run(experiment(name, warm))
+    result = whole_run(name, warm)
     paid = result.attrs["energy_electrical_J"]
     if not warm:
         # 36 coils at 1 V and 2.2 ohm from 0.37 s to 12.6 s.
@@ -40,7 +48,7 @@ def test_electrical_energy_is_stored_or_given_to_the_air_to_the_last_joule(name,
 
 @pytest.mark.parametrize(("name", "warm"), [(VARIANTS[0], True), (VARIANTS[1], False)])
 def test_kirchhoff_holds_at_every_recorded_moment_of_the_whole_run(name, warm):
-    result = run(experiment(name, warm))
+    result = whole_run(name, warm)
     current, voltage = (result[f"circuit.{n}"].values.reshape(-1, 6, 6) for n in ("current", "voltage"))
     strings, supply = result["circuit.string_current"].values, result["circuit.supply_current"].values
     given = result["supply.voltage"].values
@@ -73,14 +81,14 @@ def test_power_switches_and_feedback_survive_a_resumption_to_the_last_bit(tmp_pa
     scenario = experiment(VARIANTS[0], warm=True)
     with pytest.raises(RunStopped):
         run(scenario, tmp_path / "run", on_progress=interrupt)
-    resumed, whole = run(scenario, tmp_path / "run", resume=True), run(scenario)
+    resumed, whole = run(scenario, tmp_path / "run", resume=True), whole_run(VARIANTS[0], True)
     for name in whole.data_vars:
         assert np.array_equal(resumed[name].values, whole[name].values), name
     assert resumed.attrs["energy_residual"] == whole.attrs["energy_residual"]
 
 
 def test_power_comes_and_goes_at_the_moments_of_the_paper():
-    result = run(experiment(VARIANTS[1]))
+    result = whole_run(VARIANTS[1])
     power = result["circuit.supply_power"]
     on = result["time"].values[power.values > 0]
     # Outputs stand every 20 ms at the end of a step; 0.37 s is between two of them, and 12.6 s still belongs to on.

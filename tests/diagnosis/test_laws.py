@@ -42,8 +42,13 @@ def expression(text: str) -> sympy.Expr:
     return parse_expr(text, {**{f: known.get(f, sympy.Function(f)) for f in functions}, **names}, evaluate=False)
 
 
-@pytest.mark.parametrize("term", catalogue(), ids=lambda t: t.identifier)
-def test_sympy_reads_the_law_and_finds_the_fitted_parameters_in_it(term: CandidateTerm) -> None:
+def test_sympy_reads_every_law_and_finds_the_fitted_parameters_in_it() -> None:
+    assert len(catalogue()) > 100
+    for term in catalogue():
+        _is_read(term)
+
+
+def _is_read(term: CandidateTerm) -> None:
     found = equations(term.law)
     symbols = {s.name for e in found for s in e.free_symbols}
     functions = {str(f.func) for e in found for f in e.atoms(sympy.Function)}

@@ -12,17 +12,22 @@ from cosim.fmu.archive import open_fmu
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuSettings, FmuUnit
-from tests.fmi.fmi_models import FMUS, build
+from tests.fmi.fmi_models import FMUS, build, fmu_path
 
 INTERFACES = {"cs": CoSimulationUnit, "me": ModelExchangeUnit}
 Maker = Callable[..., FmuUnit]
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], Path]:
+def built(once: Callable[..., Path]) -> dict[tuple[str, int], Path]:
     """(model, FMI version) to its .fmu file."""
-    folder = tmp_path_factory.mktemp("fmi_models")
-    return {(model, version): build(model, version, folder) for model, version in FMUS}
+
+    def make(folder: Path) -> None:
+        for model, version in FMUS:
+            build(model, version, folder)
+
+    folder = once("fmi_models", make)
+    return {(model, version): fmu_path(model, version, folder) for model, version in FMUS}
 
 
 @pytest.fixture

@@ -24,6 +24,11 @@ _FLAGS = [
 ]
 
 
+def fmu_path(model: str, version: int, folder: Path) -> Path:
+    """Where `build` puts the .fmu file of one model."""
+    return folder / f"{model}_fmi{version}.fmu"
+
+
 def build(model: str, version: int, folder: Path) -> Path:
     """The .fmu file of one model."""
     library = folder / f"{model}{version}.so"
@@ -42,7 +47,7 @@ def build(model: str, version: int, folder: Path) -> Path:
         check=True,
     )
     platform = fmpy.platform_tuple if version == 3 else fmpy.platform
-    path = folder / f"{model}_fmi{version}.fmu"
+    path = fmu_path(model, version, folder)
     with zipfile.ZipFile(path, "w") as archive:
         archive.write(MODELS / model / f"fmi{version}.xml", "modelDescription.xml")
         archive.write(library, f"binaries/{platform}/{model}{fmpy.sharedLibraryExtension}")

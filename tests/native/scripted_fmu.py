@@ -48,10 +48,15 @@ class Fault(IntEnum):
     FATAL = 10
 
 
+def fmu_path(folder: Path, version: int, has_event_mode: bool = False) -> Path:
+    """Where `build` puts the FMU."""
+    return folder / f"scripted{'_events' * has_event_mode}_fmi{version}.fmu"
+
+
 def build(folder: Path, version: int, has_event_mode: bool = False) -> Path:
     """Compile and zip the FMU of one FMI version; with Event Mode (FMI 3.0) it has a time event at `moment`."""
     platform = fmpy.platform if version == 2 else fmpy.platform_tuple
-    library, fmu = folder / f"scripted{version}.so", folder / f"scripted{'_events' * has_event_mode}_fmi{version}.fmu"
+    library, fmu = folder / f"scripted{version}.so", fmu_path(folder, version, has_event_mode)
     headers = Path(fmpy.__file__).parent / "c-code"
     # fmpy wants every function of the standard to be there; those that the model lacks return an error.
     names = re.findall(r"TYPE\s+(fmi\d\w+);", (headers / f"fmi{version}Functions.h").read_text())

@@ -56,7 +56,7 @@ def test_a_cluster_is_used_by_its_address(crew: Workers) -> None:
 
 
 def test_a_cluster_that_does_not_answer_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("evaluation.proof.workers.CONNECT_TIME", 0.5)
+    monkeypatch.setattr("cosim.compute.cluster.CONNECT_TIME", 0.5)
     with pytest.raises(InputError, match="does not answer"), workers(1, "tcp://127.0.0.1:9"):
         pass
 

@@ -15,10 +15,9 @@ def _fmus_of_these_sources(shipped_fmus):
 
 
 @pytest.fixture(scope="session")
-def models(tmp_path_factory):
+def models():
     """`models("ground", 2)` is the path of a small FMU."""
-    folder = tmp_path_factory.mktemp("models")
-    built = {path.stem: path for path in build(folder)}
+    built = {path.stem: path for path in build()}
     return lambda name, version=2: built[f"{name}_fmi{version}"]
 
 

@@ -1,9 +1,6 @@
 """A scenario that goes out as SSP and comes back gives the same trace, to the last bit: no tolerance anywhere here."""
 
-import subprocess
-import sys
 import zipfile
-from pathlib import Path
 
 import pytest
 
@@ -59,15 +56,8 @@ def test_shipped_scenarios_return_from_ssp_2_with_the_same_trace(name, tmp_path)
     round_trip(scenario, tmp_path, "2.0")
 
 
-@pytest.fixture(scope="session")
-def fmi2_of_six_coils(shipped_fmus):
-    command = ["make", "-C", Path(__file__).parents[2] / "fmus", f"PYTHON={sys.executable}", f"BUILD={shipped_fmus}"]
-    done = subprocess.run([*command, "COILS=6"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-
-
 @pytest.mark.parametrize("version", ["1.0", "2.0"])
-def test_arrays_of_fmi_2_go_out_as_scalars_and_return_as_arrays(fmi2_of_six_coils, version, tmp_path):
+def test_arrays_of_fmi_2_go_out_as_scalars_and_return_as_arrays(version, tmp_path):
     scenario = changed(heating(), "actuator", fmi=2)
     again = round_trip(scenario, tmp_path, version)
     assert wired(again) == [
