@@ -8,8 +8,9 @@ from pathlib import Path
 
 from chainmail.design.candidate import rig_of, scenario_for
 from chainmail.design.impossible import Impossible
+from chainmail.design.keys import check_keys
 from chainmail.design.ledger import Ledger
-from chainmail.design.report import front, impossible, report, winning_scenario
+from chainmail.design.report import delay_front, front, impossible, report, winning_scenario
 from chainmail.design.search import Search
 from chainmail.design.shape import with_requirements
 from chainmail.design.task import load_task
@@ -58,6 +59,7 @@ def design(
     task, scenario = load_task(path)
     rig = rig_of(scenario, path)
     _check_rows(task.vary.rows_heated, rig.free, path)
+    check_keys(task.vary.keys, rig, path)
     task = with_requirements(task, rig)
     with alone(out, "design"):
         is_begun = (out / "report.md").exists() or (out / "runs").exists()
@@ -83,6 +85,8 @@ def design(
                 )
                 return NOT_FOUND
         files = {"report.md": report(search, outcome), "ledger.csv": ledger.table(), "front.csv": front(ledger)}
+        if outcome.points:
+            files["delays.csv"] = delay_front(ledger, outcome)
         if outcome.winner is not None:
             files["scenario.yaml"] = winning_scenario(outcome.winner, rig, task.title)
         _write(out, files)

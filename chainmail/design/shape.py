@@ -8,6 +8,7 @@ from itertools import combinations
 
 from chainmail.design.candidate import Candidate, Pulse, Rig, holding_power, on_grid
 from chainmail.design.closed_form import heated_together
+from chainmail.design.cycle import cycle_requirements
 from chainmail.design.impossible import Impossible
 from chainmail.design.row_model import Chain
 from chainmail.design.task import Schedule, Shape, Task, Wanted
@@ -22,7 +23,7 @@ MOST_ROWS = 16
 
 
 def with_requirements(task: Task, rig: Rig) -> Task:
-    """The task with what `shape` and `schedule` want written out as bends of rows.
+    """The task with what `shape`, `schedule` and `cycle` want written out as bends of rows and curvatures.
 
     Raises:
         InputError: A row is none of the free ones, or is wanted to be both.
@@ -52,6 +53,8 @@ def with_requirements(task: Task, rig: Rig) -> Task:
             for row, time in plan.rows.items():
                 if row < len(rig.rows) and (time.to("s") <= moment or time.to("s") > at):
                     wanted.append(_bend(rig, row, plan, at, is_straight=time.to("s") <= moment))
+    if task.cycle is not None:
+        wanted += cycle_requirements(task.cycle, rig)
     if not wanted:
         raise InputError(
             source,

@@ -190,7 +190,7 @@ def test_what_no_run_reached_is_told_with_the_nearest(tmp_path):
     cold, hot = search.candidate(()), search.candidate((3, 4))
     search.ledger.units = ("m", "W")
     search.ledger.entries = [_entry("coarse", cold, 1, 0.07), _entry("coarse", hot, 1, 0.041)]
-    why = search._unmet()
+    why = search.unmet()
     assert isinstance(why, Impossible)
     assert "no run of 2 designs reached it, of which one heats rows 3, 4" in why.limit
     assert "0.041 m with rows 3, 4" in why.nearest
@@ -278,7 +278,7 @@ def test_a_design_that_barely_holds_from_one_start_is_not_the_end_of_a_search(tm
     assert search._room[1] == 0.0  # the power does not scatter
     barely = search.ledger.judged(search.candidate((3, 4, 5)))
     assert barely.is_met
-    assert not search._has_room(barely)
+    assert not search.has_room(barely)
 
 
 def test_programmes_stay_below_a_limit_of_power_by_what_the_solver_of_the_circuit_may_err(tmp_path):
