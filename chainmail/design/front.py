@@ -17,6 +17,7 @@ from chainmail.design.outcome import Outcome, Point
 from chainmail.design.sequential import Verdict
 from chainmail.design.task import Cycle
 from chainmail.design.weave_model import jam_distance, slack_curvature, thickest_bar
+from cosim.unit.quantity import PhysicalValue
 
 if TYPE_CHECKING:
     from chainmail.design.candidate import Candidate
@@ -27,6 +28,8 @@ Keys = tuple[tuple[str, str], ...]
 Place = tuple[tuple[int, ...], int, Keys]
 #: Geometries are screened with this share of the closed form's curvature, as rows are with that of the row model.
 SURE = 0.8
+#: Geometries count as the same where no number differs by more than this share of its range.
+NEAR = 0.05
 #: The bar is chosen so thick that cold links bend by this much more than is wanted, by the closed form.
 ROOM = 1.1
 
@@ -188,8 +191,21 @@ class Front:
         proposals = [self._at_jam(own), self._at_jam(self._with_thickest(own, scale))]
         proposals.append(self._with_end(proposals[-1], "tolerance", 0.0))
         proposals.append(self._with_end(proposals[1], "tolerance", 1.0))
-        made = [tuple((key, p[key]) for key in spans) for p in proposals]
-        return [k for k in dict.fromkeys(made) if not self._is_hopeless(k)]
+        found = [self._own()]
+        for proposal in proposals:
+            made = tuple((key, proposal[key]) for key in spans)
+            if not self._is_hopeless(made) and not any(self._are_near(made, other) for other in found):
+                found.append(made)
+        return found[1:]
+
+    def _are_near(self, first: Keys, second: Keys) -> bool:
+        """Whether two geometries differ by so little that a second run would say nothing new."""
+        spans = self.search.ledger.task.vary.keys
+        places = [
+            [span.share(PhysicalValue.parse(dict(keys)[key])) for key, span in spans.items()]
+            for keys in (first, second)
+        ]
+        return all(abs(a - b) < NEAR for a, b in zip(*places))
 
     def _fitted(self) -> float | None:
         """Scale of the closed form, from the cold curvature of the first run."""

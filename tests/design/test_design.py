@@ -313,6 +313,37 @@ def test_the_fewest_rows_of_a_shape_are_exact_against_all_patterns(rigid, flexib
     assert found[0] == tuple(rigid)
 
 
+def test_of_a_shape_only_rows_that_bend_too_much_are_heated_more():
+    """As in Bullet: row 4 bends by 12 degrees at 62 degC and by 5 at 68; row 6 is straight where rows 7, 8 have 68."""
+    source = EXAMPLES / "bend_in_the_middle.yaml"
+    task, scenario = load_task(source)
+    rig = rig_of(scenario, source)
+    task = with_requirements(task, rig)
+
+    class Bends(Ledger):
+        def _made(self, candidates, starts, fidelities):
+            self.units = ("W", *["deg"] * (len(task.wanted) - 1))
+            for c, s, f in zip(candidates, starts, fidelities):
+                hot = {p.row: p.hot for p in c.pulses}
+                bends = {
+                    3: 6.0,
+                    4: 12.0 if hot[4] < 340.0 else 5.0,
+                    7: 1.0,
+                    5: 12.0,
+                    6: 12.0 if hot[7] < 340.0 else 7.3,
+                }
+                values = tuple(19.0 if w.of == "max" else bends[w.of] for w in task.wanted)
+                distances = tuple(w.distance(v, u) for w, v, u in zip(task.wanted, values, self.units))
+                self.entries.append(Entry(f, c, s, values, distances, 1e-5, 50.0, "", 1.0))
+            return self.entries[-len(candidates) :]
+
+    search = Search(Bends(task, rig, Batches(Here())))
+    outcome = search.run()
+    assert outcome.winner is not None
+    assert [round(p.hot - 273.15) for p in outcome.winner.pulses] == [62, 68, 62, 62]
+    assert search.ledger.count("fine") == 4  # two designs, and two more starts of the second
+
+
 def test_a_schedule_heats_one_row_after_another_within_the_limits(tmp_path):
     source = EXAMPLES / "one_after_another.yaml"
     task, scenario = load_task(source)
