@@ -65,9 +65,8 @@ def fabric(found: xr.Dataset) -> None:
     late = found.sel(time=slice(8.0, None))
     power = float(late["circuit.supply_power"].mean())
     flat = CONDUCTANCE * 40.0
-    print(
-        f"prototype, held: {power:.2f} W; G (62 degC - 22 degC) is {flat:.2f} W: {100 * (1 - power / flat):.1f} % less"
-    )
+    saved = 100 * (1 - power / flat)
+    print(f"prototype, held: {power:.2f} W; G (62 degC - 22 degC) is {flat:.2f} W: {saved:.1f} % less")
     length = 1e3 * late["fabric.link_length"].isel(link=slice(6, None))
     print(f"free links: {float(length.mean()):.2f} mm on average, longest {float(length.max()):.2f} mm")
     curved = late["fabric.max_curvature"].values

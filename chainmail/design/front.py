@@ -6,6 +6,7 @@ made least; the points together are the front (Haimes, Lasdon and Wismer, IEEE T
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,8 @@ Keys = tuple[tuple[str, str], ...]
 Place = tuple[tuple[int, ...], int, Keys]
 #: Geometries are screened with this share of the closed form's curvature, as rows are with that of the row model.
 SURE = 0.8
+#: Geometries that closed forms may propose for one programme.
+PROPOSALS = 5
 #: Geometries count as the same where no number differs by more than this share of its range.
 NEAR = 0.05
 #: The bar is chosen so thick that cold links bend by this much more than is wanted, by the closed form.
@@ -47,7 +50,6 @@ class Front:
     search: Search
     cycle: Cycle
     outcome: Outcome
-    _scale: float | None = None
     _found: list[Place] = field(default_factory=list)
 
     def run(self) -> Outcome:
@@ -162,9 +164,15 @@ class Front:
         own = self._own() if keys is None else keys
         if self._is_short((rows, level, own)):
             return rows, level, own
-        for other in self._geometries():
-            if other != own and self._is_short((rows, level, other)):
+        tried = [own]
+        # Every run says more about the closed form, so what it proposes is asked for anew.
+        while len(tried) <= PROPOSALS:
+            other = next((g for g in self._geometries() if not any(self._are_near(g, t) for t in tried)), None)
+            if other is None:
+                break
+            if self._is_short((rows, level, other)):
                 return rows, level, other
+            tried.append(other)
         return None
 
     def _own(self) -> Keys:
@@ -183,12 +191,12 @@ class Front:
         spans = self.search.ledger.task.vary.keys
         if not spans:
             return []
-        scale = self._fitted()
-        if scale is None:
+        scale, least = self._fitted(), self._fitted(min)
+        if scale is None or least is None:
             return []
         self._check_reach(scale)
         own = dict(self._own())
-        proposals = [self._at_jam(own), self._at_jam(self._with_thickest(own, scale))]
+        proposals = [self._at_jam(own), self._at_jam(self._with_thickest(own, least))]
         proposals.append(self._with_end(proposals[-1], "tolerance", 0.0))
         proposals.append(self._with_end(proposals[1], "tolerance", 1.0))
         found = [self._own()]
@@ -207,18 +215,16 @@ class Front:
         ]
         return all(abs(a - b) < NEAR for a, b in zip(*places))
 
-    def _fitted(self) -> float | None:
-        """Scale of the closed form, from the cold curvature of the first run."""
-        if self._scale is None:
-            ledger = self.search.ledger
-            cold = next(n for n, w in enumerate(ledger.task.wanted) if w.quantity.endswith("max_curvature"))
-            first = next((e for e in ledger.entries if not e.failure), None)
-            weave = weave_of(first.candidate.keys, ledger.rig) if first is not None else None
-            if first is None or weave is None:
-                return None
-            form = slack_curvature(weave.bar_distance_cold, weave.bar_diameter)
-            self._scale = first.values[cold] / form if form > 0.0 else None
-        return self._scale
+    def _fitted(self, find: Callable[[Iterable[float]], float] = max) -> float | None:
+        """Scale of the closed form, from the cold curvatures of all runs: the largest, or another of them."""
+        ledger = self.search.ledger
+        cold = next(n for n, w in enumerate(ledger.task.wanted) if w.quantity.endswith("max_curvature"))
+        scales = []
+        for entry in ledger.entries:
+            weave = weave_of(entry.candidate.keys, ledger.rig) if not entry.failure else None
+            form = slack_curvature(weave.bar_distance_cold, weave.bar_diameter) if weave is not None else 0.0
+            scales += [entry.values[cold] / form] if form > 0.0 else []
+        return find(scales) if scales else None
 
     def _check_reach(self, scale: float) -> None:
         curved = [self._cold(corner, scale) for corner in corners(self.search.ledger.task.vary.keys)]

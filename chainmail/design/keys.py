@@ -14,6 +14,8 @@ from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
 from mechanics.fabric import FabricDesign
 
+#: Numbers that may be negative.
+_ANY_SIGN = ("tilt", "roll")
 #: Numbers that say where and how a run begins: a check takes fresh starts by them.
 _NOT_VARIED = ("start_number", "start_speed")
 
@@ -27,7 +29,7 @@ def check_keys(spans: dict[str, Span], rig: Rig, path: Path) -> None:
     known = [n for n in FABRIC_UNITS if n not in _NOT_VARIED]
     for key, span in spans.items():
         head, _, name = key.partition(".parameters.")
-        if head.removeprefix("components.") != rig.fabric or name not in known:
+        if head != rig.fabric or name not in known:
             paths = [f"{rig.fabric}.parameters.{n}" for n in known]
             raise InputError(
                 path,
@@ -38,9 +40,11 @@ def check_keys(spans: dict[str, Span], rig: Rig, path: Path) -> None:
             )
         for end in (span.low, span.high):
             try:
-                end.to(FABRIC_UNITS[name])
+                if end.to(FABRIC_UNITS[name]) < 0.0 and name not in _ANY_SIGN:
+                    raise ValueError(f"`{end}` is below 0")
             except ValueError as error:
-                raise InputError(path, f"vary.{key}", str(error), f"give it in {FABRIC_UNITS[name]}") from error
+                    remedy = f"give it in {FABRIC_UNITS[name]}, not below 0"
+                raise InputError(path, f"vary.{key}", str(error), remedy) from error
     if spans and not any(weave_of(corner, rig) for corner in corners(spans)):
         raise InputError(
             path,

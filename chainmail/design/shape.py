@@ -12,6 +12,7 @@ from chainmail.design.cycle import cycle_requirements
 from chainmail.design.impossible import Impossible
 from chainmail.design.row_model import Chain
 from chainmail.design.task import Schedule, Shape, Task, Wanted
+from cosim.components import nanoseconds
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
 
@@ -54,6 +55,10 @@ def with_requirements(task: Task, rig: Rig) -> Task:
                 if row < len(rig.rows) and (time.to("s") <= moment or time.to("s") > at):
                     wanted.append(_bend(rig, row, plan, at, is_straight=time.to("s") <= moment))
     if task.cycle is not None:
+        grain = rig.scenario.time.output_step
+        if nanoseconds(task.cycle.period) % nanoseconds(grain):
+            problem = f"{task.cycle.period} is no multiple of time.output_step, {grain}"
+            raise InputError(source, "cycle.period", problem, "runs end at the end of a cycle; take a multiple")
         wanted += cycle_requirements(task.cycle, rig)
     if not wanted:
         raise InputError(

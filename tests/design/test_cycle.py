@@ -168,7 +168,7 @@ def test_where_structure_does_not_suffice_the_optimiser_finds_it(tmp_path):
         play, length = _number(candidate, PLAY), _number(candidate, HOT)
         return 1.0 + 3.0 * abs(play - 1.6) + 4.0 * abs(length - 31.2)
 
-    changes = (("[1 s, 1.2 s, 1.5 s]", "2 s"), ("coarse: 30", "coarse: 200"))
+    changes = (("[1 s, 1.2 s, 1.5 s]", "2 s"), ("coarse: 20", "coarse: 200"))
     search = scripted(written(tmp_path, *changes), hot)
     outcome = search.run()
     assert outcome.winner is not None
@@ -296,6 +296,11 @@ WRONG = {
         ("wanted:", "wanted:\n  - {quantity: fabric.tip_sag, at: 5 s, below: 3 mm}"),
         "a cycle has its own times",
     ),
+    "a path with its prefix": ((f"{BAR}: 8.2", f"components.{BAR}: 8.2"), "no number of the fabric"),
+    "a negative play": (("0.5 mm to 2 mm", "-0.5 mm to 2 mm"), "is below 0"),
+    "a period off the grid": (("period: 10 s", "period: 10.005 s"), "no multiple of time.output_step"),
+    "no such quantity": (("circuit.supply_power", "circuit.supply_pover"), "no run of this scenario has a quantity"),
+    "a bound of another kind": (("below: 20 W", "below: 20 V"), "no quantity in W"),
     "fewest rows": (("least: energy", "least: rows_heated"), "least energy"),
     "a start that varies": ((f"{PLAY}: 0.5 mm", "fabric.parameters.start_speed: 0.5 mm"), "no number of the fabric"),
 }
