@@ -43,7 +43,7 @@ def check_keys(spans: dict[str, Span], rig: Rig, path: Path) -> None:
                 if end.to(FABRIC_UNITS[name]) < 0.0 and name not in _ANY_SIGN:
                     raise ValueError(f"`{end}` is below 0")
             except ValueError as error:
-                    remedy = f"give it in {FABRIC_UNITS[name]}, not below 0"
+                remedy = f"give it in {FABRIC_UNITS[name]}, not below 0"
                 raise InputError(path, f"vary.{key}", str(error), remedy) from error
     if spans and not any(weave_of(corner, rig) for corner in corners(spans)):
         raise InputError(
