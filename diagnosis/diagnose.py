@@ -22,7 +22,7 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
-from diagnosis.judge.doubts import doubted, of_another_experiment
+from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts
 from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline, notes
@@ -56,7 +56,7 @@ from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.shares import titled
 from diagnosis.search.structure import structure
-from diagnosis.ways import is_cheap, other_ways
+from diagnosis.ways import other_ways
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def diagnose(
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
     is_open = accepted.agreement.is_rejected and not is_small(accepted)
-    if judge is not None and is_open and is_cheap(given):
+    if judge is not None and is_open and given.can_be_searched_again:
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)
@@ -178,6 +178,7 @@ def diagnose(
     units = written_units([r.units for r in both])
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
+    doubts = without_explained_starts(doubts, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)
@@ -307,15 +308,19 @@ def _accepted(
         judge is None or judge.can_be_fitted,
         on_progress,
     )
-    if accepted.agreement.is_rejected and not accepted.agreement.is_irregular and can_be_moved(model):
-        on_progress("asking whether what is left has the form of other laws at the same place")
+    if can_be_moved(model):
+        on_progress("asking what speaks against the names of laws")
         accepted = _with_doubts_of_names(model, accepted)
     return accepted, unfitted.readings
 
 
 def _with_doubts_of_names(model: DiagnosisModel, accepted: Accepted) -> Accepted:
-    """The same with what speaks against the names of accepted laws of a model that readings reject."""
+    """The same with what speaks against the names of accepted laws: others that cancel them, or that have their form.
+
+    Of the form is asked where readings reject the model: else nothing is left that has one.
+    """
     fit = accepted.explanation.fit
     laws = [t for t in fit.point.terms if t.is_named and t.unit != "measurement" and t.recording is None]
-    forms = {t: share_at_place(model, fit, companions(model, t)) for t in laws}
+    has_rest = accepted.agreement.is_rejected and not accepted.agreement.is_irregular
+    forms = {t: share_at_place(model, fit, companions(model, t)) for t in laws} if has_rest else {}
     return replace(accepted, forms=forms, opposed=opposed(model, fit.point, laws))

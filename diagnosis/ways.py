@@ -15,18 +15,10 @@ from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import pooled, refitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
-from diagnosis.search.complete import completed
+from diagnosis.search.complete import MOST, MOST_SLOW, completed
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
-
-#: Derivatives of residuals by parameters from which another search would take minutes.
-MOST = 200_000
-
-
-def is_cheap(model: DiagnosisModel) -> bool:
-    """Whether another search of the model takes a minute at most: a network of coils or heaters that is not large."""
-    return model.is_fast and len(model.layout.time) * len(model.parameters) < MOST
 
 
 def other_ways(
@@ -56,7 +48,8 @@ def other_ways(
         yield _honest(laws, first)
     if first.left.is_noise:
         return
-    whole = completed(laws, first.best, terms, settings, first.margin, on_progress)
+    most = MOST if model.is_fast else MOST_SLOW
+    whole = completed(laws, first.best, terms, settings, first.margin, on_progress, most)
     whole = shrink(laws, whole, first.margin)
     if set(whole.terms) != set(first.best.terms):
         left = structure(whole.fit.residuals, model.layout, model.groups())

@@ -266,7 +266,11 @@ class Binding(ABC):
 
         An FMU that initialises itself when the experiment is set up forgets it, so it is set there once more.
         """
-        access = self.given[variable.variable.name] = self.writer(variable, values)
+        name = variable.variable.name
+        access = self.given.get(name)
+        if access is None or access.values.shape != values.shape or access.values.dtype != values.dtype:
+            access = self.given[name] = self.writer(variable, values.copy())
+        access.values[...] = values
         access()
 
     def reader(self, variable: FmuVariable, values: AnyArray) -> Access:

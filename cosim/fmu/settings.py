@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.fmu.access import Access
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding
 from cosim.fmu.gathering import fmu_variables
@@ -116,6 +117,8 @@ class Table:
         except StructureFault as error:
             raise InputError(archive.path, f"{name}.structure", str(error), error.remedy) from error
         self._given: dict[str, tuple[FmuVariable, AnyArray]] = {}
+        #: Calls that read a parameter back, made at the first initialisation.
+        self._readers: dict[str, Access] = {}
         recorded = {self._recorded(n) for n in settings.record}
         self.exposed = {
             n: v
@@ -176,10 +179,15 @@ class Table:
         for key, (variable, array) in self._given.items():
             if not (variable.variable.type.is_float or array.dtype.kind in "iub"):
                 continue
-            kept = np.empty_like(array)
+            known = self._readers.get(key)
+            if known is None or known.values.shape != array.shape or known.values.dtype != array.dtype:
+                known = self._readers[key] = binding.reader(variable, np.empty_like(array))
             try:
-                binding.reader(variable, kept)()
+                known()
             except UnitError:
+                continue
+            kept = known.values
+            if np.array_equal(kept, array):
                 continue
             rounding = _ROUNDING if array.dtype.kind == "f" else 0.0
             wrong = np.flatnonzero(~np.isclose(kept, array, rtol=rounding, atol=0.0, equal_nan=True))

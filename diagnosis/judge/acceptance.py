@@ -61,7 +61,7 @@ class Accepted:
         without: Term that is accepted to the fit of all others without it.
         forms: Term to the share of what is left in training that other laws at its place explain, where readings reject
             the model and that was asked.
-        opposed: Term to another that it mostly cancels, where readings reject the model.
+        opposed: Term to another that it mostly cancels.
     """
 
     headline: Explanation

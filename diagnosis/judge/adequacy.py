@@ -110,7 +110,7 @@ def moved_day(predicted: Predicted, parameters: Sequence[Parameter], titles: Seq
     if instants:
         amount, far = max(instants, key=lambda m: abs(m[1]))
         count = f"{len(instants)} changes" if len(instants) > 1 else "1 change"
-        text = f"{count} of recorded inputs came between two rows of their table, at most by one row"
+        text = f"{count} of recorded inputs between two rows of their table, where this model meets the readings best"
         found.append(Moved(text, "s", amount, False, far))
     return tuple(found)
 

@@ -318,6 +318,7 @@ class Used:
         channels: Names of its channels.
         readings: Readings of all channels that were compared.
         thinned: Readings that were not because there were so many, at even distances.
+        zero: Time of its table's clock from which its times are counted [s].
     """
 
     title: str
@@ -328,6 +329,7 @@ class Used:
     channels: tuple[str, ...]
     readings: int = 0
     thinned: int = 0
+    zero: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -82,8 +82,8 @@ def late_responses(doubts: Sequence[Doubt]) -> list[Doubt]:
 def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Finding, ...]:
     """Findings, some as suggestions: physics beside a fault or start that no finding explains, too many faults at once.
 
-    A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does;
-    a clock that is late looks like a lag.
+    A rig that begins elsewhere than its recording says answers with its own time constants, as missing physics does,
+    and as a sensor does that is off at first; a clock that is late looks like a lag.
 
     Args:
         findings: Of a search.
@@ -97,13 +97,39 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
         return told
     what = _FIRST.get(left[0].kind, _CLEARED)
     why = f"{_WAITS} {what}: {left[0].recording}, {left[0].subject}: {left[0].statement.rstrip('.')}"
-    return tuple(_suggested(f, why) if f.is_accepted and f.unit not in MEASURED else f for f in told)
+    waiting = [f for f in told if f.is_accepted and (f.unit not in MEASURED or _is_at_start(f, left))]
+    return tuple(_suggested(f, why) if f in waiting else f for f in told)
+
+
+def _is_at_start(finding: Finding, doubts: Sequence[Doubt]) -> bool:
+    """Whether it is a fault of a sensor from the begin of a recording of which the start is in doubt."""
+    return is_of_an_interval(finding) and any(
+        d.kind == "start"
+        and d.recording == finding.recording
+        and _is_of_channel(d, finding)
+        and any(begin <= d.end for begin, _ in finding.intervals)
+        for d in doubts
+    )
+
+
+def without_explained_starts(doubts: Sequence[Doubt], findings: Sequence[Finding]) -> tuple[Doubt, ...]:
+    """Doubts without starts that an accepted law of their sensor explains: there is nothing to state then."""
+    sensors = [f for f in findings if f.is_accepted and f.unit in MEASURED]
+    return tuple(d for d in doubts if d.kind != "start" or not any(is_explained(d, f) for f in sensors))
 
 
 def is_explained(doubt: Doubt, finding: Finding) -> bool:
-    """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording."""
-    is_there = not finding.effect.endswith(_IN_INTERVAL) or finding.recording in ("", doubt.recording)
-    return is_there and any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
+    """Whether a finding is what a doubt is about: the same channel and, of a fault of a stretch, the same recording.
+
+    A start is not explained by a sensor that is off for a while only: what is stated wrongly does the same.
+    """
+    if is_of_an_interval(finding) and (doubt.kind == "start" or finding.recording not in ("", doubt.recording)):
+        return False
+    return _is_of_channel(doubt, finding)
+
+
+def _is_of_channel(doubt: Doubt, finding: Finding) -> bool:
+    return any(c == doubt.subject or c.startswith(f"{doubt.subject} (") for c in finding.channels)
 
 
 def waits(finding: Finding) -> bool:

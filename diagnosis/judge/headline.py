@@ -251,10 +251,11 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
         text += f"; what is left is not more than {noise}" if is_met else ""
     else:
         is_whole = adequacy.explained >= 1.0 and is_met
+        alone = min(adequacy.by_recalibration, adequacy.explained)
         share = "100 %" if is_whole else _percent(adequacy.explained)
         text = f"{name} explains {share} of the squared mismatch in the {_basis(adequacy)}"
         if has_more and adequacy.by_recalibration >= LEAST_SHARE:
-            text += f" (recalibration alone {_percent(min(adequacy.by_recalibration, adequacy.explained))})"
+            text += f" (recalibration alone {_percent(alone)}{_course(adequacy) if alone > ALL else ''})"
         text += f"; what is left is not more than {noise}" if is_met else ""
     if not is_met and adequacy.worst is not None:
         text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more)}"
@@ -266,6 +267,12 @@ def _percent(share: float) -> str:
     return "more than 99 %" if share > ALL else f"{100.0 * share:.0f} %"
 
 
+def _course(adequacy: Adequacy) -> str:
+    """Chi-square per reading with recalibration alone and with what was found, where per cent tell no difference."""
+    chi = adequacy.chi_square
+    return f"; chi-square per reading {number(chi['recalibrated'])} by it, {number(chi['after'])} now"
+
+
 def _cause(adequacy: Adequacy, has_more: bool) -> str:
     """Why something stays."""
     if adequacy.is_irregular:
@@ -273,8 +280,8 @@ def _cause(adequacy: Adequacy, has_more: bool) -> str:
         is_stated = adequacy.is_noise_stated if worst is None else worst.is_noise_stated
         source = "is stated" if is_stated else "was estimated from neighbouring readings"
         return (
-            f"as much as it changes from one reading to the next: noise is larger than {source}, or single readings "
-            "are wild"
+            f"as much as it changes from one reading to the next: noise is larger than {source}, single readings are "
+            "wild, or a little is missing that changes as fast"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
     return f"something {'else ' if has_more else ''}is missing or wrong{slow}"

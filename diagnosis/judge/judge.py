@@ -195,7 +195,9 @@ def _open_ones(found: Sequence[Finding]) -> list[str]:
     """Accepted laws that may be of the rig as well as of a sensor or an input."""
     accepted, reasons = [f for f in found if f.is_accepted], []
     if any(f.standing is Standing.UNNAMED and f.unit in MEASURED for f in accepted):
-        reasons.append("what improves the prediction is described by a law of a sensor or an input, but not identified")
+        is_part = any(f.unit not in MEASURED for f in accepted)
+        what = "part of what improves the prediction" if is_part else "what improves the prediction"
+        reasons.append(f"{what} is described by a law of a sensor or an input, but not identified")
     if any(f.is_of_either for f in accepted):
         reasons.append("what improves the prediction may be of the rig as well as of a sensor or an input")
     return reasons
@@ -549,7 +551,7 @@ def _dragged(far: tuple[Parameter, float], titles: Sequence[str]) -> str:
     side = "above" if z > 0.0 else "below"
     return (
         f"with it {parameter_words(titled(parameter, titles))} is {abs(z):.1f} prior deviations {side} the stated "
-        "value, which it is not without it: another law that leaves it alone may be what acts"
+        "value, farther than recalibration alone brings it: another law that leaves it alone may be what acts"
     )
 
 

@@ -18,4 +18,14 @@ def _used(recording: Recording, is_held_out: bool) -> Used:
     readings = sum(len(c.times) for c in recording.channels.values())
     thinned = sum(c.dropped.get("thinned", 0) for c in recording.channels.values())
     names = tuple(recording.channels)
-    return Used(recording.title, str(recording.path), is_held_out, begin, recording.end, names, readings, thinned)
+    return Used(
+        recording.title,
+        str(recording.path),
+        is_held_out,
+        begin,
+        recording.end,
+        names,
+        readings,
+        thinned,
+        recording.zero,
+    )

@@ -47,14 +47,14 @@ def searched(model: DiagnosisModel, scenario: Scenario, without: Sequence[str], 
     )
     untried = [f"`{effect}` was left out on demand" for effect in without]
     untried += [f"no {name} law changes what these channels measure" for name in unseen]
-    if not any(by_domain[name] for name in by_domain if name not in MEASURED):
+    if not model.untried and not any(by_domain[name] for name in by_domain if name not in MEASURED):
         units = [n for n, c in scenario.components.items() if not isinstance(c, ProgrammeComponent)]
         untried += [f"`{name}` ({scenario.components[name].kind}) offers no place for a law" for name in units]
     untried += model.untried
     if not any(p.own is None for p in model.parameters):
         untried.append(
-            "nothing was recalibrated: no number that may be off (with a stated uncertainty, or of an FMU in compiled "
-            "code) moves these readings"
+            "nothing was recalibrated: no number with a stated uncertainty moves these readings, nor does one of an "
+            "FMU that compiled code simulates"
         )
     return Searched(domains, tuple(untried))
 

@@ -142,10 +142,12 @@ def set_aside(readings: Readings, residuals: Array) -> AnyArray:
     Returns:
         Shape (readings,).
     """
-    found = readings.is_wild.copy()
+    found = np.zeros(len(residuals), dtype=bool)
     for n in range(len(readings.channels)):
         places = np.flatnonzero(readings.channel == n)
-        kept = places[~readings.is_wild[places]]
+        # A swing that is read a few times in each period stands out from its neighbours too, and the model meets it.
+        found[places] = readings.is_wild[places] & wild_readings(residuals[places], 1.0)
+        kept = places[~found[places]]
         size = np.abs(residuals[kept])
         out = size > WILD
         edges = np.flatnonzero(np.diff(np.concatenate([[False], out, [False]]).astype(int)))

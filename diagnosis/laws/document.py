@@ -33,6 +33,7 @@ def _row(law: Law) -> str:
     name = f"**{law.name}** `{law.identifier}`" if law.is_named else f"`{law.identifier}` (no name)"
     formula = f"`{law.formula}`" + "".join(f"; `d{s.name}/dt = {s.rate}`, from `{s.start}`" for s in law.states)
     formula += "".join(f"; `{d.name}(t) = {d.of}(t - {d.by})`" for d in law.delays)
+    formula += f"; to the other part `{law.reaction}`" if law.reaction else ""
     numbers = "; ".join(
         f"`{n.name}` [{n.of}]: {n.meaning}, {-n.most if n.least is None else n.least:g} to {n.most:g}"
         for n in law.numbers

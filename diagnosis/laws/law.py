@@ -27,6 +27,13 @@ class Role(Enum):
     STATE = "rate of a state"
     #: Derivative of any state s but a position, over another state or input o.
     PAIR = "rate of a state over another quantity"
+    #: Derivative of a velocity v, beside another one v_2 of the same FMU; d and w are what the positions and the
+    #: velocities are apart by.
+    COUPLED_VELOCITY = "rate of a velocity beside another one"
+    #: Derivative of a temperature T beside another one T_2; d is what they are apart by.
+    COUPLED_TEMPERATURE = "rate of a temperature beside another one"
+    #: Derivative of a level, a volume or a pressure h beside another one h_2; d is what they are apart by.
+    COUPLED_LEVEL = "rate of a level beside another one"
     #: An input u.
     INPUT = "input"
     #: An input u of an FMU that hides its states, over an output o.
@@ -110,6 +117,10 @@ class Law:
         delays: Inputs as they were some time ago.
         is_named: Whether it is an effect with a name.
         confused_with: Identifiers that data often cannot tell from it, with what decides.
+        reaction: What is added to the derivative of `reacts_on` with it, in the same symbols: what one part loses the
+            other one gets, as a share that inertias or capacities decide.
+        reacts_on: Symbol of the other part.
+        is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """
 
     identifier: str
@@ -123,3 +134,6 @@ class Law:
     delays: tuple[Delay, ...] = ()
     is_named: bool = True
     confused_with: Mapping[str, str] = field(default_factory=dict)
+    reaction: str = ""
+    reacts_on: str = ""
+    is_completing: bool = False

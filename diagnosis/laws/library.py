@@ -8,6 +8,7 @@ import pkgutil
 from dataclasses import replace
 
 import diagnosis.laws as package
+from diagnosis.laws.completing import completing
 from diagnosis.laws.law import Law, Number, OwnState, Role
 
 #: Folders of laws with a file each.
@@ -24,7 +25,7 @@ _FORMS = {
 
 @functools.cache
 def library() -> tuple[Law, ...]:
-    """Every law, those with a name first.
+    """Every law: those with a name, those without, and the basis that completes a description.
 
     >>> next(law.name for law in library() if law.identifier == "cubic_spring")
     'spring that hardens or softens (Duffing)'
@@ -34,7 +35,7 @@ def library() -> tuple[Law, ...]:
         where = importlib.import_module(f"{package.__name__}.{folder}")
         for module in sorted(m.name for m in pkgutil.iter_modules(where.__path__)):
             named.append(importlib.import_module(f"{where.__name__}.{module}").LAW)
-    return tuple(sorted((*named, *_generic()), key=lambda law: not law.is_named))
+    return (*sorted((*named, *_generic()), key=lambda law: not law.is_named), *completing())
 
 
 def _generic() -> list[Law]:

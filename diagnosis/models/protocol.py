@@ -255,6 +255,11 @@ class DiagnosisModel(Protocol):
         ...
 
     @property
+    def can_be_searched_again(self) -> bool:
+        """Whether another search takes a minute or two: not many channels and numbers, not many steps."""
+        ...
+
+    @property
     def can_be_fitted(self) -> bool:
         """Whether it has residuals and derivatives; else it predicts alone, and each prediction takes minutes."""
         ...
@@ -422,6 +427,11 @@ class ModelBase:
 
     @property
     def is_fast(self) -> bool:
+        """False."""
+        return False
+
+    @property
+    def can_be_searched_again(self) -> bool:
         """False."""
         return False
 

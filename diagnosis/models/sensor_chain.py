@@ -1,4 +1,4 @@
-"""What a sensor with a lag, a late clock or another gain reads of a course."""
+"""What a sensor with a lag, a late clock, another gain, a bias, a drift or a limited range reads of a course."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.special import ndtr
 
 from cosim.unit.protocol import Array
 from diagnosis.recording.recording import Channel
@@ -14,6 +15,9 @@ from diagnosis.search.problem import Term
 
 #: Unit of a reading to the value about which a gain acts: an angle hangs at pi, a thermometer is set at 0 degC.
 MIDDLES: Mapping[str, float] = {"rad": math.pi, "K": 273.15}
+
+#: Law of a limited range to the side on which it ends.
+ENDS: Mapping[str, float] = {"sensor_clipping": 1.0, "sensor_clipping_below": -1.0}
 
 
 def read(
@@ -28,20 +32,47 @@ def read(
         step: Time between two of its values [s].
         every: Values from one that is an output to the next.
     """
-    values, late, gain = series.values, 0.0, 0.0
-    for term, (amount, *_) in terms.items():
-        if term.place != channel.name or term.unit != "measurement":
-            continue
-        if term.identifier == "sensor_clock_offset":
-            late += amount
-        elif term.identifier == "sensor_gain":
-            gain += amount
-        elif term.identifier == "sensor_lag":
-            values = lagging(values, amount, step)
+    own = [(t.identifier, v) for t, v in terms.items() if t.place == channel.name and t.unit == "measurement"]
+
+    def sum_of(identifier: str) -> float:
+        return sum(v[0] for name, v in own if name == identifier)
+
+    values = series.values
+    for lag in (v[0] for name, v in own if name == "sensor_lag"):
+        values = lagging(values, lag, step)
     outputs = Series(series.times[::every], values[::every], series.is_flow, series.unit)
-    found = sample(outputs, channel.times - late)
+    found = sample(outputs, channel.times - sum_of("sensor_clock_offset"))
     middle = MIDDLES.get(channel.unit, 0.0)
-    return np.asarray(middle + (1.0 + gain) * (found - middle))
+    found = np.asarray(middle + sum_of("sensor_bias") + (1.0 + sum_of("sensor_gain")) * (found - middle))
+    if drift := sum_of("sensor_drift"):
+        found = found + drift * (channel.times - channel.times[:1])
+    for name, amounts in own:
+        if name in ENDS:
+            clipped, end = amounts
+            found = found + clipped * (cut_off(found, end, ENDS[name], channel.deviation) - found)
+    return np.asarray(found)
+
+
+def cut_off(values: Array, end: float, side: float, noise: float) -> Array:
+    """Mean readings of a sensor whose range ends, shape as given.
+
+    A reading is cut off with its noise: near the end, within the noise, its mean is beyond it by less than the truth is
+    (mean of a normal number that is censored: Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions, 1994,
+    chapter 13).
+
+    Args:
+        values: What is measured, SI.
+        end: Where the range ends, SI.
+        side: 1 for its upper end, -1 for its lower one.
+        noise: Deviation of the noise, SI.
+
+    >>> cut_off(np.array([0.0, 5.0]), 1.0, 1.0, 0.01).tolist()
+    [0.0, 1.0]
+    """
+    width = max(noise, 1e-12 * max(abs(end), 1.0))
+    gap = np.clip(side * (end - values) / width, -40.0, 40.0)
+    loss = gap * ndtr(gap) - gap + np.exp(-0.5 * gap**2) / math.sqrt(2.0 * math.pi)
+    return np.asarray(np.where(gap <= -40.0, end, values - side * width * loss))
 
 
 def lagging(values: Array, lag: float, step: float) -> Array:

@@ -121,6 +121,7 @@ class Recording:
         order: Place among the recordings in time, from 1; None: as given, those held out last.
         cycles_before: Full cycles that the rig had made before.
         units: Units of its channels and its clock, as written: a report shows quantities in them.
+        zero: Time of its table's clock at which the scenario's time is 0 [s]; NaN where that is no number.
     """
 
     path: Path
@@ -137,6 +138,7 @@ class Recording:
     order: int | None = None
     cycles_before: float = 0.0
     units: tuple[str, ...] = ()
+    zero: float = 0.0
 
 
 def load_recording(path: str | Path) -> Recording:
@@ -220,6 +222,7 @@ class _Reader:
             sidecar.order,
             float(sidecar.cycles_before),
             (*(c.unit for c in sidecar.channels.values()), sidecar.time.unit),
+            self._zero(),
         )
 
     def _table(self, name: str | None) -> Table:
@@ -228,6 +231,16 @@ class _Reader:
             file = self.file.parent / chosen
             self._tables[chosen] = Table(file, self.sidecar.header_lines, self._columns[chosen])
         return self._tables[chosen]
+
+    def _zero(self) -> float:
+        """Time of the recording's own table at which the scenario's time is 0 [s]."""
+        clock = self.sidecar.time
+        factor = self._conversion(clock.unit, "s", "time.unit")[0]
+        if clock.zero is not None:
+            return factor * float(clock.zero)
+        readings = self._table(None).column(clock.column, "time.column")
+        known = readings[np.isfinite(readings)]
+        return factor * float(known[0]) if len(known) else float("nan")
 
     def _times(self, table_name: str | None, own: Clock | None, key: str) -> tuple[Array, Clock]:
         """Times on the scenario's clock [s]."""

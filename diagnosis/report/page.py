@@ -20,6 +20,7 @@ from diagnosis.report.section import Section, named, rendered, section
 from diagnosis.report.sentences import (
     ADVICE,
     ambiguity,
+    clocks,
     doubt_text,
     effort,
     improvement,
@@ -236,6 +237,7 @@ def _rests_on(diagnosis: Diagnosis, units: Units) -> Section:
         scenario=diagnosis.scenario,
         rows=rows,
         thinning=thinning(diagnosis),
+        clocks=clocks(diagnosis, units),
     )
 
 

@@ -108,6 +108,10 @@ def improvement(diagnosis: Diagnosis) -> str:
             is_part = 2 * len(part) < sum(f.is_held_out == is_held_out for f in diagnosis.fit)
             own = mean_chi_square(part, is_held_out) if is_part else None
             where = f"; where findings show most: {_course(own)}" if own else ""
+            right = diagnosis.adequacy
+            if is_held_out and right is not None and right.day:  # what judged is not what the rows hold
+                name += ", numbers of the day as written down"
+                where += f"; with those numbers estimated, as judged: {_course(right.chi_square)}"
             return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"
     return "no recording was judged"
 
@@ -127,7 +131,7 @@ def sureness(diagnosis: Diagnosis) -> str:
         return "Nothing was fitted and nothing was searched."
     margin = f"In training an effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
     if not diagnosis.findings:
-        return f"{margin}; none that may have done so was kept."
+        return f"{margin}, which chance may give; no effect did that and stayed needed beside the others."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
     basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
     by: dict[str, list[str]] = {}  # readings that judge to gains on them
@@ -177,6 +181,19 @@ def thinning(diagnosis: Diagnosis) -> str:
         return ""
     told = listed([f"{readings_text(r)} in {clean(r.title)}" for r in thinned], 3)
     return f"Of very many readings a part was used, at even distances and as they are: {told}."
+
+
+#: Zero of a clock [s] from which it counts from a date, which no person reads in seconds.
+EPOCH = 1e8
+
+
+def clocks(diagnosis: Diagnosis, units: Units = IN_SI) -> str:
+    """From when times are counted, where that is not the zero of a table's own clock; empty where it is."""
+    shifted = [r for r in diagnosis.recordings if 0.0 < abs(r.zero) < EPOCH]
+    if not shifted:
+        return ""
+    told = listed([f"{units.text(r.zero, 's')} of {clean(r.title)}" for r in shifted], 4)
+    return f"Times are counted from the scenario's zero; in the clock of its table that is {told}."
 
 
 def moved_text(moved: Moved, units: Units = IN_SI) -> str:

@@ -14,6 +14,7 @@ from diagnosis.report.display import clean, number
 from diagnosis.report.fits import STAGES, Row, rows
 from diagnosis.report.sentences import (
     ambiguity,
+    clocks,
     decisive,
     doubt_text,
     effort,
@@ -67,6 +68,8 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
     for note in diagnosis.notes:
         lines += map(Text, _wrapped("note     ", note, width, _NOTE))
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
+    if clocks(diagnosis, Units(diagnosis.units)):
+        foot += map(Text, _wrapped("times    ", clocks(diagnosis, Units(diagnosis.units)), width, 3))
     if thinning(diagnosis):
         foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
     if diagnosis.next_experiment is not None:

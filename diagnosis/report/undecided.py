@@ -42,6 +42,13 @@ _UNEXPLAINED = (
     "what does not was a disturbance. A second sensor there tells the sensor from the rig."
 )
 
+#: The same where it comes back already.
+_COMES_BACK = (
+    "What is left is in {count} of {every} training recordings, so it belongs to the rig or to what all of them share. "
+    "A second sensor of that quantity tells the sensor from the rig; a programme of other sizes and speeds tells what "
+    "it depends on."
+)
+
 
 def suggested(finding: Finding, units: Units = IN_SI) -> str:
     """A finding that is not accepted: effect, place and time, and why it is not accepted."""
@@ -100,7 +107,18 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
         worst = diagnosis.adequacy.worst
         return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
-    return "" if diagnosis.next_experiment is not None or not diagnosis.left else _UNEXPLAINED
+    return "" if diagnosis.next_experiment is not None or not diagnosis.left else _of_the_rest(diagnosis)
+
+
+def _of_the_rest(diagnosis: Diagnosis) -> str:
+    """What would decide about structure that no effect explains, which may be in one training recording or in more."""
+    limit = diagnosis.left[0].limit
+    training = [f for f in diagnosis.fit if not f.is_held_out]
+    every = {f.recording for f in training}
+    with_rest = {f.recording for f in training if abs(f.whiteness.get("after", 0.0)) > limit}
+    if len(with_rest) < 2:
+        return _UNEXPLAINED
+    return _COMES_BACK.format(count=len(with_rest), every=len(every))
 
 
 def model_note(diagnosis: Diagnosis) -> str:

@@ -19,8 +19,9 @@ from diagnosis.search.grow import HOPEFUL, PLACES, STEPS, fitted_with
 from diagnosis.search.problem import Model, Term
 from diagnosis.search.score import Projection, Score, score
 
-#: Terms that are added at most, and best-scored ones that are fitted for each.
-MOST, TRIED = 8, 3
+#: Terms that are added at most, where a simulation takes milliseconds and where it takes longer, and best-scored ones
+#: that are fitted for each.
+MOST, MOST_SLOW, TRIED = 8, 4, 3
 #: Terms that stay in the queue, those that promised most before (J. H. Friedman, Fast MARS, Stanford University,
 #: Department of Statistics, Technical Report 110, 1993, section 3).
 QUEUED = 80
@@ -33,6 +34,7 @@ def completed(
     settings: Settings,
     margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
+    most: int = MOST,
 ) -> Explanation:
     """The explanation with generic terms beside it, as many as gain the margin each.
 
@@ -43,11 +45,12 @@ def completed(
         settings: Of the search.
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
+        most: Terms that are added at most.
     """
     current = explanation
     generic = [t for t in terms if not t.is_named]
     pool = _at_places(model, current.fit, terms, generic, settings) if generic else []
-    for number in range(MOST if pool else 0):
+    for number in range(most if pool else 0):
         on_progress(f"describing what is left by generic terms: {number + 1}")
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]

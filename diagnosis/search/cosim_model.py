@@ -102,6 +102,11 @@ class CosimModel:
     #: See `diagnosis.search.problem.has_ridges`.
     has_ridges = False
 
+    @property
+    def can_be_searched_again(self) -> bool:
+        """Whether another search takes a minute or two; see `diagnosis.ways`."""
+        return False
+
     def __init__(
         self,
         scenario: Scenario,

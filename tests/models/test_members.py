@@ -24,6 +24,7 @@ OWN = {
 #: Those that a wrapper hands on as they are, without an argument.
 HANDED_ON = (
     "is_fast",
+    "can_be_searched_again",
     "can_be_fitted",
     "has_scatter",
     "has_ridges",

@@ -120,7 +120,8 @@ def test_every_law_of_the_library_states_a_source_and_can_vanish() -> None:
     for law in library():
         first = law.numbers[0]
         assert law.source
-        assert first.least is None or first.least == 0.0, law.identifier  # 0 is within the bounds
+        lowest = -first.most if first.least is None else first.least
+        assert lowest <= 0.0 < first.most, law.identifier  # 0 is within the bounds
     assert {law.role for law in library()} == set(Role)
 
 
@@ -165,3 +166,56 @@ connections: [pump.feed -> reactor.feed]
     assert "constant" in found
     assert "rate_linear" in found
     assert not found & {"steady_inflow", "free_outflow", "leak", "viscous_damping", "dry_friction"}
+
+
+def test_a_twist_whose_derivative_is_a_difference_couples_both_parts_without_units(tmp_path: Path) -> None:
+    model = OdeModel(
+        "train",
+        {"J": (0.02, ""), "K": (8.0, "")},
+        {"torque": ""},
+        {
+            "w_a": ("", "0", "(torque - K*phi) / J"),
+            "phi": ("", "0", "w_a - w_b"),
+            "w_b": ("", "0", "K*phi / (2.0*J)"),
+        },
+        {"motor": ("", "w_a")},
+    )
+    model.build(tmp_path)
+    text = """
+title: A drive train
+time: {stop: 2 s, macro_step: 10 ms, output_step: 10 ms}
+components:
+  drive: {kind: programme, outputs: {torque: {unit: "1", points: [[0 s, 1], [1 s, -1]]}}}
+  train: {kind: fmu, fmu: train.fmu, integrator: cvode}
+connections: [drive.torque -> train.torque]
+"""
+    found = _fits(text, tmp_path)
+    play = found["coupling_play_of_w_b", "der(w_a)"]
+    assert play.placed.formula == "stiffness * min(max(phi, -play), play)"
+    assert play.reaction is not None
+    assert play.reaction.to == "der(w_b)"
+    assert found["coupling_damping_of_w_b", "der(w_a)"].placed.formula == "-damping * (w_a - w_b)"
+
+
+def test_each_temperature_at_an_inlet_may_be_that_of_the_surroundings(tmp_path: Path) -> None:
+    model = OdeModel(
+        "boiler",
+        {"c": (0.01, "1/s")},
+        {"power": "K/s", "cold": "K", "room": "K"},
+        {"T": ("K", "300", "power - c * (T - cold)")},
+        {"temperature": ("K", "T")},
+    )
+    model.build(tmp_path)
+    text = """
+title: A boiler
+time: {stop: 600 s, macro_step: 2 s, output_step: 2 s}
+components:
+  drive: {kind: programme, outputs: {power: {unit: K/s, points: [[0 s, 0.1 K/s], [300 s, 0 K/s]]}}}
+  water: {kind: programme, outputs: {temperature: {unit: degC, constant: 12 degC}}}
+  air: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
+  boiler: {kind: fmu, fmu: boiler.fmu, integrator: cvode}
+connections: [drive.power -> boiler.power, water.temperature -> boiler.cold, air.temperature -> boiler.room]
+"""
+    found = _fits(text, tmp_path)
+    losses = {name: fit.placed.formula for (name, _), fit in found.items() if name.startswith("heat_loss")}
+    assert losses == {"heat_loss_of_cold": "-loss * (T - cold)", "heat_loss_of_room": "-loss * (T - room)"}

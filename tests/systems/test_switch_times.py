@@ -82,7 +82,7 @@ def test_heating_that_changes_between_rows_is_no_fault_of_the_model(hut: Scenari
     answer = json.loads((tmp_path / "answer" / "diagnosis.json").read_text())
     assert answer["verdict"] == "recalibrated", done.output
     assert answer["findings"] == []
-    assert "of recorded inputs came between two rows of their table" in " ".join(answer["notes"])
+    assert "of recorded inputs between two rows of their table" in " ".join(answer["notes"])
     assert not any("change of" in m["name"] for m in answer["recalibration"])  # said once, not one by one
 
 

@@ -4,7 +4,7 @@ from diagnosis.laws.law import Law, Number, Role
 
 LAW = Law(
     identifier="heat_loss",
-    name="heat loss to the surroundings",
+    name="change of the heat loss to the surroundings",
     role=Role.TEMPERATURE,
     formula="-loss * (T - T_a)",
     numbers=(Number("loss", "rate/T", "rate of cooling per difference", (0.1, -0.1), 1000.0, None),),

@@ -31,6 +31,8 @@ from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 
+#: Derivatives of residuals by parameters from which another search would take minutes.
+SEARCHED_AGAIN = 200_000
 #: Unit (electrical, ...) whose output a quantity is.
 UNIT_OF_QUANTITY = {
     "temperature": "thermal",
@@ -123,6 +125,11 @@ class CoilNetworkModel(ModelBase):
     def is_fast(self) -> bool:
         """True."""
         return True
+
+    @property
+    def can_be_searched_again(self) -> bool:
+        """Whether it is not large."""
+        return len(self.layout.time) * len(self.parameters) < SEARCHED_AGAIN
 
     def judged_by(self, point: Point) -> str:
         """The network itself, as long as no free run takes its place (`diagnosis.amend.evaluate`)."""

@@ -121,6 +121,11 @@ class ClosedLoopModel(ModelBase):
         return () if self.system_laws is None else self.system_laws.untried
 
     @property
+    def can_be_searched_again(self) -> bool:
+        """See `CosimModel`."""
+        return self.model.can_be_searched_again
+
+    @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
         return self.model.has_ridges
@@ -182,7 +187,8 @@ class ClosedLoopModel(ModelBase):
 def _unit_law(fit: Fit) -> UnitLaw:
     """What a law at a place says about itself."""
     place = ComponentTerm(fit.term, fit.term.place, ())
-    return UnitLaw(place, fit.law.name, fit.law.source, fit.law.confused_with)
+    name = f"{fit.law.name} ({fit.beside})" if fit.beside else fit.law.name
+    return UnitLaw(place, name, fit.law.source, fit.law.confused_with)
 
 
 def _compared(recording: Recording) -> ComparedRun:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from cosim.programme import Course, ProgrammeUnit
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array, UnitError
+from diagnosis.models.systems.feedthrough import with_measured_feedthrough
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast, flat_address
 from diagnosis.models.systems.layout import (
     MOST_DELAYS,
@@ -80,9 +81,8 @@ class FastSystem:
         self.assembly.system.terminate()
 
     def _build(self, laws: Sequence[Placed]) -> None:
+        self._measure_feedthrough()
         system = self.assembly.system
-        if system.loops or system.initial_loops:
-            raise NotFast("it has an algebraic loop, by the dependencies of outputs on inputs that its FMUs declare")
         self.fmus: dict[str, FastFmu] = {}
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):
@@ -94,6 +94,19 @@ class FastSystem:
         self._order()
         self._grid()
         self._take_laws(laws)
+
+    def _measure_feedthrough(self) -> None:
+        """Where declared dependencies make an algebraic loop, ask the FMUs whether there is one."""
+        system = self.assembly.system
+        if not system.loops:
+            return
+        try:
+            system.initialise(nanoseconds(self.scenario.time.start), self.assembly.start)
+        except (UnitError, ConnectionFault) as failed:
+            raise NotFast(f"it cannot begin: {failed}") from failed
+        self.assembly = replace(self.assembly, system=with_measured_feedthrough(system))
+        if self.assembly.system.loops:
+            raise NotFast("it has an algebraic loop: outputs of its FMUs follow each other at once")
 
     # laws
 

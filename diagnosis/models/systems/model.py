@@ -19,8 +19,9 @@ from diagnosis.models.sensor_chain import read
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.numbers import usual_numbers
+from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import Fit, fits, places_of
-from diagnosis.models.systems.sensors import sensor_laws_of
+from diagnosis.models.systems.sensors import reach_of, sensor_laws_of
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, place_of
@@ -36,6 +37,8 @@ EXACT, MOST_SUBSTEPS = 0.02, 64
 CHECKED, AGREED = 8, 1e-3
 #: Macro-steps over which a run of the co-simulation is compared.
 COMPARED = 2000
+#: Steps of the integration over all recordings from which another search would take minutes.
+SEARCHED_AGAIN = 30_000
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
 
@@ -65,11 +68,20 @@ class SystemModel(CompiledModel):
         batches: Batches | None = None,
     ) -> None:
         super().__init__(scenario, recordings, free, (), batches)
-        self._found = {fit.term: (number, fit) for number, fit in enumerate(found)}
-        placed = [fit.placed for fit in found]
+        #: Law to what it adds, by the numbers that the compiled code has for each, and its place.
+        self._found: dict[Term, tuple[range, Fit]] = {}
+        placed: list[Placed] = []
+        for fit in found:
+            self._found[fit.term] = range(len(placed), len(placed) + len(fit.every)), fit
+            placed += fit.every
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
+
+    @property
+    def can_be_searched_again(self) -> bool:
+        """Whether its simulations have not many steps."""
+        return self._substeps * sum(fast.steps for fast in self._fast) < SEARCHED_AGAIN
 
     def terms(self) -> list[Term]:
         """Every law that may be missing."""
@@ -85,8 +97,9 @@ class SystemModel(CompiledModel):
         added: dict[str, list[AddedTermEntry]] = {}
         for term, values in point.terms.items():
             if term in self._found:
-                placed = self._found[term][1].placed
-                added.setdefault(placed.component, []).append(placed.entry(values))
+                fit = self._found[term][1]
+                for placed in fit.every:
+                    added.setdefault(placed.component, []).append(placed.entry(fit.values_of(placed, values)))
         return replace(found, added={name: tuple(entries) for name, entries in added.items()})
 
     def _numbers_at(self, point: Point, number: int | None) -> Changes:
@@ -147,7 +160,11 @@ class SystemModel(CompiledModel):
 
     def _prediction(self, point: Point, number: int) -> list[Array] | None:
         changes = self._numbers_at(point, number)
-        laws = {self._found[t][0]: v for t, v in point.terms.items() if t in self._found}
+        laws: dict[int, Sequence[float]] = {}
+        for term, amounts in point.terms.items():
+            if term in self._found:
+                own, fit = self._found[term]
+                laws |= {n: fit.values_of(placed, amounts) for n, placed in zip(own, fit.every)}
         fast = self._fast[number]
         rows = fast.simulate(changes, laws)
         if rows is None:
@@ -176,6 +193,7 @@ class SystemModel(CompiledModel):
             count, before = 2 * count, now
             if all(m < EXACT for m in moved):
                 break
+        self._substeps = count
 
 
 #: Column of the rows, factor and offset to SI, whether it is a flow, SI unit.
@@ -278,8 +296,9 @@ def laws_at(
             system.close()
     laws = [law for law in library() if law.identifier not in without]
     step, macro = sample_step(recordings), nanoseconds(scenario.time.macro_step) * 1e-9
-    channels = dict.fromkeys(name for r in recordings for name in r.channels)
-    sensors = [law for law in sensor_laws_of(channels, step, macro) if law.place.term.identifier not in without]
+    sensors = [
+        law for law in sensor_laws_of(reach_of(recordings), step, macro) if law.place.term.identifier not in without
+    ]
     untried = tuple(text for own in places for text in own.untried)
     return SystemLaws(tuple(fits(places, laws, step, macro)), tuple(sensors), tuple(usual), untried)
 

@@ -3,46 +3,29 @@
 from __future__ import annotations
 
 import ast
+import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue, cycles_and_angles, parse_unit, registry
-from diagnosis.laws.law import Law, Number, Role
+from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from diagnosis.laws.law import Law, Number
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem, Rows
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
+from diagnosis.models.systems.quantities import Places, Quantity
+from diagnosis.models.systems.targets import is_of, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
 PROBES = 5
 #: Seed of these points.
 SEED = 20
-_LENGTHS = ("m", "rad", "m^3", "Pa")
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A variable of an FMU that laws may use.
-
-    Args:
-        name: Its name.
-        unit: Its unit; of a temperature K.
-        size: How far it moves in the recordings as the model has them, in that unit.
-        middle: Value about which it moves.
-        rate: How fast it changes, per second.
-    """
-
-    name: str
-    unit: str
-    size: float
-    middle: float
-    rate: float
 
 
 @dataclass(frozen=True)
@@ -53,32 +36,25 @@ class Fit:
         law: The law.
         placed: In the names of the FMU.
         term: For the search.
+        reaction: What is added with it to the other part of which it loses or gets something; None: nothing.
+        beside: Name of that part, or of the surroundings where there are several; empty where there is one choice.
     """
 
     law: Law
     placed: Placed
     term: Term
+    reaction: Placed | None = None
+    beside: str = ""
 
+    @property
+    def every(self) -> tuple[Placed, ...]:
+        """What is added, to one derivative, input or output each."""
+        return (self.placed,) if self.reaction is None else (self.placed, self.reaction)
 
-@dataclass
-class Places:
-    """Quantities of the FMUs of a system.
-
-    Args:
-        component: Name of the FMU.
-        states: Continuous states by name, in order.
-        inputs: Inputs that are connected.
-        outputs: Outputs of a Co-Simulation FMU.
-        velocity_of: Position to its velocity.
-        untried: Where no law can be tried, and why.
-    """
-
-    component: str
-    states: dict[str, Quantity] = field(default_factory=dict)
-    inputs: dict[str, Quantity] = field(default_factory=dict)
-    outputs: dict[str, Quantity] = field(default_factory=dict)
-    velocity_of: dict[str, str] = field(default_factory=dict)
-    untried: list[str] = field(default_factory=list)
+    def values_of(self, placed: Placed, values: Sequence[float]) -> tuple[float, ...]:
+        """Values of the numbers that one of them uses, from those of the law."""
+        given = dict(zip((p.name for p in self.term.parameters), values))
+        return tuple(given[name] for name, _ in placed.numbers)
 
 
 def places_of(systems: Sequence[FastSystem]) -> list[Places]:
@@ -110,7 +86,8 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         if not fmu.is_model_exchange:
             outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
-        own.velocity_of = _velocities(systems[0], fmu, own)
+        own.velocity_of, own.twist_of = _kinematics(systems[0], fmu, own)
+        own.apart = _apart(fmu, own, courses, step)
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -171,6 +148,22 @@ def _quantities(
     return found
 
 
+def _apart(
+    fmu: FastFmu, own: Places, courses: Sequence[Mapping[tuple[str, str], Array]], step: float
+) -> dict[tuple[str, str], Quantity]:
+    """What two states of one unit are apart by, for every two."""
+    found = {}
+    for one, other in itertools.combinations(own.states, 2):
+        if fmu.units[one] != fmu.units[other]:
+            continue
+        keys = [(own.component, f"state {n}") for n in (one, other)]
+        gaps = [{keys[0]: c[keys[0]] - c[keys[1]]} for c in courses]
+        gap = _quantities(fmu, (one,), (keys[0],), gaps, step)[one]
+        found[one, other] = replace(gap, name=f"({one} - {other})")
+        found[other, one] = replace(gap, name=f"({other} - {one})", middle=-gap.middle)
+    return found
+
+
 def _is_nameable(name: str) -> bool:
     """Whether a formula can hold it."""
     try:
@@ -179,23 +172,35 @@ def _is_nameable(name: str) -> bool:
         return False
 
 
-def _velocities(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, str]:
-    """Positions with the states that are their derivatives, asked of the equations at random points."""
+def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str, str], dict[str, tuple[str, str]]]:
+    """Positions with the states that are their derivatives, and states whose derivative is a difference of two others.
+
+    The equations are asked at random points.
+    """
     if len(fmu.states) < 2 or set(fmu.states) != set(own.states):
-        return {}
+        return {}, {}
     rng = np.random.default_rng(SEED)
     names = list(fmu.states)
     middle = np.array([own.states[n].middle for n in names])
     size = np.array([own.states[n].size for n in names])
-    found: dict[str, str] = {}
     points = middle + size * rng.standard_normal((PROBES, len(names)))
     rates = np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+    velocities: dict[str, str] = {}
+    twists: dict[str, tuple[str, str]] = {}
     for i, position in enumerate(names):
-        for j, velocity in enumerate(names):
-            scale = np.max(np.abs(points[:, j])) or 1.0
-            if i != j and np.allclose(rates[:, i], points[:, j], rtol=1e-9, atol=1e-12 * scale):
-                found[position] = velocity
-    return found
+        others = [j for j in range(len(names)) if j != i]
+        for j in others:
+            if _are_equal(rates[:, i], points[:, j], points[:, j]):
+                velocities[position] = names[j]
+        for j, k in itertools.permutations(others, 2):
+            if _are_equal(rates[:, i], points[:, j] - points[:, k], points[:, [j, k]]):
+                twists[position] = names[j], names[k]
+    return velocities, twists
+
+
+def _are_equal(rates: Array, values: Array, parts: Array) -> bool:
+    """Whether rates are some values, to the rounding of what these are made of."""
+    return bool(np.allclose(rates, values, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(parts)) or 1.0)))
 
 
 # fitting laws
@@ -215,7 +220,7 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
     seen: set[tuple[str, str, str]] = set()
     for own in places:
         for law in laws:
-            for to, target, symbols in _targets(own, law.role):
+            for to, target, symbols in targets(own, law.role):
                 fit = _fit(own, law, to, target, symbols, steps)
                 if fit is None:
                     continue
@@ -225,76 +230,13 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
                     yield fit
 
 
-_Target = tuple[str, Quantity, dict[str, Quantity]]
-
-
-def _targets(own: Places, role: Role) -> Iterator[_Target]:
-    """What a law of a role can be added to: `added_terms` target, its quantity, and symbol to quantity."""
-    free = {n: q for n, q in own.states.items() if n not in own.velocity_of}
-    if role is Role.VELOCITY:
-        yield from _motions(own, free)
-    elif role is Role.INPUT:
-        yield from ((name, q, {"u": q}) for name, q in own.inputs.items())
-    elif role is Role.PORT:
-        for name, q in own.inputs.items():
-            yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
-    elif role is Role.OUTPUT:
-        yield from ((name, q, {"y": q}) for name, q in own.outputs.items())
-    elif role is Role.RESPONSE:
-        for name, q in own.outputs.items():
-            ports = (*own.inputs.values(), *own.outputs.values())
-            yield from ((name, q, {"y": q, "o": other}) for other in ports)
-    elif role is Role.PAIR:
-        for name, q in free.items():
-            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
-            yield from ((f"der({name})", q, {"s": q, "o": other}) for other in others)
-    else:
-        yield from _single(own, role, free)
-
-
-def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[_Target]:
-    """Velocities, with the position where there is one."""
-    for position, velocity in own.velocity_of.items():
-        yield f"der({velocity})", own.states[velocity], {"x": own.states[position], "v": own.states[velocity]}
-    for name, q in free.items():
-        if name not in own.velocity_of.values() and _is(q, "m/s", "rad/s"):
-            yield f"der({name})", q, {"v": q}
-
-
-def _single(
-    own: Places, role: Role, free: Mapping[str, Quantity]
-) -> Iterator[tuple[str, Quantity, dict[str, Quantity]]]:
-    alone = {n: q for n, q in free.items() if n not in own.velocity_of.values()}
-    if role is Role.STATE:
-        for name, q in free.items():
-            yield f"der({name})", q, {"s": q}
-    elif role is Role.TEMPERATURE:
-        rooms = [q for q in own.inputs.values() if _is(q, "K")]
-        for name, q in alone.items():
-            if _is(q, "K"):
-                for room in rooms[:1]:
-                    yield f"der({name})", q, {"T": q, "T_a": room}
-    else:
-        units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
-        symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
-        for name, q in alone.items():
-            if _is(q, *units):
-                yield f"der({name})", q, {symbol: q}
-
-
-def _is(quantity: Quantity, *units: str) -> bool:
-    """Whether a quantity is of the kind of one of these units; a pure number is no angle, nor 1/s its rate."""
-    own = parse_unit(quantity.unit).dimensionality
-    is_angle = any(cycles_and_angles(quantity.unit))
-    return any(own == parse_unit(u).dimensionality and (is_angle or not any(cycles_and_angles(u))) for u in units)
-
-
 def _fit(
     own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: tuple[float, float]
 ) -> Fit | None:
     numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
     numbers |= {d.name for d in law.delays}
-    needed = {n for f in (law.formula, *(s.rate for s in law.states)) for n in names_in(f)} - numbers
+    formulas = (law.formula, *(s.rate for s in law.states), *((law.reaction,) if law.reaction else ()))
+    needed = {n for f in formulas for n in names_in(f)} - numbers
     if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
     taken = {*own.states, *own.inputs, *own.outputs, "time"}
@@ -320,7 +262,11 @@ def _fit(
             ),
             tuple(PlacedDelay(fresh[d.name], symbols[d.of].name, fresh[d.by]) for d in law.delays),
         )
+        placed = replace(placed, numbers=_used(placed)) if law.reaction else placed
         _check(own, placed, to)
+        reaction = _reaction(law, placed, names, symbols, scale, fresh)
+        if reaction is not None:
+            _check(own, reaction, reaction.to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
     domain = domain_of(target.unit, own)
@@ -328,9 +274,39 @@ def _fit(
     label = f"{own.component}.{target.name}"
     what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
-    others = [q.name for symbol, q in symbols.items() if symbol == "o"]
+    what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
+    beside = ""
+    if law.reacts_on:
+        beside = symbols[law.reacts_on].name
+    elif "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
+        beside = symbols["T_a"].name  # which of them are the surroundings
+    others = [beside] if beside else [q.name for symbol, q in symbols.items() if symbol == "o"]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
-    return Fit(law, placed, Term(identifier, label, domain, parameters, law.is_named, what))
+    term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
+    return Fit(law, placed, term, reaction, beside)
+
+
+def _reaction(
+    law: Law,
+    placed: Placed,
+    names: Mapping[str, str],
+    symbols: Mapping[str, Quantity],
+    scale: _Scale,
+    fresh: Mapping[str, str],
+) -> Placed | None:
+    """What a law adds to the other part; None where it acts on one alone."""
+    if not law.reaction:
+        return None
+    numbers = tuple((fresh[n.name], scale.unit(n.of)) for n in law.numbers)
+    to = f"der({symbols[law.reacts_on].name})"
+    found = replace(placed, to=to, formula=renamed(law.reaction, names), numbers=numbers)
+    return replace(found, numbers=_used(found))
+
+
+def _used(placed: Placed) -> tuple[tuple[str, str], ...]:
+    """Numbers that the formula of a law without states of its own uses."""
+    used = names_in(placed.formula)
+    return tuple((name, unit) for name, unit in placed.numbers if name in used)
 
 
 class _Scale:

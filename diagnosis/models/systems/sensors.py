@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_model import ComponentTerm
 from diagnosis.search.pendulum_terms import SENSOR_TERMS
 from diagnosis.search.problem import Term, TermParameter
@@ -12,23 +15,158 @@ from diagnosis.search.unit_law import UnitLaw
 
 #: Times between two readings: largest lag, largest offset of a clock, and where a search begins.
 LONGEST_LAG, LARGEST_OFFSET, LAGS, OFFSETS = 300.0, 50.0, (1.0, 8.0), (1.0, -1.0)
+#: A zero that is off by the whole reading is that of a gauge that was taken for absolute; where a search begins, in
+#: typical departures of the channel.
+BIASES, WIDEST_BIAS = (0.1, -0.1), 5.0
+#: Drifts over the longest recording with which a search begins, in typical departures, and the largest.
+DRIFTS, MOST_DRIFT = (0.3, -0.3), 10.0
+#: Where the end of a sensor's range is looked for: below the largest reading, in shares of all that it reads.
+ENDS = (0.0, 0.1, 0.25)
+_SOURCE = "JCGM 200:2012, International Vocabulary of Metrology, "
+_BIAS_CONFUSED = {
+    "a start value": "the end of a run decides",
+    "input_offset": "a recording at another level of that input, or without it",
+}
+_DRIFT_CONFUSED = {"ambient drift": "a second sensor beside it decides"}
+_RANGE_CONFUSED = {"upper_stop, lower_stop, input_saturation": "another sensor of the same quantity decides"}
 
 
-def sensor_laws_of(channels: Collection[str], sample_step: float, macro_step: float) -> list[UnitLaw]:
-    """Gain, lag and clock of every channel.
+@dataclass(frozen=True)
+class Reach:
+    """What a channel reads in all recordings together.
 
     Args:
-        channels: Their names.
+        unit: SI unit.
+        size: Root mean square of its departure from its mean.
+        least: Smallest reading.
+        most: Largest reading.
+        noise: Deviation of its noise.
+        duration: Of its longest recording [s].
+    """
+
+    unit: str
+    size: float
+    least: float
+    most: float
+    noise: float
+    duration: float
+
+
+def reach_of(recordings: Sequence[Recording]) -> dict[str, Reach]:
+    """Channel to what it reads; channels without a reading are left out."""
+    found = {}
+    for name in dict.fromkeys(n for r in recordings for n in r.channels):
+        channels = [r.channels[name] for r in recordings if name in r.channels and len(r.channels[name].values)]
+        if not channels:
+            continue
+        values = np.concatenate([c.values for c in channels])
+        noise = max(c.deviation for c in channels)
+        duration = max(float(c.times[-1] - c.times[0]) for c in channels)
+        size = max(float(np.std(values)), noise)
+        found[name] = Reach(channels[0].unit, size, float(values.min()), float(values.max()), noise, duration)
+    return found
+
+
+def sensor_laws_of(channels: Mapping[str, Reach], sample_step: float, macro_step: float) -> list[UnitLaw]:
+    """Gain, lag, clock, bias, drift and range of every channel.
+
+    Args:
+        channels: Their names, with what they read.
         sample_step: Typical time between two readings [s].
         macro_step: Of the co-simulation [s]; what is shorter is an error of the coupling.
     """
     found = []
-    for channel in channels:
+    for channel, reach in channels.items():
         for identifier, (name, law, number) in SENSOR_TERMS.items():
             own = _sized(identifier, number, sample_step, macro_step)
             term = Term(identifier, channel, "measurement", (own,), law=law.replace("pi", "middle"))
             found.append(UnitLaw(ComponentTerm(term, channel, ()), name))
+        found += _of_readings(channel, reach)
     return found
+
+
+def _of_readings(channel: str, reach: Reach) -> list[UnitLaw]:
+    """Laws whose numbers are of the unit that the channel reads."""
+
+    def law(identifier: str, name: str, formula: str, numbers: tuple[TermParameter, ...], section: str) -> UnitLaw:
+        term = Term(identifier, channel, "measurement", numbers, law=formula)
+        return UnitLaw(ComponentTerm(term, channel, ()), name, _SOURCE + section, _CONFUSED[identifier])
+
+    found = [
+        law("sensor_bias", "bias of a sensor", "value = truth + bias", (_bias(reach),), "4.20 (instrument bias)"),
+        law(
+            "sensor_clipping",
+            "end of a sensor's range",
+            "value = truth + clipped * (min(truth + noise, ceiling) - truth)",
+            _range(reach, "ceiling", True),
+            "4.7 (measuring interval)",
+        ),
+        law(
+            "sensor_clipping_below",
+            "lower end of a sensor's range",
+            "value = truth + clipped * (max(truth + noise, floor) - truth)",
+            _range(reach, "floor", False),
+            "4.7 (measuring interval)",
+        ),
+    ]
+    if reach.duration > 0.0:
+        what = "value = truth + drift * t, t from the first reading of a recording"
+        found.append(law("sensor_drift", "drift of a sensor", what, (_drift(reach),), "4.21 (instrumental drift)"))
+    return found
+
+
+_CONFUSED: Mapping[str, Mapping[str, str]] = {
+    "sensor_bias": _BIAS_CONFUSED,
+    "sensor_drift": _DRIFT_CONFUSED,
+    "sensor_clipping": _RANGE_CONFUSED,
+    "sensor_clipping_below": _RANGE_CONFUSED,
+}
+
+
+def _bias(reach: Reach) -> TermParameter:
+    most = max(abs(reach.least), abs(reach.most)) + WIDEST_BIAS * reach.size
+    return TermParameter(
+        "bias",
+        reach.unit,
+        -most,
+        most,
+        tuple(share * reach.size for share in BIASES),
+        negligible=reach.noise,
+        meaning="change of every reading",
+    )
+
+
+def _drift(reach: Reach) -> TermParameter:
+    rate = reach.size / reach.duration
+    return TermParameter(
+        "drift",
+        f"{reach.unit}/s",
+        -MOST_DRIFT * rate,
+        MOST_DRIFT * rate,
+        tuple(share * rate for share in DRIFTS),
+        negligible=reach.noise / reach.duration,
+        meaning="change of the reading in a second",
+    )
+
+
+def _range(reach: Reach, name: str, is_upper: bool) -> tuple[TermParameter, ...]:
+    """A switch, and the reading at which the range ends, which lies within what was read."""
+    whole = reach.most - reach.least
+    end, inward = (reach.most, -1.0) if is_upper else (reach.least, 1.0)
+    starts = tuple(end + inward * (2.0 * reach.noise + share * whole) for share in ENDS)
+    switch = TermParameter(
+        "clipped", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether the readings are cut off"
+    )
+    edge = TermParameter(
+        name,
+        reach.unit,
+        reach.least - 3.0 * reach.noise,
+        reach.most + 3.0 * reach.noise,
+        starts,
+        meaning="reading at which the range ends",
+        is_reading=True,
+    )
+    return switch, edge
 
 
 def _sized(identifier: str, number: TermParameter, step: float, macro_step: float) -> TermParameter:

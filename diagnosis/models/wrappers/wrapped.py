@@ -115,6 +115,11 @@ class WrappedModel:
         return self.inner.is_fast
 
     @property
+    def can_be_searched_again(self) -> bool:
+        """See `DiagnosisModel`."""
+        return self.inner.can_be_searched_again
+
+    @property
     def can_be_fitted(self) -> bool:
         """See `DiagnosisModel`."""
         return self.inner.can_be_fitted

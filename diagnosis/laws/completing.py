@@ -1,0 +1,76 @@
+"""Laws that complete a description: free-knot splines of every quantity, at once or behind a delay.
+
+The laws without a name of `diagnosis.laws.library` are few, so that one of them can be told from a law with a name.
+Where everything that was tried leaves more than noise, a sum of terms of one systematic basis describes what is left:
+at every rate and input each quantity through a piecewise linear function with two free knots, constant outside them, so
+that it does not run away beyond what was recorded; and the same behind a first-order delay. Products of two quantities
+are laws of the library already. Coil networks have the same basis (`diagnosis.candidates.unnamed_completing`).
+
+Source: D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343 (splines with free knots); J. H. Friedman, Annals of
+Statistics 19 (1991) 1-67 (sums of such functions); K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11
+(1966) 546-550 (a function of one variable, then a linear memory).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diagnosis.laws.law import Law, Number, OwnState, Role
+
+_SOURCE = (
+    "D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343; J. H. Friedman, Annals of Statistics 19 (1991) 1-67; "
+    "K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11 (1966) 546-550"
+)
+#: Where the first knot begins, and how far the second one is from it, in sizes of the quantity: three pieces that
+#: together span what it reaches.
+_ONSETS, _WIDTH = (-1.2, -0.2, 0.6), 0.8
+#: Knots stay within so many sizes of the value about which the quantity moves.
+_FARTHEST = 4.0
+#: Of a delay by what its law is added to: product that is a time, meaning, starts, largest and smallest value. A state
+#: at `rate` needs `s/rate` for its own size; at an input `u/rate` is the time between two readings.
+_TIMES = {
+    "rate": ("s/rate", "time in which it follows", (0.3, 3.0), 1000.0, 0.01),
+    "u": ("u/rate", "time in which it follows", (10.0, 100.0), 3000.0, 1.0),
+}
+#: Role to the symbol that the function is of, the unit of what it is added to, and words.
+_OF = {
+    Role.STATE: ("s", "rate", "its own state"),
+    Role.PAIR: ("o", "rate", "another quantity"),
+    Role.PORT: ("o", "u", "an output"),
+}
+
+
+def completing() -> Iterator[Law]:
+    """Every law of the basis.
+
+    >>> [law.identifier for law in completing()][:2]
+    ['rate_spline', 'rate_delayed_spline']
+    """
+    for role, prefix in ((Role.STATE, "rate"), (Role.PAIR, "coupling"), (Role.PORT, "port")):
+        symbol, target, words = _OF[role]
+        ramp = f"min(max(({symbol} - onset) / width, 0), 1)"
+        strength = Number("a", target, "strength", (0.1, -0.1), 1000.0, None)
+        onset = Number("onset", symbol, "value at which it sets in", _ONSETS, _FARTHEST, -_FARTHEST, symbol)
+        width = Number("width", symbol, "over which it rises to its full size", (_WIDTH,), 2 * _FARTHEST, 0.02)
+        yield Law(
+            f"{prefix}_spline",
+            f"piecewise linear function of {words}",
+            role,
+            f"a * {ramp}",
+            (strength, onset, width),
+            _SOURCE,
+            is_named=False,
+            is_completing=True,
+        )
+        delay = Number("settling_time", *_TIMES[target])
+        yield Law(
+            f"{prefix}_delayed_spline",
+            f"piecewise linear function of {words}, delayed",
+            role,
+            "a * behind",
+            (strength, onset, width, delay),
+            _SOURCE,
+            states=(OwnState("behind", f"({ramp} - behind) / settling_time", ramp, f"{symbol}/{symbol}"),),
+            is_named=False,
+            is_completing=True,
+        )

@@ -1,0 +1,18 @@
+"""A damper that resists one direction more than the other."""
+
+from diagnosis.laws.law import Law, Number, Role
+
+LAW = Law(
+    identifier="uneven_damping",
+    name="damper that resists one direction more than the other",
+    role=Role.VELOCITY,
+    formula="-unevenness * abs(v)",
+    numbers=(
+        Number("unevenness", "rate/v", "half of the difference of both damping constants", (0.05, -0.05), 1e3, None),
+    ),
+    source="shock absorbers: Dixon, The Shock Absorber Handbook, Wiley 2007, chapter 5",
+    confused_with={
+        "quadratic_spring": "fast and slow motion over the same way decide",
+        "constant_force": "rest decides: there a damper does nothing",
+    },
+)

@@ -1,0 +1,49 @@
+"""Quantities of the FMUs of a system: what laws may use, with the sizes that they have in the recordings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A variable of an FMU that laws may use.
+
+    Args:
+        name: Its name.
+        unit: Its unit; of a temperature K.
+        size: How far it moves in the recordings as the model has them, in that unit.
+        middle: Value about which it moves.
+        rate: How fast it changes, per second.
+    """
+
+    name: str
+    unit: str
+    size: float
+    middle: float
+    rate: float
+
+
+@dataclass
+class Places:
+    """Quantities of the FMUs of a system.
+
+    Args:
+        component: Name of the FMU.
+        states: Continuous states by name, in order.
+        inputs: Inputs that are connected.
+        outputs: Outputs of a Co-Simulation FMU.
+        velocity_of: Position to its velocity.
+        apart: Two states of one unit to what they are apart by, whose name is that difference as a formula.
+        twist_of: State whose derivative is the difference of two others, to these two.
+        untried: Where no law can be tried, and why.
+    """
+
+    component: str
+    states: dict[str, Quantity] = field(default_factory=dict)
+    inputs: dict[str, Quantity] = field(default_factory=dict)
+    outputs: dict[str, Quantity] = field(default_factory=dict)
+    velocity_of: dict[str, str] = field(default_factory=dict)
+    apart: dict[tuple[str, str], Quantity] = field(default_factory=dict)
+    twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
+    untried: list[str] = field(default_factory=list)

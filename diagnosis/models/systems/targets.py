@@ -1,0 +1,110 @@
+"""What a law of a role can be added to in an FMU, and which of its quantities stand for the symbols of the law."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeVar
+
+from cosim.unit.quantity import cycles_and_angles, parse_unit
+from diagnosis.laws.law import Role
+from diagnosis.models.systems.quantities import Places, Quantity
+
+_T = TypeVar("_T")
+#: Units of what a vessel holds.
+_LENGTHS = ("m", "rad", "m^3", "Pa")
+#: `added_terms` target, its quantity, and symbol to quantity.
+Target = tuple[str, Quantity, dict[str, Quantity]]
+
+
+def targets(own: Places, role: Role) -> Iterator[Target]:
+    """What a law of a role can be added to: `added_terms` target, its quantity, and symbol to quantity.
+
+    A position and a twist are none: their derivatives are velocities, whatever acts.
+    """
+    free = {n: q for n, q in own.states.items() if n not in own.velocity_of and n not in own.twist_of}
+    if role is Role.VELOCITY:
+        yield from _motions(own, free)
+    elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
+        yield from _coupled(own, role, free)
+    elif role in (Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
+        yield from _at_ports(own, role)
+    elif role is Role.PAIR:
+        for name, q in free.items():
+            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
+            yield from ((f"der({name})", q, {"s": q, "o": other}) for other in others)
+    else:
+        yield from _single(own, role, free)
+
+
+def _at_ports(own: Places, role: Role) -> Iterator[Target]:
+    """Inputs, and outputs of an FMU that hides its states."""
+    if role is Role.INPUT:
+        yield from ((name, q, {"u": q}) for name, q in own.inputs.items())
+    elif role is Role.PORT:
+        for name, q in own.inputs.items():
+            yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
+    elif role is Role.OUTPUT:
+        yield from ((name, q, {"y": q}) for name, q in own.outputs.items())
+    elif role is Role.RESPONSE:
+        for name, q in own.outputs.items():
+            ports = (*own.inputs.values(), *own.outputs.values())
+            yield from ((name, q, {"y": q, "o": other}) for other in ports)
+
+
+def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[Target]:
+    """Velocities, with the position where there is one."""
+    for position, velocity in own.velocity_of.items():
+        yield f"der({velocity})", own.states[velocity], {"x": own.states[position], "v": own.states[velocity]}
+    for name, q in free.items():
+        if name not in own.velocity_of.values() and is_of(q, "m/s", "rad/s"):
+            yield f"der({name})", q, {"v": q}
+
+
+def _coupled(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
+    """Two states of one kind, each pair once."""
+    q = own.states
+    if role is Role.COUPLED_VELOCITY:
+        between = {(v, v_2): own.apart.get((x, x_2)) for (x, v), (x_2, v_2) in _pairs(own.velocity_of.items())}
+        between |= {pair: q[twist] for twist, pair in own.twist_of.items()}
+        for (v, v_2), distance in between.items():
+            if distance is not None and (v, v_2) in own.apart:
+                yield f"der({v})", q[v], {"v": q[v], "v_2": q[v_2], "d": distance, "w": own.apart[v, v_2]}
+        return
+    units, symbol = (("K",), "T") if role is Role.COUPLED_TEMPERATURE else (_LENGTHS, "h")
+    alone = [n for n in free if n not in own.velocity_of.values() and is_of(q[n], *units)]
+    for one, other in _pairs(alone):
+        if (one, other) in own.apart:
+            yield f"der({one})", q[one], {symbol: q[one], f"{symbol}_2": q[other], "d": own.apart[one, other]}
+
+
+def _pairs(some: Iterable[_T]) -> Iterator[tuple[_T, _T]]:
+    return itertools.combinations(some, 2)
+
+
+def _single(
+    own: Places, role: Role, free: Mapping[str, Quantity]
+) -> Iterator[tuple[str, Quantity, dict[str, Quantity]]]:
+    alone = {n: q for n, q in free.items() if n not in own.velocity_of.values()}
+    if role is Role.STATE:
+        for name, q in free.items():
+            yield f"der({name})", q, {"s": q}
+    elif role is Role.TEMPERATURE:
+        rooms = [q for q in own.inputs.values() if is_of(q, "K")]
+        for name, q in alone.items():
+            if is_of(q, "K"):
+                for room in rooms:
+                    yield f"der({name})", q, {"T": q, "T_a": room}
+    else:
+        units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
+        symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
+        for name, q in alone.items():
+            if is_of(q, *units):
+                yield f"der({name})", q, {symbol: q}
+
+
+def is_of(quantity: Quantity, *units: str) -> bool:
+    """Whether a quantity is of the kind of one of these units; a pure number is no angle, nor 1/s its rate."""
+    own = parse_unit(quantity.unit).dimensionality
+    is_angle = any(cycles_and_angles(quantity.unit))
+    return any(own == parse_unit(u).dimensionality and (is_angle or not any(cycles_and_angles(u))) for u in units)
