@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+
+import yaml
 
 from chainmail.design.closed_form import Row
 from cosim.actuator.resolve import default_parameter_set
@@ -17,15 +19,20 @@ from cosim.components import (
     ProgrammeOutput,
     nanoseconds,
 )
-from cosim.mechanics_assembly import FABRIC_UNITS
+from cosim.mechanics_assembly import build_fabric
 from cosim.parameters import resolve
-from cosim.scenario import Scenario
+from cosim.scenario import Scenario, scenario_of_data
+from cosim.sweep.keys import changed
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import seconds
 from cosim.unit.quantity import PhysicalValue
+from mechanics.fabric import FabricDesign
 
 #: Time in which a fabric that was woven flat falls into its drape before anything is switched [s].
 DRAPE = 2.5
+#: Time between the end of heating and the instant that counts [s]. Links close while their coils become stiff; from
+#: then on coils cool, and a loaded fabric sinks again: by 5 mm in the first second in the only run that was looked at.
+LEAD = 0.2
 
 
 @dataclass(frozen=True)
@@ -47,6 +54,36 @@ class Rig:
     fabric: str
     rows: tuple[Row, ...]
     held: int
+    _varied: dict[tuple[tuple[str, str], ...], Rig] = field(default_factory=dict, compare=False, repr=False)
+
+    def with_keys(self, keys: tuple[tuple[str, str], ...]) -> Rig:
+        """The rig with other numbers in its scenario; itself where nothing changes.
+
+        Args:
+            keys: Path and value, as in a sweep.
+
+        Raises:
+            InputError: A path leads nowhere, or a value is wrong.
+        """
+        if not keys:
+            return self
+        if keys not in self._varied:
+            source = self.scenario.path or Path("scenario")
+            data = yaml.safe_load(self.scenario.to_yaml(is_complete=True))
+            try:
+                data = changed(data, dict(keys))
+            except ValueError as error:
+                raise InputError(source, "vary", str(error), "docs/sweeps.md explains paths of keys") from error
+            self._varied[keys] = rig_of(scenario_of_data(data, source), source)
+        return self._varied[keys]
+
+    @property
+    def weave(self) -> FabricDesign:
+        """Geometry of the fabric; raises ValueError where it cannot be woven."""
+        fabric = self.scenario.components[self.fabric]
+        assert isinstance(fabric, FabricComponent)
+        source = self.scenario.path or Path("scenario")
+        return build_fabric(self.fabric, fabric, resolve(fabric.parameter_set, fabric.parameters, source)).design
 
     @property
     def free(self) -> tuple[int, ...]:
@@ -72,6 +109,7 @@ class Pulse:
         begin: [s], on the grid of macro-steps.
         end: [s], the same.
         held: [s], the same; later than the deadline where the coils are still warm then.
+        until: End of the hold [s]; infinite where it lasts to the end of the run.
     """
 
     row: int
@@ -80,6 +118,7 @@ class Pulse:
     begin: float
     end: float
     held: float
+    until: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -91,14 +130,14 @@ class Candidate:
         hold: Temperature of the hold [K].
         begin: First switch [s]; without a pulse the time at which it would be.
         deadline: [s].
-        geometry: Parameters of the fabric that are changed, name and value in SI.
+        keys: Keys of the scenario that are changed, path and value as text.
     """
 
     pulses: tuple[Pulse, ...]
     hold: float
     begin: float
     deadline: float
-    geometry: tuple[tuple[str, float], ...] = ()
+    keys: tuple[tuple[str, str], ...] = ()
 
     @property
     def rows(self) -> tuple[int, ...]:
@@ -112,36 +151,41 @@ class Candidate:
 
     def power(self, rig: Rig) -> float:
         """Largest power of heating rows at one time [W]; holding ones are added where they overlap."""
+        rig = rig.with_keys(self.keys)
         return max((self._power_at(p.begin, rig) for p in self.pulses), default=0.0)
 
     def _power_at(self, time: float, rig: Rig) -> float:
         heating = sum(rig.rows[p.row - 1].power(p.voltage) for p in self.pulses if p.begin <= time < p.end)
-        holding = sum(holding_power(rig, p.row, self.hold) for p in self.pulses if p.held <= time)
+        holding = sum(holding_power(rig, p.row, self.hold) for p in self.pulses if p.held <= time < p.until)
         return heating + holding
 
     def energy(self, rig: Rig) -> float:
         """Electrical energy until the deadline [J], by the closed form."""
+        rig = rig.with_keys(self.keys)
         return sum(
             rig.rows[p.row - 1].power(p.voltage) * (p.end - p.begin)
-            + holding_power(rig, p.row, self.hold) * max(self.deadline - p.held, 0.0)
+            + holding_power(rig, p.row, self.hold) * max(min(p.until, self.deadline) - p.held, 0.0)
             for p in self.pulses
         )
 
     def text(self) -> str:
         """For people."""
-        return "; ".join([*self._programmes(), *(f"{n} {v:.4g}" for n, v in self.geometry)])
+        return "; ".join([*self._programmes(), *(f"{key.rpartition('.')[2]} {value}" for key, value in self.keys)])
 
     def _programmes(self) -> list[str]:
         """Rows with the same programme are listed together."""
         if not self.pulses:
             return ["no row heated"]
-        groups: dict[tuple[float, float, float, float, float], list[int]] = {}
+        groups: dict[tuple[float, ...], list[int]] = {}
         for p in self.pulses:
-            groups.setdefault((p.voltage, p.begin, p.end, p.hot, p.held), []).append(p.row)
+            groups.setdefault((p.voltage, p.begin, p.end, p.hot, p.held, p.until), []).append(p.row)
         return [self._programme(rows, *given) for given, rows in groups.items()]
 
-    def _programme(self, rows: list[int], voltage: float, begin: float, end: float, hot: float, held: float) -> str:
-        kept = f", held at {self.hold - 273.15:.3g} degC from {held:g} s" if held < self.deadline else ""
+    def _programme(
+        self, rows: list[int], voltage: float, begin: float, end: float, hot: float, held: float, until: float
+    ) -> str:
+        last = f" to {until:g} s" if until < self.deadline else ""
+        kept = f", held at {self.hold - 273.15:.3g} degC from {held:g} s{last}" if held < self.deadline else ""
         name = "rows" if len(rows) > 1 else "row"
         return (
             f"{name} {', '.join(map(str, rows))}: {voltage:.3g} V from {begin:g} s to {end:g} s "
@@ -264,12 +308,14 @@ def _voltages(candidate: Candidate, rig: Rig, time: float) -> list[float]:
     for p in candidate.pulses:
         if p.begin <= time < p.end:
             found[p.row - 1] = p.voltage
-        elif time >= p.held:
+        elif p.held <= time < p.until:
             found[p.row - 1] = rig.rows[p.row - 1].holding_voltage(candidate.hold)
     return found
 
 
-def scenario_for(candidate: Candidate, rig: Rig, settings: Settings | None = None, start: int = 0) -> Scenario:
+def scenario_for(
+    candidate: Candidate, rig: Rig, settings: Settings | None = None, start: int = 0, end: float | None = None
+) -> Scenario:
     """The scenario that carries a candidate out; it begins one drape before the first switch, and ends at the deadline.
 
     Args:
@@ -277,12 +323,15 @@ def scenario_for(candidate: Candidate, rig: Rig, settings: Settings | None = Non
         rig: Scenario of the task.
         settings: Another engine and other settings; None: those of the scenario.
         start: Number of the random start; 0: the scenario's own.
+        end: Where the run is to stop before the deadline [s], a whole number of output steps from it.
     """
+    rig = rig.with_keys(candidate.keys)
     base = rig.scenario
     stop, grain = candidate.deadline, seconds(nanoseconds(base.time.output_step))
     # The run ends at the deadline exactly; its length must be a whole number of output steps.
     begin = round(stop - math.ceil((stop - candidate.begin + DRAPE) / grain - 1e-9) * grain, 9)
-    moments = sorted({begin, *(m for p in candidate.pulses for m in (p.begin, p.end, p.held) if begin < m < stop)})
+    switches = {m for p in candidate.pulses for m in (p.begin, p.end, p.held, p.until)}
+    moments = sorted({begin, *(m for m in switches if begin < m < stop)})
     points = [(m, _voltages(candidate, rig, m)) for m in moments]
     supply, fabric = base.components[rig.supply[0]], base.components[rig.fabric]
     assert isinstance(supply, ProgrammeComponent)
@@ -293,15 +342,15 @@ def scenario_for(candidate: Candidate, rig: Rig, settings: Settings | None = Non
         points=[(PhysicalValue(t, "s"), [PhysicalValue(float(f"{v:.9g}"), "V") for v in volts]) for t, volts in points],
     )
     own = {"start_number": PhysicalValue(float(start), ""), "start_speed": PhysicalValue(1.0, "mm/s")} if start else {}
-    varied = {name: PhysicalValue(value, FABRIC_UNITS[name]) for name, value in candidate.geometry}
-    changed: dict[str, object] = {"parameters": {**fabric.parameters, **varied, **own}}
+    update: dict[str, object] = {"parameters": {**fabric.parameters, **own}}
     if settings is not None:
-        changed["engine"] = settings.engine
-        changed["solver"] = fabric.solver.model_copy(update=dict(settings.solver))
+        update["engine"] = settings.engine
+        update["solver"] = fabric.solver.model_copy(update=dict(settings.solver))
     components = {
         **base.components,
         rig.supply[0]: supply.model_copy(update={"outputs": {**supply.outputs, rig.supply[1]: output}}),
-        rig.fabric: fabric.model_copy(update=changed),
+        rig.fabric: fabric.model_copy(update=update),
     }
-    time = base.time.model_copy(update={"start": PhysicalValue(begin, "s"), "stop": PhysicalValue(stop, "s")})
+    last = PhysicalValue(stop if end is None else end, "s")
+    time = base.time.model_copy(update={"start": PhysicalValue(begin, "s"), "stop": last})
     return base.model_copy(update={"components": components, "time": time})

@@ -6,15 +6,17 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from chainmail.design.candidate import rig_of, scenario_for
+from chainmail.design.candidate import Rig, rig_of, scenario_for
 from chainmail.design.impossible import Impossible
+from chainmail.design.keys import check_keys
 from chainmail.design.ledger import Ledger
-from chainmail.design.report import front, impossible, report, winning_scenario
+from chainmail.design.report import delay_front, front, impossible, report, winning_scenario
 from chainmail.design.search import Search
 from chainmail.design.shape import with_requirements
-from chainmail.design.task import load_task
+from chainmail.design.task import Task, load_task
 from chainmail.play.notebook import play
 from cosim.alone import alone
+from cosim.assemble import assemble
 from cosim.compute.batch import Batches
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Place
@@ -22,6 +24,8 @@ from cosim.compute.progress import Progress
 from cosim.run import RunStopped, run
 from cosim.run_folder import write_atomically, writing
 from cosim.scenario import Scenario
+from cosim.sweep.checks import check_output, unit_of
+from cosim.sweep.file import Output
 from cosim.unit.errors import InputError
 
 #: Exit code where no design was accepted.
@@ -58,7 +62,9 @@ def design(
     task, scenario = load_task(path)
     rig = rig_of(scenario, path)
     _check_rows(task.vary.rows_heated, rig.free, path)
+    check_keys(task.vary.keys, rig, path)
     task = with_requirements(task, rig)
+    _check_wanted(task, rig, path)
     with alone(out, "design"):
         is_begun = (out / "report.md").exists() or (out / "runs").exists()
         if is_begun and not resume:
@@ -83,6 +89,8 @@ def design(
                 )
                 return NOT_FOUND
         files = {"report.md": report(search, outcome), "ledger.csv": ledger.table(), "front.csv": front(ledger)}
+        if outcome.points:
+            files["delays.csv"] = delay_front(ledger, outcome)
         if outcome.winner is not None:
             files["scenario.yaml"] = winning_scenario(outcome.winner, rig, task.title)
         _write(out, files)
@@ -118,6 +126,23 @@ def _check_rows(given: object, free: tuple[int, ...], path: Path) -> None:
     if wrong or not given:
         problem = f"row {wrong[0]} is no free row of the fabric" if wrong else "there is no pattern"
         raise InputError(path, "vary.rows_heated", problem, f"free rows are {free[0]} to {free[-1]}")
+
+
+def _check_wanted(task: Task, rig: Rig, path: Path) -> None:
+    """Refuse quantities that no run of the scenario has: the first run would be spent on that."""
+    assembly = assemble(rig.scenario)
+    assembly.system.terminate()
+    for number, wanted in enumerate(task.wanted):
+        # Times are those of the design, whose run is not that of the scenario.
+        timeless = Output(quantity=wanted.quantity, of=wanted.of, unit=wanted.unit)
+        try:
+            check_output(timeless, assembly)
+            bound = wanted.below or wanted.above
+            assert bound is not None
+            bound.to(wanted.unit or unit_of(wanted.quantity, assembly))
+        except ValueError as error:
+            key = f"wanted[{number + 1}]"
+            raise InputError(path, key, str(error), "docs/design.md and docs/sweeps.md explain quantities") from error
 
 
 def _write(out: Path, files: dict[str, str]) -> None:

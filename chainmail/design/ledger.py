@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -46,10 +47,12 @@ class Entry:
     """One run.
 
     Args:
-        fidelity: `coarse`, `fine` (the scenario's own settings, within the search) or `full` (the same, a fresh start).
+        fidelity: `coarse`, `short` (the scenario's own settings, until the fabric has been rigid), `fine` (the same, to
+            the end, within the search) or `full` (the same, a fresh start).
         candidate: What was run.
         start: Number of the start.
-        values: Of every requirement, in the unit of its quantity; empty where the run failed.
+        values: Of every requirement, in the unit of its quantity; empty where the run failed, no number (nan) where it
+            ended before it could say.
         distances: How far each is on the right side of its bound; the same.
         overlap: Largest overlap of two links from the first switch on [m].
         energy: Electrical energy [J].
@@ -69,8 +72,20 @@ class Entry:
 
     @property
     def is_met(self) -> bool:
-        """Whether every requirement holds; a run that failed meets none."""
-        return not self.failure and all(d >= 0.0 for d in self.distances)
+        """Whether every requirement holds that the run says something about; a run that failed meets none."""
+        return self.meets(None)
+
+    def meets(self, counting: Sequence[int] | None) -> bool:
+        """The same of some requirements, by their numbers; None: all."""
+        return not self.failure and all(d >= 0.0 or math.isnan(d) for d in self.of(counting))
+
+    def of(self, counting: Sequence[int] | None) -> tuple[float, ...]:
+        """Distances of some requirements, by their numbers; None: all."""
+        return self.distances if counting is None else tuple(self.distances[n] for n in counting)
+
+    def worst(self, counting: Sequence[int] | None) -> float:
+        """The least of them that the run knows; minus infinity where it failed."""
+        return float(np.nanmin(self.of(counting))) if not self.failure else -math.inf
 
 
 @dataclass
@@ -101,12 +116,46 @@ class Ledger:
         asked = [w.quantity.removeprefix(fabric) for w in self.task.wanted if w.quantity.startswith(fabric)]
         return self.task.runs.coarse > 0 and not self._is_mujoco and all(name in KEPT_COARSE for name in asked)
 
+    @property
+    def is_short_first(self) -> bool:
+        """Whether runs are first made until the fabric has been rigid: that decides, and cooling is most of a cycle."""
+        return self.task.cycle is not None
+
     def count(self, fidelity: str) -> int:
         """Runs of a fidelity."""
         return sum(e.fidelity == fidelity for e in self.entries)
 
-    def judged(self, candidate: Candidate, start: int = 1) -> Entry:
-        """`decision`, kept."""
+    def judged(self, candidate: Candidate, start: int = 1, counting: Sequence[int] | None = None) -> Entry:
+        """`decision`, kept; by some requirements, by their numbers, or all (None)."""
+        if candidate not in self._decided:
+            self._decided[candidate] = self._decision(candidate, start)
+        kept = self._decided[candidate]
+        if kept.fidelity == "short" and kept.meets(counting):
+            kept = self._decided[candidate] = self._full([candidate], [start], "fine")[0]
+        return kept
+
+    def left(self) -> int:
+        """Runs of the scenario's own settings that are left, or short ones where these come first."""
+        most = self.task.runs
+        full = most.full - self.count("full") - self.count("fine")
+        return most.coarse - self.count("short") if self.is_short_first else full
+
+    def scaled(self, entry: Entry, counting: Sequence[int] | None = None) -> list[float]:
+        """Distances of a run to the bounds as shares of them, where it says something."""
+        found = []
+        for number in range(len(self.task.wanted)) if counting is None else counting:
+            bound = self.task.wanted[number].below or self.task.wanted[number].above
+            assert bound is not None
+            share = entry.distances[number] / (abs(bound.to(self.units[number])) or 1.0)
+            found += [] if math.isnan(share) else [share]
+        return found
+
+    def shortly(self, candidate: Candidate, start: int = 1) -> Entry:
+        """What a short run says, if there is no longer one; kept.
+
+        Raises:
+            BudgetSpent: No short run is left.
+        """
         if candidate not in self._decided:
             self._decided[candidate] = self._decision(candidate, start)
         return self._decided[candidate]
@@ -120,6 +169,9 @@ class Ledger:
         Raises:
             BudgetSpent: No coarse or full run is left.
         """
+        if self.is_short_first:
+            self._check(1, 0)
+            return self._made([candidate], [start], ["short"])[0]
         if not self.can_be_coarse():
             return self._full([candidate], [start], "fine")[0]
         self._check(1, 0)
@@ -169,13 +221,15 @@ class Ledger:
 
     def _check(self, coarse: int, full: int) -> None:
         most = self.task.runs
-        if self.count("coarse") + coarse > most.coarse:
-            raise BudgetSpent(f"all {most.coarse} coarse runs are spent")
+        if self.count("coarse") + self.count("short") + coarse > most.coarse:
+            raise BudgetSpent(f"all {most.coarse} {'short' if self.is_short_first else 'coarse'} runs are spent")
         if self.count("full") + self.count("fine") + full > most.full:
             raise BudgetSpent(f"all {most.full} full runs are spent")
 
     def _made(self, candidates: Sequence[Candidate], starts: Sequence[int], fidelities: Sequence[str]) -> list[Entry]:
-        outputs = {f"wanted{i}": w.output() for i, w in enumerate(self.task.wanted)}
+        end = self._short_end() if fidelities[0] == "short" else None
+        known = [n for n, w in enumerate(self.task.wanted) if end is None or w.last <= end or math.isinf(w.last)]
+        outputs = {f"wanted{n}": self.task.wanted[n].output() for n in known}
         # From the first switch on: while it falls into its drape, every coarse fabric overlaps for a moment.
         since = str(PhysicalValue(min(c.begin for c in candidates), "s"))
         outputs[OVERLAP] = Output.model_validate(
@@ -184,15 +238,19 @@ class Ledger:
         outputs[SPENT] = Output(quantity="energy")
         packer = Packer()
         given = [COARSE if f == "coarse" else None for f in fidelities]
-        texts = [packed_text(scenario_for(c, self.rig, g, s), packer) for c, g, s in zip(candidates, given, starts)]
+        asked = zip(candidates, given, starts)
+        texts = [packed_text(scenario_for(c, self.rig, g, s, end), packer) for c, g, s in asked]
         shared = Shared(packer.files(), outputs, {})
         results = self.batches.results(simulate, shared, [Job(run_key(shared, t), t) for t in texts])
         made = []
         for candidate, start, fidelity, result in zip(candidates, starts, fidelities, results):
             numbers = result.arrays[0] if result.is_complete else ()
-            wanted = tuple(float(v) for v in numbers[: len(self.task.wanted)])
+            wanted: tuple[float, ...] = ()
             if result.is_complete:
-                self.units = result.text[: len(self.task.wanted)]
+                read = {n: float(v) for n, v in zip(known, numbers)}
+                wanted = tuple(read.get(n, math.nan) for n in range(len(self.task.wanted)))
+                units = dict(zip(known, result.text))
+                self.units = tuple(units.get(n, w.unit or "") for n, w in enumerate(self.task.wanted))
             distances = tuple(w.distance(v, u) for w, v, u in zip(self.task.wanted, wanted, self.units))
             overlap, energy = (float(v) for v in numbers[-2:]) if result.is_complete else (float("nan"),) * 2
             made.append(
@@ -200,6 +258,13 @@ class Ledger:
             )
         self.entries += made
         return made
+
+    def _short_end(self) -> float:
+        """Until the longest delay and the time in which the fabric is to be rigid are over [s], on the output grid."""
+        assert self.task.cycle is not None
+        last = max(d.to("s") for d in self.task.cycle.delay) + self.task.cycle.hot_for.to("s")
+        grain, stop = self.rig.scenario.time.output_step.to("s"), self.task.cycle.period.to("s")
+        return round(stop - math.floor((stop - last) / grain + 1e-9) * grain, 9)
 
     def table(self) -> str:
         """Every run, as CSV."""
@@ -209,7 +274,7 @@ class Ledger:
         head = ["energy [J]", "overlap [mm]", "met", "wall time [s]", "failure"]
         writer.writerow(["run", "fidelity", "design", "start", *wanted, *head])
         for number, e in enumerate(self.entries, start=1):
-            values = [f"{v:.6g}" for v in e.values] or [""] * len(wanted)
+            values = ["" if math.isnan(v) else f"{v:.6g}" for v in e.values] or [""] * len(wanted)
             writer.writerow(
                 [
                     number,

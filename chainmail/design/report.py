@@ -12,8 +12,10 @@ import numpy as np
 from chainmail.design.candidate import Candidate, Rig, scenario_for
 from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import COARSE, Entry, Ledger
-from chainmail.design.search import APART, ERROR, Outcome, Search
+from chainmail.design.outcome import Outcome
+from chainmail.design.search import APART, ERROR, Search
 from chainmail.design.sequential import Verdict, share_interval
+from chainmail.design.task import Wanted
 
 #: A limit is active where the design comes this near to it.
 NEAR = 0.02
@@ -22,11 +24,12 @@ NEAR = 0.02
 def front(ledger: Ledger) -> str:
     """Designs that no other beats in both energy and the worst distance to a bound, as CSV.
 
-    Both are medians over the runs of a design, those of the highest fidelity that it has.
+    Both are medians over the runs of a design, those of the highest fidelity that it has. Of cycles `delay_front` is
+    the front that was asked for.
     """
     rows = []
     for candidate, entries in _by_candidate(ledger.entries).items():
-        distances = [min(_scaled(e, ledger)) for e in entries]
+        distances = [min(ledger.scaled(e)) for e in entries]
         rows.append((float(np.median([e.energy for e in entries])), float(np.median(distances)), candidate, entries))
     rows.sort(key=lambda r: (r[0], -r[1]))
     best = -math.inf
@@ -72,16 +75,6 @@ def _by_candidate(entries: Sequence[Entry]) -> dict[Candidate, list[Entry]]:
     return found
 
 
-def _scaled(entry: Entry, ledger: Ledger) -> list[float]:
-    """Distances to the bounds as shares of them."""
-    found = []
-    for wanted, distance, unit in zip(ledger.task.wanted, entry.distances, ledger.units):
-        bound = wanted.below or wanted.above
-        assert bound is not None
-        found.append(distance / (abs(bound.to(unit)) or 1.0))
-    return found
-
-
 def report(search: Search, outcome: Outcome) -> str:
     """The report as Markdown."""
     ledger = search.ledger
@@ -93,6 +86,8 @@ def report(search: Search, outcome: Outcome) -> str:
     else:
         lines += [f"**No design was accepted.** The last check is {outcome.verdict.value}.", ""]
     lines += [f"- {note}" for note in outcome.notes]
+    if outcome.points:
+        lines += ["", "## Energy against delay", "", *_delays(ledger, outcome)]
     if outcome.checks:
         lines += ["", f"## On {len(outcome.checks)} fresh starts", "", *_checks(ledger, outcome)]
     if winner is not None:
@@ -106,7 +101,8 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
     complete = [e for e in outcome.checks if not e.failure]
     lines = ["| wanted | median | 5 to 95 % | met | share, with its interval |", "|---|---|---|---|---|"]
     count = len(outcome.checks)
-    for number, wanted in enumerate(ledger.task.wanted):
+    asked = _counted(ledger, outcome.counting)
+    for number, wanted in asked:
         met = sum(not e.failure and e.distances[number] >= 0.0 for e in outcome.checks)
         low, high = share_interval(met, count, wanted.confidence)
         values = [e.values[number] for e in complete]
@@ -116,7 +112,7 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
             f"| {wanted.text()} | {told[0]} | {told[1]} to {told[2]} | {met} of {count} | "
             f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * wanted.confidence:.0f} %) |"
         )
-    share = max(w.share for w in ledger.task.wanted)
+    share = max(w.share for _, w in asked)
     meaning = {
         Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - APART:.2f} or less, it "
         f"would happen in at most {100 * ERROR:.0f} % of checks",
@@ -125,6 +121,63 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
         Verdict.OPEN: "open: more fresh starts are needed (`runs.full`)",
     }[outcome.verdict]
     return [*lines, "", f"Sequential test of {share:.2f} against {share - APART:.2f}: {meaning}."]
+
+
+def _counted(ledger: Ledger, counting: Sequence[int] | None) -> list[tuple[int, Wanted]]:
+    """Requirements that count, with their numbers."""
+    return [(n, w) for n, w in enumerate(ledger.task.wanted) if counting is None or n in counting]
+
+
+def _delays(ledger: Ledger, outcome: Outcome) -> list[str]:
+    lines = ["| delay | energy of a cycle | design | fresh starts that meet it | |", "|---|---|---|---|---|"]
+    told = []
+    for point in outcome.points:
+        told += [f"- {point.delay}: {note}" for note in point.notes]
+        if point.design is None:
+            lines.append(f"| {point.delay} | | none found | | |")
+            continue
+        met = sum(e.meets(point.counting) for e in point.checks)
+        lines.append(
+            f"| {point.delay} | {point.design.energy(ledger.rig):.1f} J | {point.design.text()} | "
+            f"{met} of {len(point.checks)} | {point.verdict.value} |"
+        )
+    return [*lines, "", *told]
+
+
+def delay_front(ledger: Ledger, outcome: Outcome) -> str:
+    """Energy against delay of a cycle, as CSV: medians and shares over the fresh starts of every point."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer)
+    writer.writerow(
+        [
+            "delay [s]",
+            "energy [J]",
+            "median cold curvature [1/m]",
+            "median hot curvature [1/m]",
+            "median curvature at the end [1/m]",
+            "met",
+            "fresh starts",
+            "share, low",
+            "share, high",
+            "verdict",
+            "design",
+        ]
+    )
+    for point in outcome.points:
+        if point.design is None:
+            writer.writerow([point.delay.to("s"), *[""] * 8, "none found", ""])
+            continue
+        complete = [e for e in point.checks if not e.failure]
+        curvatures = [n for n, w in _counted(ledger, point.counting) if w.quantity.endswith(".max_curvature")]
+        cold, end, hot = ([e.values[n] for e in complete] for n in curvatures)
+        met, count = sum(e.meets(point.counting) for e in point.checks), len(point.checks)
+        confidence = max(w.confidence for _, w in _counted(ledger, point.counting))
+        low, high = share_interval(met, count, confidence) if count else (0.0, 1.0)
+        medians = [f"{np.median(v):.4g}" if v else "" for v in (cold, hot, end)]
+        energy = f"{point.design.energy(ledger.rig):.6g}"
+        shares = [met, count, f"{low:.3g}", f"{high:.3g}", point.verdict.value]
+        writer.writerow([point.delay.to("s"), energy, *medians, *shares, point.design.text()])
+    return buffer.getvalue()
 
 
 def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> list[str]:
@@ -161,7 +214,8 @@ def _limits(search: Search, winner: Candidate) -> list[str]:
     voltage, power = max(p.voltage for p in winner.pulses), winner.power(rig)
     for name, unit, value, limit in (("voltage", "V", voltage, search.voltage), ("power", "W", power, search.power)):
         if value > (1.0 - NEAR) * limit:
-            wider = search.candidate(winner.rows, [p.hot for p in winner.pulses], **{name: 1.1 * limit})
+            more = {"voltage": 1.1 * limit} if name == "voltage" else {"power": 1.1 * limit}
+            wider = search.candidate(winner.rows, [p.hot for p in winner.pulses], **more, keys=winner.keys)
             saved = winner.energy(rig) - wider.energy(rig) if wider is not None else 0.0
             lines.append(
                 f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {saved:.2g} J "
@@ -174,10 +228,13 @@ def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:
     lines = ["| fidelity | runs | wall time |", "|---|---|---|"]
     for fidelity, what in (
         ("coarse", "coarse"),
+        ("short", "of the scenario's own settings, until the fabric has been rigid"),
         ("fine", "of the scenario's own settings, in the search"),
         ("full", "the same, fresh starts"),
     ):
         own = [e for e in ledger.entries if e.fidelity == fidelity]
+        if not own and fidelity in ("coarse", "short"):
+            continue
         lines.append(f"| {what} | {len(own)} | {sum(e.seconds for e in own):.0f} s |")
     if outcome.chain is not None:
         chain = outcome.chain

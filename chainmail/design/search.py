@@ -5,32 +5,31 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import ndtri
 
-from chainmail.design.candidate import Candidate, Pulse, Rig, on_grid
+from chainmail.design.candidate import LEAD, Candidate, Pulse, Rig, on_grid
 from chainmail.design.closed_form import heated_together, nearest_power
+from chainmail.design.cycle import cycled, delays
+from chainmail.design.front import Front
 from chainmail.design.impossible import Impossible
+from chainmail.design.keys import value_of
 from chainmail.design.ledger import BudgetSpent, Entry, Ledger
+from chainmail.design.optimiser import minimised
+from chainmail.design.outcome import Outcome
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
 from chainmail.design.shape import fewest_rows, scheduled
-from chainmail.design.task import Schedule, Shape
-from cosim.components import FabricComponent
-from cosim.mechanics_assembly import build_fabric
-from cosim.parameters import resolve
+from chainmail.design.task import Schedule, Shape, Span
+from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
 
 #: Temperature of the hold on the cooling branch [K].
 HOLD = 319.15
 #: Levels of the temperature at the end of heating, between the ends that the task gives.
 LEVELS = 4
-#: Time between the end of heating and the deadline [s]. Links close while their coils become stiff; from then on coils
-#: cool, and a loaded fabric sinks again: by 5 mm in the first second in the only run that was looked at.
-LEAD = 0.2
 #: A pattern is not run where this share of the row model's sag is too much already.
 SURE = 0.8
 #: Share that a sequential test tells from the wanted one: 0.3 below it, as far as ten runs can tell.
@@ -41,25 +40,10 @@ BELOW = 1e-3
 STARTS = (1, 2, 3)
 #: Fresh starts are numbered from here; the search itself uses lower ones.
 FRESH = 1001
-
-
-@dataclass
-class Outcome:
-    """What a search found.
-
-    Args:
-        winner: The design that the last check accepted; None: none was accepted.
-        checks: Full runs of it, on fresh starts.
-        verdict: Of the sequential test.
-        chain: The row model that screened.
-        notes: What a reader must know of how the search ended.
-    """
-
-    winner: Candidate | None = None
-    checks: list[Entry] = field(default_factory=list)
-    verdict: Verdict = Verdict.OPEN
-    chain: Chain | None = None
-    notes: list[str] = field(default_factory=list)
+#: Fresh starts that a sequential test takes where all of them meet the request.
+CHECKS = 6
+#: What the optimiser sees of a design that was not run, or not to its end: worse than any bound that is missed.
+UNMADE = 10.0
 
 
 @dataclass
@@ -78,13 +62,29 @@ class Search:
         task, self._rig = self.ledger.task, self.ledger.rig
         moments = [w.at.to("s") for w in task.wanted if w.at is not None]
         self.deadline = max(moments) if moments else self._rig.scenario.time.stop.to("s")
+        #: Delay that is looked at, and the requirements that count for it; None: all.
+        self.delay: PhysicalValue | None = None
+        self.counting: tuple[int, ...] | None = None
+        if task.cycle is not None:
+            self.delay = delays(task.cycle)[-1]
+            self.deadline = self.delay.to("s")
         limits = [w.below.to("W") for w in task.wanted if w.quantity == f"{self._rig.circuit}.supply_power" and w.below]
         self.power = min(limits, default=math.inf)
         self.lowest, self.voltage = task.vary.voltage.low.to("V"), task.vary.voltage.high.to("V")
         low, high = task.vary.temperature.low.to("K"), task.vary.temperature.high.to("K")
         #: How far a run must be from each bound, so that the wanted share of starts is on its right side.
         self._room: tuple[float, ...] = ()
+        self._fresh: dict[Candidate, list[Entry]] = {}
         self.levels = tuple(float(t) for t in np.linspace(low, high, LEVELS))
+
+    @property
+    def hold(self) -> float:
+        """Temperature of the hold [K]."""
+        return HOLD
+
+    def at_delay(self, delay: PhysicalValue, counting: tuple[int, ...]) -> None:
+        """Look at one delay of a front, by the requirements that count for it."""
+        self.delay, self.deadline, self.counting = delay, delay.to("s"), counting
 
     @property
     def coolest(self) -> float:
@@ -98,6 +98,7 @@ class Search:
         *,
         voltage: float | None = None,
         power: float | None = None,
+        keys: tuple[tuple[str, str], ...] = (),
     ) -> Candidate | None:
         """The cheapest programme of a pattern by the closed forms; None where voltage, power or time forbid it.
 
@@ -108,10 +109,13 @@ class Search:
             hot: Temperature at the end of heating, one for all or one per row [K]; None: the lowest.
             voltage: Another limit than the task's [V].
             power: The same [W].
+            keys: Numbers of the scenario that are changed.
         """
+        if self.ledger.task.cycle is not None:
+            return self._cycled(rows, hot, voltage, power, keys)
         end = on_grid(self.deadline - LEAD, self._rig, up=False)
         if not rows:
-            return Candidate((), HOLD, end, self.deadline)
+            return Candidate((), HOLD, end, self.deadline, keys)
         hots = list(hot) if isinstance(hot, Sequence) else [self.coolest if hot is None else hot] * len(rows)
         own = [self._rig.rows[r - 1] for r in rows]
         # At the limit, rounding would decide whether it is kept.
@@ -127,16 +131,35 @@ class Search:
             return None
         helds = [on_grid(end + r.coasting_time(t, HOLD), self._rig, up=False) for r, t in zip(own, hots)]
         pulses = tuple(Pulse(n, v, t, begin, end, h) for n, v, t, h in zip(rows, volts, hots, helds))
-        return Candidate(pulses, HOLD, begin, self.deadline)
+        return Candidate(pulses, HOLD, begin, self.deadline, keys)
 
-    def _meets(self, candidate: Candidate) -> bool:
+    def _cycled(
+        self,
+        rows: tuple[int, ...],
+        hot: float | Sequence[float] | None,
+        voltage: float | None,
+        power: float | None,
+        keys: tuple[tuple[str, str], ...],
+    ) -> Candidate | None:
+        cycle = self.ledger.task.cycle
+        assert cycle is not None
+        assert self.delay is not None
+        hots = list(hot) if isinstance(hot, Sequence) else [self.coolest if hot is None else hot] * len(rows)
+        limits = (
+            self.lowest,
+            self.voltage if voltage is None else voltage,
+            (self.power if power is None else power) * (1 - BELOW),
+        )
+        return cycled(cycle, self.delay, self._rig, rows, hots, limits, HOLD, keys)
+
+    def meets(self, candidate: Candidate) -> bool:
         """Whether a design meets the request, with room for how it scatters between starts.
 
         A design that barely meets it from one start misses it from half of the others, and a search for the least
         energy ends with such a one.
         """
-        entry = self.ledger.judged(candidate)
-        if entry.is_met and not self._room:
+        entry = self.ledger.judged(candidate, counting=self.counting)
+        if entry.meets(self.counting) and not self._room:
             # Of one fidelity: a coarse run differs from fine ones by more than starts do.
             starts = STARTS if entry.fidelity == "coarse" else STARTS[1:]
             own = [] if entry.fidelity == "coarse" else [entry]
@@ -145,10 +168,12 @@ class Search:
             scatter = np.std(complete, axis=0, ddof=1) if len(complete) > 1 else np.zeros(len(entry.distances))
             shares = [w.share for w in self.ledger.task.wanted]
             self._room = tuple(float(max(ndtri(p), 0.0) * s) for p, s in zip(shares, scatter))
-        return self._has_room(entry)
+        return self.has_room(entry)
 
-    def _has_room(self, entry: Entry) -> bool:
-        return entry.is_met and all(d >= r for d, r in zip(entry.distances, self._room))
+    def has_room(self, entry: Entry) -> bool:
+        room = entry.distances if not self._room else self._room
+        where = range(len(room)) if self.counting is None else self.counting
+        return entry.meets(self.counting) and (not self._room or all(entry.distances[n] >= room[n] for n in where))
 
     def run(self) -> Outcome:
         """Search, then check on fresh starts.
@@ -158,8 +183,10 @@ class Search:
         """
         outcome = Outcome()
         self._check_heat()
+        task = self.ledger.task
+        if task.cycle is not None:
+            return Front(self, task.cycle, outcome).run()
         try:
-            task = self.ledger.task
             if task.schedule is not None:
                 self._on_schedule(task.schedule)
             elif task.shape is not None:
@@ -168,12 +195,54 @@ class Search:
                 self._feasible(outcome)
         except BudgetSpent as spent:
             outcome.notes.append(f"the search ended early: {spent}")
-        found = self._accepted()
+        found = self.accepted()
+        if not found and task.vary.keys:
+            outcome.notes.append(self.optimise())
+            found = self.accepted()
         if not found:
             self._run_nearest()
-            raise self._unmet()
-        self._last_check(found, outcome)
+            raise self.unmet()
+        self.last_check(found, outcome)
         return outcome
+
+    def optimise(self, is_hopeless: Callable[[tuple[tuple[str, str], ...]], bool] = lambda keys: False) -> str:
+        """Vary the numbers of the fabric around the design that came nearest, by CMA-ES, until one meets the request.
+
+        Args:
+            is_hopeless: Whether closed forms exclude some numbers, which are then not run.
+
+        Returns:
+            What was done, for the report.
+        """
+        decided = [(e.worst(self.counting), c) for c, e in self.ledger.decided().items() if not e.failure and c.rows]
+        if not decided:
+            return "numbers of the fabric were not varied: no design was run to its end"
+        nearest, spans = max(decided, key=lambda d: d[0])[1], self.ledger.task.vary.keys
+        runs = 0
+
+        def distance(shares: Array) -> float:
+            nonlocal runs
+            keys = tuple((key, span.at(float(x))) for (key, span), x in zip(spans.items(), shares))
+            if is_hopeless(keys):
+                return UNMADE
+            made = replace(nearest, keys=keys)
+            self.tell(f"optimiser: {made.text()}")
+            runs += 1
+            entry = self.ledger.judged(made, counting=self.counting)
+            return -min(self.ledger.scaled(entry, self.counting)) if not entry.failure else UNMADE
+
+        begin = [self.share_of(key, span, nearest) for key, span in spans.items()]
+        try:
+            found = minimised(distance, begin, self.ledger.left() - CHECKS, self.ledger.task.seed)
+            ended = "it met the request" if found <= 0.0 else "none met the request"
+        except BudgetSpent as spent:
+            ended = str(spent)
+        return f"CMA-ES over {', '.join(spans)}: {runs} designs; {ended}"
+
+    def share_of(self, key: str, span: Span, candidate: Candidate) -> float:
+        """Where a design, or else the scenario, lies in the range of a key."""
+        own = dict(candidate.keys).get(key)
+        return span.share(PhysicalValue.parse(own) if own is not None else value_of(self._rig, key))
 
     def _check_heat(self) -> None:
         """Raise Impossible where not even one row can be heated in time."""
@@ -214,7 +283,7 @@ class Search:
         cold = self.ledger.judged(self._need(()))
         if cold.is_met:
             return
-        patterns = self._patterns()
+        patterns = self.patterns()
         tried = (self.candidate(p) for p in patterns)
         first = next((c for c in tried if c is not None), None)
         if first is None:
@@ -244,7 +313,7 @@ class Search:
             if made is None or (best is not None and made.energy(self._rig) >= best.energy(self._rig)):
                 continue
             self.tell(made.text())
-            if not self._meets(made):
+            if not self.meets(made):
                 break  # cooler sags more
             best = made
         return best
@@ -259,11 +328,14 @@ class Search:
                     raise
                 return  # hotter needs more
             self.tell(made.text())
-            if self._meets(made):
+            if self.meets(made):
                 return
 
     def _in_shape(self, shape: Shape, outcome: Outcome) -> None:
-        """Patterns that have the shape by the row model, fewest rows first; hotter where what is wanted is not met."""
+        """Patterns that have the shape by the row model, fewest rows first; hotter rows only where they bend too much.
+
+        Hotter rows on both sides also straighten a flexible one between them, so no row is hotter than it must be.
+        """
         rig = self._rig
         patterns, total = fewest_rows(shape, rig), 2 ** len(rig.free)
         if not patterns:
@@ -276,13 +348,28 @@ class Search:
             f"row model: {len(patterns)} of {total} patterns have the shape, the fewest rows are {rows}"
         )
         for pattern in patterns:
-            for hot in self.levels:
-                candidate = self.candidate(pattern, hot)
-                if candidate is None:
-                    break
+            heights = dict.fromkeys(pattern, 0)
+            while (candidate := self.candidate(pattern, [self.levels[n] for n in heights.values()])) is not None:
                 self.tell(candidate.text())
-                if self._meets(candidate):
+                if self.meets(candidate):
                     return
+                bent = self._bent(self.ledger.judged(candidate))
+                raised = [r for r in heights if r in bent and heights[r] + 1 < len(self.levels)]
+                if not raised:
+                    break
+                heights |= {r: heights[r] + 1 for r in raised}
+
+    def _bent(self, entry: Entry) -> set[int]:
+        """Rows that are to be straight and bend too much, or so much that other starts may."""
+        room = self._room or (0.0,) * len(entry.distances)
+        return {
+            w.of
+            for w, distance, least in zip(self.ledger.task.wanted, entry.distances, room)
+            if w.quantity == f"{self._rig.fabric}.row_bend"
+            and isinstance(w.of, int)
+            and w.below is not None
+            and distance < least
+        }
 
     def _cooler_rows(self, best: Candidate) -> None:
         """Each row as cool as it may be, from the tip to the root: the load falls towards the tip."""
@@ -295,7 +382,7 @@ class Search:
             if made is None:
                 continue
             self.tell(made.text())
-            if not self._meets(made):
+            if not self.meets(made):
                 return
             best = made
 
@@ -312,7 +399,7 @@ class Search:
         ]
         return bool(most) and SURE * chain.sag(rows) > min(most)
 
-    def _patterns(self) -> list[tuple[int, ...]]:
+    def patterns(self) -> list[tuple[int, ...]]:
         """Patterns with most rows first; those at the root before others."""
         given = self.ledger.task.vary.rows_heated
         if given != "any":
@@ -320,10 +407,10 @@ class Search:
         free = self._rig.free
         return [free[:count] for count in range(len(free), 0, -1)]
 
-    def _accepted(self) -> list[Candidate]:
+    def accepted(self) -> list[Candidate]:
         """Designs that met the request, by the run that decided; cheapest first, those with room before others."""
-        good = [c for c, e in self.ledger.decided().items() if e.is_met]
-        roomy = [c for c, e in self.ledger.decided().items() if self._has_room(e)]
+        good = [c for c, e in self.ledger.decided().items() if e.fidelity != "short" and e.meets(self.counting)]
+        roomy = [c for c, e in self.ledger.decided().items() if c in good and self.has_room(e)]
         return [*self._cheapest(roomy), *self._cheapest([c for c in good if c not in roomy])]
 
     def _cheapest(self, good: list[Candidate]) -> list[Candidate]:
@@ -331,25 +418,30 @@ class Search:
             return sorted(good, key=lambda c: (len(c.rows), c.energy(self._rig)))
         return sorted(good, key=lambda c: c.energy(self._rig))
 
-    def _last_check(self, found: list[Candidate], outcome: Outcome) -> None:
-        wanted = self.ledger.task.wanted
+    def last_check(self, found: list[Candidate], outcome: Outcome) -> None:
+        every = self.ledger.task.wanted
+        wanted = every if self.counting is None else [every[n] for n in self.counting]
         share = max(w.share for w in wanted)
+        outcome.counting = self.counting
         test = SequentialTest(share, share - APART, min(ERROR, 1.0 - max(w.confidence for w in wanted) + 1e-12))
-        start = FRESH
         for candidate in found:
+            # Of one programme for several delays, fresh starts are run once and say something about each.
+            known = self._fresh.setdefault(candidate, [])
             checks: list[Entry] = []
             verdict = Verdict.OPEN
             self.tell(f"fresh starts of {candidate.text()}")
             try:
                 while verdict is Verdict.OPEN:
-                    number = max(1, min(self.ledger.batches.place.parallel, 6 - len(checks)))
-                    checks += self.ledger.full_batch(candidate, range(start, start + number))
-                    start += number
-                    met = sum(e.is_met for e in checks)
+                    number = max(1, min(self.ledger.batches.place.parallel, CHECKS - len(checks)))
+                    if len(known) < len(checks) + number:
+                        start = FRESH + self.ledger.count("full")
+                        known += self.ledger.full_batch(candidate, range(start, start + number))
+                    checks = known[: len(checks) + number]
+                    met = sum(e.meets(self.counting) for e in checks)
                     verdict = test.verdict(met, len(checks) - met)
             except BudgetSpent as spent:
                 outcome.notes.append(f"the last check ended early: {spent}")
-            outcome.checks, outcome.verdict = checks, verdict
+            outcome.checked, outcome.checks, outcome.verdict = candidate, checks, verdict
             if verdict is Verdict.ACCEPTED:
                 outcome.winner = candidate
                 return
@@ -359,7 +451,7 @@ class Search:
 
     def _run_nearest(self) -> None:
         """Run the design that came nearest with the scenario's own settings: a coarse run's number is off."""
-        decided = [(min(e.distances), c) for c, e in self.ledger.decided().items() if not e.failure]
+        decided = [(e.worst(self.counting), c) for c, e in self.ledger.decided().items() if not e.failure]
         if not decided:
             return
         nearest = max(decided, key=lambda d: d[0])[1]
@@ -367,15 +459,16 @@ class Search:
             with contextlib.suppress(BudgetSpent):
                 self.ledger.fine_batch(nearest, STARTS[:1])
 
-    def _unmet(self) -> Impossible:
+    def unmet(self) -> Impossible:
         """What of the request no run met, and how near one came."""
         entries = [e for e in self.ledger.entries if not e.failure]
         complete = [e for e in entries if e.fidelity != "coarse"] or entries
         if not complete:
             reasons = "; ".join(dict.fromkeys(" ".join(e.failure.split()) for e in self.ledger.entries))
             return Impossible(f"no run reached its end: {reasons}", "correct the scenario")
-        best = max(complete, key=lambda e: min(e.distances))
-        worst = min(range(len(best.distances)), key=lambda i: best.distances[i])
+        best = max(complete, key=lambda e: e.worst(self.counting))
+        where = range(len(best.distances)) if self.counting is None else self.counting
+        worst = min((n for n in where if not math.isnan(best.distances[n])), key=lambda n: best.distances[n])
         unit = self.ledger.units[worst]
         wanted = self.ledger.task.wanted[worst]
         tried = len({e.candidate for e in self.ledger.entries})
@@ -401,12 +494,7 @@ class Search:
 
 def taut_pitch(rig: Rig) -> float:
     """Pitch of the taut, cold weave of a fabric [m]."""
-    fabric = rig.scenario.components[rig.fabric]
-    assert isinstance(fabric, FabricComponent)
-    source = rig.scenario.path or Path("scenario")
-    return build_fabric(
-        rig.fabric, fabric, resolve(fabric.parameter_set, fabric.parameters, source)
-    ).design.cold_weave.pitch
+    return rig.weave.cold_weave.pitch
 
 
 def _upwards(value: float) -> str:

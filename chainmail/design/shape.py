@@ -8,9 +8,11 @@ from itertools import combinations
 
 from chainmail.design.candidate import Candidate, Pulse, Rig, holding_power, on_grid
 from chainmail.design.closed_form import heated_together
+from chainmail.design.cycle import cycle_requirements
 from chainmail.design.impossible import Impossible
 from chainmail.design.row_model import Chain
 from chainmail.design.task import Schedule, Shape, Task, Wanted
+from cosim.components import nanoseconds
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
 
@@ -22,7 +24,7 @@ MOST_ROWS = 16
 
 
 def with_requirements(task: Task, rig: Rig) -> Task:
-    """The task with what `shape` and `schedule` want written out as bends of rows.
+    """The task with what `shape`, `schedule` and `cycle` want written out as bends of rows and curvatures.
 
     Raises:
         InputError: A row is none of the free ones, or is wanted to be both.
@@ -52,6 +54,12 @@ def with_requirements(task: Task, rig: Rig) -> Task:
             for row, time in plan.rows.items():
                 if row < len(rig.rows) and (time.to("s") <= moment or time.to("s") > at):
                     wanted.append(_bend(rig, row, plan, at, is_straight=time.to("s") <= moment))
+    if task.cycle is not None:
+        grain = rig.scenario.time.output_step
+        if nanoseconds(task.cycle.period) % nanoseconds(grain):
+            problem = f"{task.cycle.period} is no multiple of time.output_step, {grain}"
+            raise InputError(source, "cycle.period", problem, "runs end at the end of a cycle; take a multiple")
+        wanted += cycle_requirements(task.cycle, rig)
     if not wanted:
         raise InputError(
             source,

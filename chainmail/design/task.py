@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from pathlib import Path
@@ -52,6 +53,30 @@ class _Temperatures(Strict):
 _TEMPERATURES = _Temperatures(low=PhysicalValue(62.0, "degC"), high=PhysicalValue(80.0, "degC"))
 
 
+class Span(Strict):
+    """A number of the scenario and the range in which it may lie."""
+
+    low: AnyQuantity
+    high: AnyQuantity
+
+    @model_validator(mode="after")
+    def _check(self) -> Span:
+        if self.low.number >= self.high.to(self.low.unit or "1"):
+            raise ValueError(f"the range from {self.low} to {self.high} is empty")
+        return self
+
+    def at(self, share: float) -> str:
+        """A value of the range as text, in the unit of its lower end, to four digits."""
+        low, high = self.low.number, self.high.to(self.low.unit or "1")
+        value = low + min(max(share, 0.0), 1.0) * (high - low)
+        return str(PhysicalValue(min(max(float(f"{value:.4g}"), low), high), self.low.unit))
+
+    def share(self, value: PhysicalValue) -> float:
+        """Where a value lies in the range, 0 to 1; the nearest end where it lies outside."""
+        low, high = self.low.number, self.high.to(self.low.unit or "1")
+        return min(max((value.to(self.low.unit or "1") - low) / (high - low), 0.0), 1.0)
+
+
 class Vary(Strict):
     """What a design may choose."""
 
@@ -62,6 +87,19 @@ class Vary(Strict):
     temperature: Annotated[_Temperatures, BeforeValidator(_ends)] = Field(
         default=_TEMPERATURES, description="Of a row at the end of heating."
     )
+    keys: dict[str, Annotated[Span, BeforeValidator(_ends)]] = Field(
+        default={}, description="Numbers of the fabric, by their paths; a path may stand beside the other keys."
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _paths(cls, data: Any) -> Any:
+        """`fabric.parameters.tolerance: 0.5 mm to 2 mm` stands where `keys` would."""
+        if not isinstance(data, dict) or not isinstance(data.get("keys", {}), dict):
+            return data
+        paths = {k: v for k, v in data.items() if isinstance(k, str) and "." in k}
+        rest = {k: v for k, v in data.items() if k not in paths}
+        return {**rest, "keys": {**data.get("keys", {}), **paths}} if paths else data
 
 
 class Wanted(Output):
@@ -97,10 +135,18 @@ class Wanted(Output):
         assert self.above is not None
         return value - self.above.to(unit)
 
+    @property
+    def last(self) -> float:
+        """Time from which a run says whether it holds [s]; infinite where the whole run says it."""
+        if self.over == "at":
+            return self.at.to("s") if self.at is not None else math.inf
+        return self.to.to("s") if self.to is not None else math.inf
+
     def text(self) -> str:
         """For people."""
         relation = f"below {self.below}" if self.below is not None else f"above {self.above}"
-        when = f" at {self.at}" if self.at is not None else f" ({self.over})"
+        span = f" from {self.from_} to {self.to}" if self.from_ is not None and self.to is not None else ""
+        when = f" at {self.at}" if self.at is not None else f" ({self.over}{span})"
         element = f"[{self.of}]" if isinstance(self.of, int) else ""
         return f"{self.quantity}{element}{when} {relation}"
 
@@ -151,11 +197,49 @@ class Schedule(_Bends):
         return self
 
 
+class Cycle(Strict):
+    """Flexible, rigid after a delay, and flexible again at the end of the cycle; the first switch is at 0 s."""
+
+    cold: Annotated[PhysicalValue, In("1/m", minimum=0.0)] = Field(
+        description="Curvature that a cold fabric has more than."
+    )
+    hot: Annotated[PhysicalValue, In("1/m", minimum=0.0, is_exclusive=True)] = Field(
+        description="Curvature that a hot one has less than."
+    )
+    delay: list[Time] = Field(min_length=1, description="From the first switch until it is hot; a front over several.")
+    hot_for: Time = Field(default=PhysicalValue(1.0, "s"), description="How long it is to stay so.")
+    period: Time = Field(description="From the first switch until it is cold again.")
+    share: float = Field(default=0.9, gt=0.0, lt=1.0)
+    confidence: float = Field(default=0.9, gt=0.5, lt=1.0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one(cls, data: Any) -> Any:
+        """One delay may stand by itself."""
+        if isinstance(data, dict) and "delay" in data and not isinstance(data["delay"], list):
+            return {**data, "delay": [data["delay"]]}
+        return data
+
+    @model_validator(mode="after")
+    def _check(self) -> Cycle:
+        if self.cold.to("1/m") <= self.hot.to("1/m"):
+            raise ValueError(f"a cold fabric bends more than a hot one, but `cold` {self.cold} is not above `hot`")
+        delays = [d.to("s") for d in self.delay]
+        if min(delays) <= 0.0 or self.hot_for.to("s") <= 0.0:
+            raise ValueError("`delay` and `hot_for` are longer than 0 s")
+        if len(set(delays)) < len(delays):
+            raise ValueError("a delay stands twice")
+        if self.period.to("s") <= max(delays) + self.hot_for.to("s"):
+            raise ValueError(f"`period` {self.period} is over before the fabric has been hot; make it longer")
+        return self
+
+
 class Effort(Strict):
     """Most runs of each fidelity."""
 
     coarse: Annotated[
-        StrictInt, Field(ge=0, description="0: the scenario's own settings decide about every design.")
+        StrictInt,
+        Field(ge=0, description="0: the scenario's own settings decide about every design. Short runs count here too."),
     ] = 40
     full: Annotated[StrictInt, Field(ge=1)] = 20
 
@@ -170,16 +254,24 @@ class Task(Strict):
     wanted: list[Wanted] = []
     shape: Shape | None = None
     schedule: Schedule | None = None
+    cycle: Cycle | None = None
     least: Literal["energy", "rows_heated"] = "energy"
     runs: Effort = Effort()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
 
     @model_validator(mode="after")
     def _check(self) -> Task:
-        if not self.wanted and self.shape is None and self.schedule is None:
-            raise ValueError("nothing is wanted: give `wanted`, `shape` or `schedule`")
-        if self.shape is not None and self.schedule is not None:
-            raise ValueError("give either `shape` or `schedule`")
+        given = [n for n in ("shape", "schedule", "cycle") if getattr(self, n) is not None]
+        if not self.wanted and not given:
+            raise ValueError("nothing is wanted: give `wanted`, `shape`, `schedule` or `cycle`")
+        if len(given) > 1:
+            raise ValueError(f"give either `{given[0]}` or `{given[1]}`")
+        if self.cycle is not None:
+            if self.least != "energy":
+                raise ValueError("a cycle asks for the least energy: `least: energy`")
+            timed = [w for w in self.wanted if w.at is not None]
+            if timed:
+                raise ValueError(f"`{timed[0].text()}`: a cycle has its own times; give what holds over the whole run")
         if (self.shape or self.schedule) and self.vary.rows_heated != "any":
             raise ValueError("`shape` and `schedule` say which rows are heated; leave `vary.rows_heated` out")
         return self

@@ -53,12 +53,13 @@ def check_outputs(sweep: SweepFile, assembly: Assembly, path: Path) -> None:
     for kind, given in (("outputs", sweep.outputs), ("series", sweep.series)):
         for name, asked in given.items():
             try:
-                _check(asked, assembly)
+                check_output(asked, assembly)
             except ValueError as error:
                 raise InputError(path, f"{kind}.{name}", str(error), "docs/sweeps.md explains every key") from error
 
 
-def _check(asked: Output | Recorded, assembly: Assembly) -> None:
+def check_output(asked: Output | Recorded, assembly: Assembly) -> None:
+    """Refuse what no run can have; raises ValueError: there is no such quantity, element or time, or another unit."""
     units = assembly.system.units
     unit, size = _kind(asked.quantity, units)
     if isinstance(asked.of, int) and asked.of > size:
@@ -75,6 +76,11 @@ def _check(asked: Output | Recorded, assembly: Assembly) -> None:
             raise ValueError(f"{key}: {moment} lies outside the run, which goes from {begin:g} s to {end:g} s")
     if asked.from_ is not None and asked.to is not None and asked.from_.to("s") > asked.to.to("s"):
         raise ValueError(f"from: {asked.from_} is later than `to`, {asked.to}")
+
+
+def unit_of(quantity: str, assembly: Assembly) -> str:
+    """Unit of a quantity, as it is recorded; raises ValueError where there is no such quantity."""
+    return _kind(quantity, assembly.system.units)[0] or "1"
 
 
 def _kind(quantity: str, units: Mapping[str, Unit]) -> tuple[str, int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import shutil
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from cosim.run import RunStopped, run
 from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
+from tests.control.closed_form import largest_error
 from tests.control.files import CAPACITY, CONDUCTANCE, loop
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples" / "control"
@@ -22,22 +22,7 @@ OFFSET = 273.15
 
 
 def test_the_sampled_loop_is_its_closed_form():
-    """x = (T - T_room, I): one step is x' = A x + b, so after k steps x = s + A^k (x_0 - s) with s = A s + b."""
-    gain, integral_time, step = 0.004, 4.0, 0.1
-    law = {"controller.law": {"kind": "pi", "gain": f"{gain} W/K", "integral_time": f"{integral_time} s"}}
-    found = run(loop({**law, "controller.setpoint": "60 degC"}, 30.0))
-    decay = math.exp(-CONDUCTANCE / CAPACITY * step)
-    heat = (1.0 - decay) / CONDUCTANCE
-    matrix = np.array([[decay - heat * gain, heat], [-gain * step / integral_time, 1.0]])
-    reference = 60.0 - 22.0
-    settled = np.linalg.solve(np.eye(2) - matrix, np.array([heat * gain, gain * step / integral_time]) * reference)
-    wanted = [settled + np.linalg.matrix_power(matrix, k) @ (np.zeros(2) - settled) for k in range(301)]
-    power = found["controller.command"].values[1:, 0]
-    assert power.min() > 0.0
-    assert power.max() < 2.0  # no limit was touched, so the loop is linear
-    temperature = found["actuator.temperature"].values[:, 0] - 295.15
-    np.testing.assert_allclose(temperature, np.array(wanted)[:, 0], atol=1e-9)
-    assert abs(settled[0] - reference) < 1e-9
+    assert largest_error() < 1e-9
 
 
 @pytest.mark.parametrize("share", [0.7, 1.0, 1.3])

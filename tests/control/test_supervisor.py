@@ -22,7 +22,8 @@ SLOWEST = POWER / (CAPACITY * (1 + SPREAD_C))
 COOLING = CAPACITY * (1 - SPREAD_C) / (CONDUCTANCE * (1 + SPREAD_G))
 
 
-def _cases(supervised: bool, faults: list[dict[str, object]]) -> dict[str, object]:
+def cases(supervised: bool, faults: list[dict[str, object]]) -> dict[str, object]:
+    """What is changed of the loop of one coil: 200 of them, drawn."""
     random = np.random.default_rng(SEED)
     convection = 90 * random.uniform(1 - SPREAD_G, 1 + SPREAD_G, COUNT)
     volume = 7.328e-9 * random.uniform(1 - SPREAD_C, 1 + SPREAD_C, COUNT)
@@ -81,7 +82,7 @@ FAULTS = [
 
 
 def test_no_coil_of_200_is_above_the_limit_by_more_than_a_kelvin():
-    found = run(loop(_cases(True, FAULTS), 20.0))
+    found = run(loop(cases(True, FAULTS), 20.0))
     highest = found["actuator.temperature"].values.max(axis=0) - 273.15
     assert highest.shape == (COUNT,)
     assert highest.max() < LIMIT + 1.0
@@ -102,14 +103,14 @@ def test_no_coil_of_200_is_above_the_limit_by_more_than_a_kelvin():
 
 
 def test_without_it_the_same_cases_go_far_above():
-    found = run(loop(_cases(False, FAULTS), 20.0))
+    found = run(loop(cases(False, FAULTS), 20.0))
     highest = found["actuator.temperature"].values.max(axis=0) - 273.15
     assert (highest > LIMIT + 1.0).sum() > 100
 
 
 @pytest.mark.parametrize("fault", [{"instant": "2 s"}, {"instant": "2 s", "reads": "22 degC"}])
 def test_a_failure_stays_a_failure(fault):
-    changes = _cases(True, [])
+    changes = cases(True, [])
     short = {**changes, "sensor": {**changes["sensor"], "faults": [{"element": 1, **fault}]}}  # type: ignore[dict-item]
     found = run(loop(short, 6.0))
     alarm = found["controller.alarm"].values[:, 0]

@@ -190,7 +190,7 @@ def test_what_no_run_reached_is_told_with_the_nearest(tmp_path):
     cold, hot = search.candidate(()), search.candidate((3, 4))
     search.ledger.units = ("m", "W")
     search.ledger.entries = [_entry("coarse", cold, 1, 0.07), _entry("coarse", hot, 1, 0.041)]
-    why = search._unmet()
+    why = search.unmet()
     assert isinstance(why, Impossible)
     assert "no run of 2 designs reached it, of which one heats rows 3, 4" in why.limit
     assert "0.041 m with rows 3, 4" in why.nearest
@@ -278,7 +278,7 @@ def test_a_design_that_barely_holds_from_one_start_is_not_the_end_of_a_search(tm
     assert search._room[1] == 0.0  # the power does not scatter
     barely = search.ledger.judged(search.candidate((3, 4, 5)))
     assert barely.is_met
-    assert not search._has_room(barely)
+    assert not search.has_room(barely)
 
 
 def test_programmes_stay_below_a_limit_of_power_by_what_the_solver_of_the_circuit_may_err(tmp_path):
@@ -311,6 +311,37 @@ def test_the_fewest_rows_of_a_shape_are_exact_against_all_patterns(rigid, flexib
     assert sorted(found) == sorted(expected)
     assert len(found) == count
     assert found[0] == tuple(rigid)
+
+
+def test_of_a_shape_only_rows_that_bend_too_much_are_heated_more():
+    """As in Bullet: row 4 bends by 12 degrees at 62 degC and by 5 at 68; row 6 is straight where rows 7, 8 have 68."""
+    source = EXAMPLES / "bend_in_the_middle.yaml"
+    task, scenario = load_task(source)
+    rig = rig_of(scenario, source)
+    task = with_requirements(task, rig)
+
+    class Bends(Ledger):
+        def _made(self, candidates, starts, fidelities):
+            self.units = ("W", *["deg"] * (len(task.wanted) - 1))
+            for c, s, f in zip(candidates, starts, fidelities):
+                hot = {p.row: p.hot for p in c.pulses}
+                bends = {
+                    3: 6.0,
+                    4: 12.0 if hot[4] < 340.0 else 5.0,
+                    7: 1.0,
+                    5: 12.0,
+                    6: 12.0 if hot[7] < 340.0 else 7.3,
+                }
+                values = tuple(19.0 if w.of == "max" else bends[w.of] for w in task.wanted)
+                distances = tuple(w.distance(v, u) for w, v, u in zip(task.wanted, values, self.units))
+                self.entries.append(Entry(f, c, s, values, distances, 1e-5, 50.0, "", 1.0))
+            return self.entries[-len(candidates) :]
+
+    search = Search(Bends(task, rig, Batches(Here())))
+    outcome = search.run()
+    assert outcome.winner is not None
+    assert [round(p.hot - 273.15) for p in outcome.winner.pulses] == [62, 68, 62, 62]
+    assert search.ledger.count("fine") == 4  # two designs, and two more starts of the second
 
 
 def test_a_schedule_heats_one_row_after_another_within_the_limits(tmp_path):
