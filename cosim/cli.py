@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
+import errno
 import gc
 import json
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -310,8 +313,38 @@ def main() -> NoReturn:
     except SystemExit as end:
         if _is_unsaid_interrupt(end):
             print("interrupted", file=sys.stderr)
+        _write_out()
         raise
+    except OSError as error:
+        _say_unwritten(error)
     sys.exit(0)
+
+
+def _write_out() -> None:
+    """Write what is left of the output now: Python does it after the last moment to say that it failed."""
+    try:
+        if sys.stdout is not None:  # it is where the shell has closed it
+            sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        _say_unwritten(error)
+
+
+def _say_unwritten(error: OSError) -> None:
+    """End the program because a disk is full, as where the output goes to a file.
+
+    Raises:
+        OSError: It is another error.
+    """
+    if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        raise error
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python tries again, and says so in its way
+    where = error.filename or "the output"
+    print(f"error: {where}: it cannot be written: {error.strerror}", file=sys.stderr)
+    print("  remedy: make room on the disk, and repeat the command", file=sys.stderr)
+    sys.exit(FAILED)
 
 
 def _is_unsaid_interrupt(end: SystemExit) -> bool:
