@@ -301,6 +301,8 @@ def main() -> NoReturn:
     """Entry point: every foreseen error becomes one message and an exit code."""
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     atexit.register(gc.freeze)  # or Python looks through all objects before it ends: a fifth of the time of `validate`
+    if hasattr(sys.stdout, "reconfigure"):  # a name that the terminal's encoding does not have ends no command
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         _check_working_folder()
         app()

@@ -10,7 +10,7 @@ import pytest
 
 from cosim.unit.quantity import parse_unit
 
-from .conftest import ROOT
+from .conftest import ROOT, finish
 
 COIL = (ROOT / "docs" / "examples" / "sweeps" / "one_coil.yaml").read_text()
 ROWS = "".join(f"{n},{20 + n * 0.01}\n" for n in range(200))
@@ -82,7 +82,7 @@ RECORDINGS = {
     "a doubt of nobody": (GOOD, "+uncertain: {nobody.x: 1 degC}\n", "no such number"),
     "a doubt of an element that is not there": (
         GOOD,
-        "+uncertain: {heaters.initial_temperature[7]: 1 K}\n",
+        "+uncertain: {'heaters.initial_temperature[7]': 1 K}\n",
         "elements",
     ),
     "overrides of themselves": (GOOD, "+overrides: &a {components: *a}\n", "components.components"),
@@ -124,6 +124,14 @@ def test_a_recording_is_refused(cosim, tmp_path, case):
     refused(cosim("recording", "check", tmp_path / "r", "--scenario", "tclab"), words)
 
 
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
+def test_a_terminal_that_lacks_a_letter_ends_no_command(start, tmp_path, encoding):
+    scenario = write(tmp_path / "Prüf 🧵.yaml", COIL)
+    answer = finish(start("validate", scenario, PYTHONIOENCODING=encoding))
+    assert answer.code == 0, answer
+    assert r"\U0001f9f5.yaml: valid" in answer.out
+
+
 def test_a_title_does_not_steer_the_terminal(cosim, tmp_path):
     write(tmp_path / "r" / "data.csv", b"\xef\xbb\xbf" + GOOD.encode())  # as spreadsheets begin a table in UTF-8
     write(tmp_path / "r" / "recording.yaml", SIDECAR.replace("title: t", 'title: "\\e[2Jcold"'))
@@ -157,6 +165,13 @@ def test_a_unit_is_no_arithmetic(text, is_unit):
             parse_unit(text)
 
 
+def test_a_folder_whose_name_is_no_utf8_is_refused_before_the_run(cosim, tmp_path):
+    """Its results were lost at the end: NetCDF has no such name."""
+    scenario = write(tmp_path / "s.yaml", COIL)
+    refused(cosim("run", scenario, "--no-plots", "--out", tmp_path / "\udcff\udcfe"), "is no UTF-8")
+    assert [p.name for p in tmp_path.iterdir()] == ["s.yaml"]
+
+
 def repacked(source: Path, target: Path, **changes: bytes) -> Path:
     """An FMU with other contents: `library`, `description` or an `entry` of a name beside them."""
     with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
@@ -182,7 +197,7 @@ def scenario_with(fmu: Path) -> str:
     [
         (0, "file too short"),
         (3000, "thermal_stiffness.so is cut off"),  # the loader mapped it, and the process ended by SIGBUS
-        (-5000, "thermal_stiffness.so is cut off"),
+        (-0x8000, "thermal_stiffness.so is cut off"),
         (None, "invalid ELF header"),
     ],
 )
@@ -190,7 +205,7 @@ def test_a_library_that_is_cut_off_ends_no_process(cosim, shipped_fmus, tmp_path
     source = Path(shipped_fmus) / "thermal_stiffness_fmi2.fmu"
     with zipfile.ZipFile(source) as archive:
         whole = next(archive.read(n) for n in archive.namelist() if n.endswith(".so"))
-    fmu = repacked(source, tmp_path / "cut.fmu", library=b"no library\n" if kept is None else whole[:kept])
+    fmu = repacked(source, tmp_path / "cut.fmu", library=b"no library\n" * 99 if kept is None else whole[:kept])
     refused(cosim("validate", write(tmp_path / "s.yaml", scenario_with(fmu))), words)
 
 
