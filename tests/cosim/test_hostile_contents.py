@@ -124,10 +124,9 @@ def test_a_recording_is_refused(cosim, tmp_path, case):
     refused(cosim("recording", "check", tmp_path / "r", "--scenario", "tclab"), words)
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
-def test_a_terminal_that_lacks_a_letter_ends_no_command(start, tmp_path, encoding):
+def test_a_terminal_that_lacks_a_letter_ends_no_command(start, tmp_path):
     scenario = write(tmp_path / "Prüf 🧵.yaml", COIL)
-    answer = finish(start("validate", scenario, PYTHONIOENCODING=encoding))
+    answer = finish(start("validate", scenario, PYTHONIOENCODING="ascii"))
     assert answer.code == 0, answer
     assert r"\U0001f9f5.yaml: valid" in answer.out
 
