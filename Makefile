@@ -95,7 +95,7 @@ $(VENV)/bin/python:
 	@command -v gcc >/dev/null || { echo "gcc is needed to build the FMUs: install gcc (Debian, Ubuntu: build-essential)"; exit 1; }
 	"$(PYTHON311)" -m venv $(VENV)
 
-$(VENV)/.installed: requirements.lock pyproject.toml tools/install_ngspice.sh $(wildcard cosim/native/*.[ch]) \
+$(VENV)/.installed: requirements.lock pyproject.toml setup.py tools/install_ngspice.sh $(wildcard cosim/native/*.[ch]) \
   | $(VENV)/bin/python
 	tools/install_ngspice.sh $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock

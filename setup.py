@@ -1,4 +1,6 @@
-"""What pyproject.toml cannot say: a wheel holds scenarios, actuators, templates and examples, and no evaluation.
+"""What pyproject.toml cannot say: what a wheel holds, and that one wheel serves every Python.
+
+It holds scenarios, actuators, templates and examples, and no evaluation. Its library in C knows nothing of Python.
 
 They go into `cosim/data`, under their names in the tree; cosim/shipped.py finds them there. A clone that is installed
 with `pip install -e` uses its own folders.
@@ -7,9 +9,12 @@ with `pip install -e` uses its own folders.
 from __future__ import annotations
 
 import shutil
+import sys
 from pathlib import Path
 
 from setuptools import setup
+from setuptools.command.bdist_wheel import bdist_wheel
+from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 
 #: Folders of the tree, and which files of them.
@@ -40,4 +45,18 @@ class BuildWithData(build_py):
                 shutil.copyfile(file, target / file)
 
 
-setup(cmdclass={"build_py": BuildWithData})
+class PlainLibrary(build_ext):
+    """Names the library as cosim/native/compiled.py looks for it, without the version of a Python."""
+
+    def get_ext_filename(self, fullname: str) -> str:
+        return str(Path(*fullname.split("."))) + (".dll" if sys.platform == "win32" else ".so")
+
+
+class AnyPython(bdist_wheel):
+    """Tags the wheel for its platform and any Python that `requires-python` allows."""
+
+    def get_tag(self) -> tuple[str, str, str]:
+        return "py3", "none", super().get_tag()[2]
+
+
+setup(cmdclass={"build_py": BuildWithData, "build_ext": PlainLibrary, "bdist_wheel": AnyPython})

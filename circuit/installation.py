@@ -88,7 +88,11 @@ def _candidates() -> Iterator[str]:
 
 
 def _files(folder: Path, pattern: str) -> list[str]:
-    return sorted(str(p) for p in folder.glob(pattern))
+    """Files of a folder; none where it, or one on the way to it, may not be read."""
+    try:
+        return sorted(str(p) for p in folder.glob(pattern))
+    except OSError:
+        return []
 
 
 def _fault_of_loading(library: str) -> str:

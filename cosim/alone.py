@@ -30,6 +30,10 @@ def alone(folder: Path, what: str) -> Iterator[None]:
     Raises:
         InputError: Another one is at work there, or the folder cannot be written or locked.
     """
+    try:
+        str(folder.absolute()).encode()
+    except UnicodeEncodeError as error:  # NetCDF would find out when the run is over
+        raise InputError(folder, "", "the name of this folder is no UTF-8", "give another with `--out`") from error
     file = folder / LOCK
     with writing(folder):
         made = missing(folder)

@@ -41,7 +41,6 @@ from cosim.components import (
 )
 from cosim.connection import Connection, ConnectionFault, Element
 from cosim.control.string_controllers import StringControllers
-from cosim.control_assembly import build_control
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu_assembly import build_fmu
@@ -163,6 +162,8 @@ def _build(name: str, component: Component, parameters: Resolved, scenario: Scen
         if isinstance(component, PendulumComponent):
             return build_pendulum(name, component, parameters)
         if isinstance(component, SensorComponent | ControllerComponent):
+            from cosim.control_assembly import build_control  # late: few scenarios have one
+
             return build_control(name, component, source)
         return _fmu(name, component, parameters, scenario, source)
     except InputError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, StrictStr, model_validator
@@ -26,12 +27,14 @@ NumberValue = StrictBool | AnyQuantity | list[AnyQuantity]
 class Strict(BaseModel):
     """Base: unknown keys are errors, and nothing changes after loading."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 def nanoseconds(value: PhysicalValue) -> int:
     """Integer time [ns] of a quantity of time; raises ValueError if it is no whole number of nanoseconds."""
     exact = value.to("s") * NANOSECONDS
+    if not math.isfinite(exact):
+        raise ValueError(f"`{value}` is too long for simulated time, which is counted in nanoseconds")
     if abs(exact - round(exact)) > 1e-3:
         raise ValueError(f"`{value}` is not a whole number of nanoseconds")
     if exact and not round(exact):

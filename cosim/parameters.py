@@ -22,7 +22,7 @@ from cosim.yaml_file import input_error, parse_yaml, read_text
 class Parameter(BaseModel):
     """One number (or switch) of a parameter set."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     value: StrictBool | Annotated[PhysicalValue, In()]
     unit: str = ""
     source: str = Field(min_length=3, description="Where the value comes from: a publication, or an assumption and why")
@@ -49,7 +49,7 @@ class Parameter(BaseModel):
 class ParameterSet(BaseModel):
     """A file of parameters."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     title: str
     parameters: dict[str, Parameter]
 

@@ -62,13 +62,15 @@ class _UniqueKeyLoader(yaml.CSafeLoader):
 
 
 def refuse_pipe(path: Path, remedy: str) -> None:
-    """Refuse a named pipe in the place of a file: it would be waited for until somebody writes.
+    """Refuse a named pipe or a device in the place of a file: one waits for a writer, the other may have no end.
 
     Raises:
         InputError: It is one.
     """
     if path.is_fifo():
         raise InputError(path, "", "it is a pipe and no file", remedy)
+    if path.is_char_device() or path.is_block_device():
+        raise InputError(path, "", "it is a device and no file", remedy)
 
 
 def read_text(path: Path) -> str:

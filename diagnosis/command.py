@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from cosim.alone import alone
 from cosim.loading import load_scenario
@@ -68,6 +67,8 @@ def diagnose(
     are simulated by one compiled function; a pendulum or a fabric in Bullet by the co-simulation itself, which takes
     longer.
     """
+    from rich.console import Console
+
     from cosim.compute.batch import Batches
     from cosim.compute.cache import Cache
     from cosim.compute.cluster import choose_place

@@ -123,7 +123,7 @@ def _report(
         write_atomically(out / "comparison.csv", as_csv(columns).encode())
         write_atomically(out / "comparison.json", as_json(title, columns, notes, problems).encode())
         if runs:
-            draw(out / "comparison.png", runs, layout)
+            draw(out / "comparison.png", runs, layout, title)
     show(columns, Console())
     for line in lines:
         print(line)

@@ -21,8 +21,8 @@ DASHES = ("-", "--", "-.", ":")
 WIDE = 5.0
 
 
-def draw(path: Path, runs: Mapping[str, xr.Dataset], layout: Layout) -> Path:
-    """Draw one line per actuator in every panel that any of them fills."""
+def draw(path: Path, runs: Mapping[str, xr.Dataset], layout: Layout, title: str = "") -> Path:
+    """Draw one line per actuator in every panel that any of them fills; `title` is that of the scenario."""
     panels = [
         (label, found)
         for label, found in (
@@ -37,7 +37,8 @@ def draw(path: Path, runs: Mapping[str, xr.Dataset], layout: Layout) -> Path:
         if any(v is not None for v in found.values())
     ]
     marks = [t for t in (layout.on, layout.off) if t is not None]
-    with figure(path, width=7.0, height=0.6 + 1.7 * len(panels), rows=len(panels)) as axes:
+    height = 0.9 + 1.7 * len(panels)
+    with figure(path, 7.0, height, len(panels), title="Actuators side by side", run=title) as axes:
         for place, (label, found) in zip(axes, panels, strict=True):
             for index, (name, values) in enumerate(found.items()):
                 if values is not None:

@@ -8,7 +8,16 @@ from pathlib import Path
 
 import xarray as xr
 
-from chainmail.figures import closed_loop, currents, curvature, lengths, side_view, stiffness_loops, temperatures
+from chainmail.figures import (
+    closed_loop,
+    currents,
+    curvature,
+    lengths,
+    quantities,
+    side_view,
+    stiffness_loops,
+    temperatures,
+)
 from chainmail.measures import one_start, switches
 from cosim.alone import alone
 from cosim.run_folder import RunFolder, writing
@@ -78,4 +87,6 @@ def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callab
         found["currents"] = partial(currents.draw, run=single, marks=marks)
     for name in closed_loop.controllers(single):
         found[f"closed_loop_{name}"] = partial(closed_loop.draw, run=single, controller=name)
+    if not found and quantities.by_unit(single):
+        found["quantities"] = partial(quantities.draw, run=single, marks=marks)
     return found

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from cosim.fmu_tools.sources import Language
 from cosim.terminal import as_argument
@@ -74,6 +73,8 @@ def export(
 @app.command()
 def info(file: File, is_json: Annotated[bool, typer.Option("--json", help="As JSON.")] = False) -> None:
     """Show what an FMU is: versions, interfaces, capabilities, variables, whether it is an actuator."""
+    from rich.console import Console
+
     from cosim.fmu_tools.info import read_info, show_info
 
     found = read_info(file)
@@ -86,6 +87,8 @@ def info(file: File, is_json: Annotated[bool, typer.Option("--json", help="As JS
 @app.command()
 def validate(file: File) -> None:
     """Check an FMU: description, binary, symbols, behaviour. The exit code is 1 where a check fails."""
+    from rich.console import Console
+
     from cosim.fmu_tools.validate import validate as validate_fmu
 
     console, failed = Console(highlight=False, soft_wrap=True), 0

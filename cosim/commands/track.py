@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from cosim.alone import alone
 from cosim.unit.errors import InputError
@@ -24,6 +23,8 @@ def track(
     Places of markers, row centres, angles of links and the largest curvature, each with its uncertainty. A frame that
     cannot be resolved is a gap. Exit code 2: wrong input.
     """
+    from rich.console import Console
+
     from chainmail.camera.frames import Frames
     from chainmail.camera.measure import measure
     from chainmail.camera.output import refuse_recording, write_tracks

@@ -137,16 +137,6 @@ def open_fmu(path: Path, is_shared: bool = True) -> FmuArchive:
     return FmuArchive(path, directory, description, shared)
 
 
-def missing_binary(archive: FmuArchive, identifier: str) -> str:
-    """What is wrong with the name of the shared library; empty where there is one for this platform."""
-    name = f"{identifier}{fmpy.sharedLibraryExtension}"
-    folders = [archive.directory / "binaries" / platform for platform in (fmpy.platform_tuple, fmpy.platform)]
-    if any((folder / name).is_file() for folder in folders):
-        return ""
-    there = sorted(p.name for folder in folders if folder.is_dir() for p in folder.iterdir())
-    return f"no {name} for {fmpy.platform_tuple}" + (f", where it holds {', '.join(there)}" if there else "")
-
-
 def _check_platform(path: Path, description: ModelDescription) -> None:
     supported = fmpy.supported_platforms(str(path))
     wanted = fmpy.platform if description.fmiVersion.startswith("2") else fmpy.platform_tuple

@@ -25,7 +25,8 @@ from cosim.fmu.access import (
     TextReader,
     TextWriter,
 )
-from cosim.fmu.archive import FmuArchive, missing_binary
+from cosim.fmu.archive import FmuArchive
+from cosim.fmu.library import fault_of_library
 from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable
@@ -134,6 +135,9 @@ class Binding(ABC):
         self.capabilities = kind
         #: Whether Event Mode is used; Co-Simulation in FMI 3.0 may have it.
         self.uses_event_mode = interface == "model_exchange"
+        fault = fault_of_library(archive, kind.modelIdentifier)
+        if fault:
+            raise InputError(archive.path, "binaries", *fault)
         self._claim()
         try:
             self.fmu = self._load(kind.modelIdentifier)
@@ -142,10 +146,6 @@ class Binding(ABC):
         except Exception as error:  # fmpy raises bare Exception
             if self._claimed is not None:
                 del _ONLY_ONCE[self._claimed]
-            missing = missing_binary(archive, kind.modelIdentifier)
-            if missing:
-                remedy = "FMI names the library after the modelIdentifier; export the FMU again, or rename it"
-                raise InputError(archive.path, "binaries", missing, remedy) from error
             said = "".join(f"; it says: {m}" for m in self.messages[-3:])
             if "nstantiate" in str(error):  # fmpy's own words where the FMU gives no instance
                 raise InputError(

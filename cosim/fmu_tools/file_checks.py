@@ -12,8 +12,9 @@ import fmpy
 from fmpy.validation import validate_fmu
 
 from cosim.actuator.interface import faults
-from cosim.fmu.archive import FmuArchive, missing_binary, open_fmu
+from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
+from cosim.fmu.library import fault_of_name, library
 from cosim.fmu.units import UnitNames
 from cosim.fmu_tools.info import looks_like_actuator
 from cosim.fmu_tools.isolated import Skipped
@@ -68,11 +69,10 @@ def _binary(archive: FmuArchive) -> Path:
     kind = d.coSimulation or d.modelExchange or d.scheduledExecution
     if kind is None:
         raise ValueError("it declares no interface")
-    for folder in (fmpy.platform_tuple, fmpy.platform):
-        file: Path = archive.directory / "binaries" / folder / f"{kind.modelIdentifier}{fmpy.sharedLibraryExtension}"
-        if file.is_file():
-            return file
-    raise ValueError(missing_binary(archive, kind.modelIdentifier))
+    file = library(archive, kind.modelIdentifier)
+    if file is None:
+        raise ValueError(fault_of_name(archive, kind.modelIdentifier))
+    return file
 
 
 def binary(path: Path) -> str:

@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from cosim.fmu.archive import missing_binary, open_fmu
+from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.binding import other_interface
+from cosim.fmu.library import fault_of_library
 from cosim.fmu_tools import file_checks, run_checks
 from cosim.fmu_tools.isolated import Verdict, run_isolated
 
@@ -56,7 +57,7 @@ def validate(path: Path) -> Iterator[tuple[str, Verdict]]:
     """
     archive = open_fmu(path)
     kind = archive.description.coSimulation or archive.description.modelExchange
-    instead = other_interface(archive) if kind is None else missing_binary(archive, kind.modelIdentifier)
+    instead = other_interface(archive) if kind is None else _fault(archive, kind.modelIdentifier)
     is_actuator = file_checks.is_actuator(path)
     archive.remove()
     for check in FILE_CHECKS if instead else FILE_CHECKS + RUN_CHECKS:
@@ -69,3 +70,8 @@ def validate(path: Path) -> Iterator[tuple[str, Verdict]]:
         yield first.name, Verdict(False, instead)
         for check in others:
             yield check.name, Verdict(None, "cannot be run here")
+
+
+def _fault(archive: FmuArchive, identifier: str) -> str:
+    fault = fault_of_library(archive, identifier)
+    return "" if fault is None else fault[0]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import sys
-import sysconfig
 from functools import cache
 from pathlib import Path
 
@@ -19,8 +18,8 @@ class LibraryAbsent(Exception):
 
 
 def library_path() -> Path:
-    """Where setuptools puts the library, in a source tree and in an installation."""
-    return _FOLDER / f"_stepper{sysconfig.get_config_var('EXT_SUFFIX')}"
+    """Where setuptools puts the library, in a source tree and in an installation; setup.py names it."""
+    return _FOLDER / f"_stepper{'.dll' if sys.platform == 'win32' else '.so'}"
 
 
 @cache

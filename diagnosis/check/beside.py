@@ -24,6 +24,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
 from diagnosis.report.user_units import Units
+from diagnosis.search.free_numbers import check_stated
 
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
 MOST_STEPS = 400_000
@@ -220,6 +221,7 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
         InputError: The recording does not fit the scenario.
     """
     own = scenario_of(scenario, recording)
+    check_stated(own, recording)
     note, runs = "", [results] if results is not None else []
     if results is None:
         note = _hindrance(own)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from cosim.alone import alone
 from cosim.loading import load_scenario
@@ -88,6 +87,8 @@ def _read(scenario: str, out: Path, channels: str, sensor: Path | None, seed: in
 
 def _render(scenario: str, out: Path, camera: Path, seed: int, changes: list[str]) -> None:
     """Frames of a run, or of the markers of a CSV file."""
+    from rich.console import Console
+
     from chainmail.camera.camera_file import load_camera  # late: OpenCV is an extra
     from chainmail.camera.opencv import opencv
     from chainmail.camera.rendered import motion_of_results, motion_of_table, write_video

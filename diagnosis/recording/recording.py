@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.terminal import in_one_line
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import PhysicalValue
@@ -209,7 +210,7 @@ class _Reader:
                 raise InputError(self.file, "beginning", what, f"give less than {length:.6g} s")
         return Recording(
             self.file.parent,
-            sidecar.title,
+            in_one_line(sidecar.title),  # it is printed, and a title must not steer a terminal
             channels,
             inputs,
             sidecar.overrides,
@@ -430,6 +431,8 @@ class _Reader:
             raise InputError(self.file, f"{key}.unit", str(error), error.remedy) from error
         if not value.number * factor > 0:
             raise InputError(self.file, key, f"{value} is not positive", "give a positive number with its unit")
+        if value.number * factor > MOST:
+            raise InputError(self.file, key, f"{value} is too large", f"give at most {MOST / factor:.3g} {value.unit}")
         return factor * value.number
 
 

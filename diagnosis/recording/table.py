@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,11 @@ class Table:
             self._frame = self._read(header_lines, wanted)
         except InputError:
             raise
+        except UnicodeError as error:
+            what = "it is not saved as UTF-8"
+            raise InputError(
+                file, "", what, f"save it as `CSV UTF-8`, or {NEW} reads it and writes a plain copy"
+            ) from error
         except Exception as error:  # pandas and pyarrow raise many unrelated kinds
             raise InputError(
                 file,
@@ -62,7 +68,21 @@ class Table:
             raise InputError(self.file, "", what, f"{NEW} reads such tables")
         columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
         self._check_widths(header_lines)
+        self._check_names(header_lines, columns)
         return pd.read_csv(self.file, usecols=columns, **how)
+
+    def _check_names(self, header_lines: int, columns: Collection[str]) -> None:
+        """Refuse a column that is asked for and stands twice; pandas takes the first and calls the second `T.1`.
+
+        Raises:
+            InputError: There are two of that name.
+        """
+        with self.file.open(encoding="utf-8-sig", newline="") as lines:
+            names = next(csv.reader(itertools.islice(lines, header_lines, None), skipinitialspace=True), [])
+        twice = next((name for name in columns if names.count(name) > 1), None)
+        if twice is not None:
+            what = f"the column `{twice}` is there {names.count(twice)} times"
+            raise InputError(self.file, f"line {header_lines + 1}", what, "give every column a name of its own")
 
     def _check_widths(self, header_lines: int) -> None:
         """Refuse rows with more values than there are columns: which are meant, nobody knows.

@@ -173,6 +173,17 @@ def _stated(scenario: Scenario, recordings: Sequence[Recording]) -> list[Free]:
     return found
 
 
+def check_stated(scenario: Scenario, recording: Recording) -> None:
+    """Hold the names, elements and units under `uncertain` against a scenario.
+
+    Raises:
+        InputError: One is not there, or its deviation does not fit it.
+    """
+    numbers = Numbers(scenario)
+    for key, given in recording.uncertain.items():
+        _doubt(numbers, recording, 0, key, given)
+
+
 def _doubt(numbers: Numbers, recording: Recording, index: int, key: str, given: PhysicalValue) -> _Doubt:
     """One entry of `uncertain`.
 

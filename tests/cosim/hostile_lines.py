@@ -143,6 +143,20 @@ design '' --out @out
 recording new @one_line.csv --scenario tclab --out @out
 recording new @same_name.csv --scenario tclab --out @out
 recording new @pipe.yaml --scenario tclab --out @out
+recording new /dev/zero --scenario tclab --out @out
+recording new /dev/full --scenario tclab --out @out
+recording import /dev/zero --as @as.yaml --out @out
+recording import @tracks.csv --as /dev/zero --out @out
+track @text.txt --rig /dev/zero --out @out
+track /dev/zero --rig @rig.yaml --out @out
+play /dev/zero
+sweep /dev/zero --out @out
+design /dev/zero --out @out
+record /dev/zero --out @out
+compare /dev/zero --out @out
+fmu info /dev/zero
+ssp import /dev/zero --out @out
+ssp validate /dev/zero
 recording new @loop.yaml --scenario tclab --out @out
 recording new '' --scenario tclab --out @out
 recording new @tracks.csv --scenario '' --out @out

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from chainmail.figures import quantities
 from chainmail.figures.draw import draw_run
 from cosim import figure_style as style
 from cosim.figure_style import SWITCH, figure, mark_switches, smoothed
@@ -129,3 +130,47 @@ def test_a_format_that_is_none_is_refused(given):
         formats_of(given)
     assert FORMATS == style.FORMATS
     assert formats_of("SVG, png,svg") == ["svg", "png"]
+
+
+def test_a_system_of_any_units_gets_a_figure_with_an_axis_for_each_unit(tmp_path, monkeypatch):
+    """Runs of somebody's FMUs had an empty folder of figures."""
+    time = np.arange(0.0, 10.0, 0.1)
+    dataset = xr.Dataset(
+        {
+            "tank.level": ("time", 1.0 + 0.1 * time, {"units": "m"}),
+            "tank.temperature": (("time", "zone"), 300.0 + np.outer(time, [1.0, 2.0]), {"units": "K"}),
+            "pump.is_on": ("time", time > 5.0),
+            "pump.message": ("time", np.array(["text"] * len(time))),
+            "pump.unknown": ("time", np.full(len(time), np.nan), {"units": "Pa"}),
+        },
+        {"time": time},
+        {"title": "Two zones"},
+    )
+    folder = RunFolder(tmp_path / "run")
+    folder.path.mkdir()
+    dataset.to_netcdf(folder.results, engine="netcdf4")
+    seen = {}
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        seen["heading"] = self.get_suptitle()
+        seen["axes"] = {
+            a.get_ylabel(): {line.get_label(): float(line.get_ydata()[-1]) for line in a.lines} for a in self.axes
+        }
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    assert [path.name for path in draw_run(folder.path)] == ["quantities.png"]
+    assert seen["heading"] == "Recorded quantities\nTwo zones"
+    assert set(seen["axes"]) == {"[m]", "[°C]", "[1]"}
+    assert seen["axes"]["[m]"] == pytest.approx({"tank.level": 1.99})
+    assert seen["axes"]["[°C]"] == pytest.approx({"tank.temperature[1]": 36.75, "tank.temperature[2]": 46.65})
+    assert seen["axes"]["[1]"] == {"pump.is_on": 1.0}
+
+
+def test_a_large_system_says_how_much_of_it_is_drawn(tmp_path):
+    dataset = xr.Dataset({"a.x": (("time", "element"), np.zeros((5, 300)), {"units": "m"})}, {"time": np.arange(5.0)})
+    assert sum(len(lines) for lines in quantities.by_unit(dataset).values()) == 300
+    assert quantities._left_out(quantities.by_unit(dataset), quantities.by_unit(dataset)) == (
+        ", 10 of 300 (all of them: results.nc)"
+    )

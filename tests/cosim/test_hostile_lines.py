@@ -103,6 +103,28 @@ def test_a_reader_that_has_enough_is_no_error(shipped_fmus, line):
     assert "Errno 32" not in done.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is always full")
+@pytest.mark.parametrize("line", ["list", "schema", "validate tclab", "fmu info {fmu} --json", "--help"])
+def test_an_output_that_has_no_room_is_said(shipped_fmus, line):
+    """`cosim schema > file` on a full disk was a traceback, or ended well with half a file."""
+    fmu = next(Path(shipped_fmus).glob("*.fmu"))
+    command = [sys.executable, "-m", "cosim.cli", *line.format(fmu=shlex.quote(str(fmu))).split()]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            command,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            check=False,
+        )
+    assert done.returncode == 1, done.stderr
+    assert done.stderr.splitlines() == [
+        "error: the output: it cannot be written: No space left on device",
+        "  remedy: make room on the disk, and repeat the command",
+    ]
+
+
 def test_a_folder_that_was_removed_under_the_command_is_said(start, tmp_path):
     gone = tmp_path / "gone"
     gone.mkdir()

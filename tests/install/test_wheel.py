@@ -9,6 +9,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from packaging.utils import parse_wheel_filename
+
+from cosim.native.compiled import library_path
 
 ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.slow
@@ -74,6 +77,15 @@ def test_its_top_level_names_are_the_packages(wheel):
     assert len(templates) > 10
     for file in templates:
         assert file.relative_to(ROOT).as_posix() in names
+
+
+def test_one_wheel_serves_every_python_of_its_platform(wheel):
+    """It was built for the Python that built it; another said "is not a supported wheel on this platform"."""
+    (tag,) = {(t.interpreter, t.abi) for t in parse_wheel_filename(wheel.name)[3]}
+    assert tag == ("py3", "none")
+    with zipfile.ZipFile(wheel) as archive:
+        libraries = [name for name in archive.namelist() if name.endswith((".so", ".dll", ".pyd"))]
+    assert libraries == [library_path().relative_to(ROOT).as_posix()]
 
 
 def test_it_lists_scenarios_and_runs_one_with_an_fmu_that_it_builds_once(cosim):
