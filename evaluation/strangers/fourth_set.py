@@ -40,6 +40,11 @@ def scaled(state: int, factor: float) -> Callable[[Array, Array, Array], Array]:
     return lambda t, x, u: np.asarray(factor * x[:, state])
 
 
+def fahrenheit(state: int) -> Callable[[Array, Array, Array], Array]:
+    """Reading of a temperature that is a state [degF]."""
+    return lambda t, x, u: np.asarray((x[:, state] - CELSIUS) * 1.8 + 32.0)
+
+
 def bursts(rng: Rng, stop: float, pause: float, length: float, low: float, high: float, grid: float) -> Steps:
     """Random levels for a while, 0 in between, on a grid of instants [s]."""
     times, levels, t = [0.0], [0.0], 0.0
@@ -845,7 +850,7 @@ def _board(folder: Path, rng: Rng) -> None:
                 f"coil[{place}].temperature",
                 f"TC{i + 1}_F",
                 "degF",
-                lambda t, x, u, i=i: np.asarray((x[:, i] - CELSIUS) * 1.8 + 32.0),
+                fahrenheit(i),
                 0.4,
                 0.5,
                 1.0,
