@@ -231,7 +231,7 @@ def test_the_page_gives_intervals_ambiguity_and_readable_units(tmp_path: Path) -
         r"string current \[mA\], 6 channels27\.012\.03\.0081\.016\.01\.0030\.012\.02\.503\.00 to 3\.00", text
     )
     told = "81.0 before, 16.0 recalibrated only, 1.00 after"
-    assert f"chi-square per sample (held out), all channels: {told}" in text
+    assert f"chi-square per sample (held out, numbers of the day as written down), all channels: {told}" in text
 
 
 def test_foreign_text_is_shown_and_never_run(tmp_path: Path) -> None:
@@ -359,6 +359,6 @@ def test_the_improvement_is_told_where_a_finding_shows_too() -> None:
         for f in told.fit
     ]
     said = improvement(replace(told, findings=(finding,), fit=tuple(better)))
-    assert said.endswith("where findings show most: 81.0 before, 16.0 recalibrated only, 0.500 after")
+    assert "where findings show most: 81.0 before, 16.0 recalibrated only, 0.500 after; with those numbers" in said
     everywhere = replace(finding, channels=tuple(f.channel for f in told.fit))
     assert "where findings" not in improvement(replace(told, findings=(everywhere,)))
