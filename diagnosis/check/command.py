@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from cosim.alone import alone
 from cosim.loading import load_scenario
@@ -106,6 +105,8 @@ def check(
         refuse_unknown(scenario_of(base, one), one)
     every = [compare(base, one) for one in loaded]
     doubts = doubts_of(every)
+    from rich.console import Console  # here: `cosim validate` loads this module
+
     print_check(every, doubts, Console())
     if out is not None:
         with writing(out):

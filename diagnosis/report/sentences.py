@@ -109,7 +109,8 @@ def improvement(diagnosis: Diagnosis) -> str:
             own = mean_chi_square(part, is_held_out) if is_part else None
             where = f"; where findings show most: {_course(own)}" if own else ""
             right = diagnosis.adequacy
-            if is_held_out and right is not None and right.day:  # what judged is not what the rows hold
+            is_fitted = len({mean.get(stage) for stage in STAGES}) > 1
+            if is_held_out and is_fitted and right is not None and right.day:  # what judged is not what the rows hold
                 name += ", numbers of the day as written down"
                 where += f"; with those numbers estimated, as judged: {_course(right.chi_square)}"
             return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"

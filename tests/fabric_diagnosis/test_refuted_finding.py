@@ -90,7 +90,9 @@ def test_what_held_out_readings_reject_is_suggested_and_not_accepted_and_so_when
     found = answer(out)
     assert [f["effect"] for f in found["findings"]] == ["tilt"]
     assert not found["findings"][0]["is_accepted"]
-    assert "-2 log likelihood rises" in " ".join(found["findings"][0]["doubts"])
+    # Contacts differ between processors: by itself, or with what was fitted beside it, the law predicts worse.
+    why = " ".join(found["findings"][0]["doubts"])
+    assert "-2 log likelihood rises" in why or "are predicted worse than by the scenario as it is" in why
     made = Cache(out / "simulations").count()
     assert made > 10
     again = tmp_path / "again"
