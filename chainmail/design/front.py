@@ -119,11 +119,22 @@ class Front:
         ladder = [begin]
         while ladder[-1][1] > 0 and (cooler := self._first(begin[0], ladder[-1][1] - 1, ladder[-1][2])):
             ladder.append(cooler)
-        for place in reversed(ladder):
-            if search.meets(self._candidate(place)):
+        for place in self._coolest_first(ladder):
+            if self._is_short(place) and search.meets(self._candidate(place)):
                 self._found.insert(0, place)
                 break
         return notes
+
+    def _coolest_first(self, ladder: list[Place]) -> list[Place]:
+        """Levels of a ladder from the coolest up, each with the geometries of its own and of cooler levels.
+
+        What does at a cooler level from one start has more room at a hotter one.
+        """
+        found = []
+        for rows, level, _ in reversed(ladder):
+            cooler = dict.fromkeys(keys for _, other, keys in reversed(ladder) if other <= level)
+            found += [(rows, level, keys) for keys in cooler]
+        return found
 
     def _hottest(self, notes: list[str]) -> Place | None:
         """The fewest rows that do, as hot as the delay allows; with the scenario's own geometry if it does."""

@@ -134,6 +134,14 @@ class Ledger:
             kept = self._decided[candidate] = self._full([candidate], [start], "fine")[0]
         return kept
 
+    def mean_distances(self, entry: Entry) -> tuple[float, ...]:
+        """Of a design, over all starts with the scenario's own settings; of a coarse or short run its own."""
+        own = [e.distances for e in self.entries if e.candidate == entry.candidate and e.fidelity == "fine"]
+        complete = [d for d in own if d]
+        if entry.fidelity != "fine" or not complete:
+            return entry.distances
+        return tuple(float(d) for d in np.mean(complete, axis=0))
+
     def left(self) -> int:
         """Runs of the scenario's own settings that are left, or short ones where these come first."""
         most = self.task.runs

@@ -171,9 +171,12 @@ class Search:
         return self.has_room(entry)
 
     def has_room(self, entry: Entry) -> bool:
-        room = entry.distances if not self._room else self._room
-        where = range(len(room)) if self.counting is None else self.counting
-        return entry.meets(self.counting) and (not self._room or all(entry.distances[n] >= room[n] for n in where))
+        if not entry.meets(self.counting):
+            return False
+        # Where several starts of a design are known, the first one may be the luckiest.
+        known = self.ledger.mean_distances(entry)
+        where = range(len(known)) if self.counting is None else self.counting
+        return not self._room or all(math.isnan(known[n]) or known[n] >= self._room[n] for n in where)
 
     def run(self) -> Outcome:
         """Search, then check on fresh starts.
