@@ -2,7 +2,7 @@
 
 It holds scenarios, actuators, templates and examples, and no evaluation. Its library in C knows nothing of Python.
 
-They go into `cosim/data`, under their names in the tree; cosim/shipped.py finds them there. A clone that is installed
+These go into `cosim/data`, under their names in the tree; cosim/shipped.py finds them there. A clone that is installed
 with `pip install -e` uses its own folders.
 """
 

@@ -69,7 +69,7 @@ def figure(
 def _heading(title: str, run: str, width: float) -> str:
     """Title and run; a long name of a run takes a second line."""
     lines = textwrap.wrap(run, width=round(16 * width), max_lines=2, placeholder=" ...") if run else []
-    return "\n".join(text.replace("$", r"\$") for text in (title, *lines))
+    return "\n".join(text.replace("$", r"\$").replace("degC", DEGREES) for text in (title, *lines))
 
 
 def label_of(run: xr.Dataset) -> str:
