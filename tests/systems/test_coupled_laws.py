@@ -120,7 +120,7 @@ def test_play_of_a_transmission_is_found_and_the_amended_scenario_runs(
     found = json.loads((out / "diagnosis.json").read_text())
     (law,) = [f for f in found["findings"] if f["is_accepted"]]
     assert (law["effect"], law["place"]) == ("coupling_play_of_w_b", "shaft.w_a")
-    # Its numbers end in a local minimum (play 0.0485 for 0.04 rad), so that readings reject the model and it has no name.
+    # Its numbers end in a local minimum (play 0.0485 for 0.04 rad): readings reject the model, and it has no name.
     assert found["verdict"] in ("missing physics", "unnamed physics")
     assert found["adequacy"]["chi_square"]["after"] < 0.5 * found["adequacy"]["chi_square"]["recalibrated"]
     amended = out / "amended" / "scenario.yaml"
