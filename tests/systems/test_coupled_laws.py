@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
 from cosim.cli import main
 from cosim.run import run
-from cosim.scenario import load_scenario, parse_scenario
+from cosim.scenario import parse_scenario
 from cosim.unit.protocol import Array
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
+from diagnosis.search.cosim_run import Changes, changed
 from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import held, write_recording
 
@@ -83,6 +83,22 @@ def test_a_damper_between_both_keeps_their_momentum(tmp_path: Path) -> None:
     system.close()
 
 
+def test_the_co_simulation_of_the_amended_scenario_is_what_was_fitted(tmp_path: Path) -> None:
+    fit = _fits(tmp_path)["coupling_play_of_w_b"]
+    scenario = parse_scenario(SCENARIO, tmp_path / "scenario.yaml")
+    values = (K / J_1, 0.04, J_1 / J_2)
+    entries = tuple(placed.entry(fit.values_of(placed, values)) for placed in fit.every)
+    there = run(changed(scenario, Changes(added={"shaft": entries})))["shaft.motor"].values
+    system = FastSystem(scenario, fit.every)
+    system.set_substeps(8)
+    rows = system.simulate(None, {n: fit.values_of(placed, values) for n, placed in enumerate(fit.every)})
+    assert rows is not None
+    mine = rows.values[:, system.recorded["shaft", "motor"]][:, 0]
+    # Both integrate across the edges of the play: a thousandth of the way of some 10 rad.
+    np.testing.assert_allclose(mine, there, atol=1e-3 * float(np.max(np.abs(there))))
+    system.close()
+
+
 def _recordings(folder: Path, play: float) -> list[Path]:
     """Recordings of a shaft with play to either side, encoders with 0.5 mrad of noise."""
     found = []
@@ -105,9 +121,7 @@ def _recordings(folder: Path, play: float) -> list[Path]:
 
 
 @pytest.mark.slow
-def test_play_of_a_transmission_is_found_and_the_amended_scenario_runs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_play_of_a_transmission_is_found_at_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     SHAFT.build(tmp_path)
     scenario, out = tmp_path / "scenario.yaml", tmp_path / "answer"
     scenario.write_text(SCENARIO)
@@ -123,7 +137,3 @@ def test_play_of_a_transmission_is_found_and_the_amended_scenario_runs(
     # Its numbers end in a local minimum (play 0.0485 for 0.04 rad): readings reject the model, and it has no name.
     assert found["verdict"] in ("missing physics", "unnamed physics")
     assert found["adequacy"]["chi_square"]["after"] < 0.5 * found["adequacy"]["chi_square"]["recalibrated"]
-    amended = out / "amended" / "scenario.yaml"
-    terms = yaml.safe_load(amended.read_text())["components"]["shaft"]["added_terms"]
-    assert [t["to"] for t in terms] == ["der(w_a)", "der(w_b)"]
-    assert np.isfinite(run(load_scenario(str(amended)))["shaft.motor"].values).all()
