@@ -22,6 +22,7 @@ from diagnosis.models.systems.numbers import usual_numbers
 from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import Fit, fits, places_of
 from diagnosis.models.systems.sensors import reach_of, sensor_laws_of
+from diagnosis.models.systems.steps import MOST_SUBSTEPS, resolve
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.series import Series, place_of
@@ -31,10 +32,9 @@ from diagnosis.search.problem import Point, Term
 from diagnosis.search.unit_law import UnitLaw
 
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
-EXACT, MOST_SUBSTEPS = 0.02, 64
-#: Steps of the integration in a macro-step, and largest difference from the co-simulation in the size of a quantity,
-#: where the first outputs are compared.
-CHECKED, AGREED = 8, 1e-3
+EXACT = 0.02
+#: Largest difference from the co-simulation in the size of a quantity, where the first outputs are compared.
+AGREED = 1e-3
 #: Macro-steps over which a run of the co-simulation is compared.
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
@@ -239,17 +239,15 @@ def _check_agreement(results: xr.Dataset, fast: FastSystem) -> None:
     Raises:
         NotFast: They are not the same.
     """
-    fast.set_substeps(CHECKED)
-    rows = fast.simulate()
-    fast.set_substeps(1)
-    if rows is None:
+    values = resolve(fast)
+    if values is None:
         raise NotFast("a simulation stops; `cosim run` tells why")
     count = len(results["time"])
     for (component, name), columns in fast.recorded.items():
         variable = f"{component}.{name}"
         if variable in results and results[variable].dtype == np.float64:
             there = results[variable].values.reshape(count, -1)
-            mine, size = rows.values[:, columns], float(np.std(rows.values[:, columns])) or 1.0
+            mine, size = values[:, columns], float(np.std(values[:, columns])) or 1.0
             if np.max(np.abs(mine[:count] - there), initial=0.0) > AGREED * size:
                 raise NotFast(f"{variable} is not what `cosim run` gives")
 

@@ -15,10 +15,11 @@ from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, parse_unit, registry
 from diagnosis.laws.law import Law, Number
 from diagnosis.models.systems.expression import names_in, renamed
-from diagnosis.models.systems.fast import FastSystem, Rows
+from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
+from diagnosis.models.systems.steps import resolve
 from diagnosis.models.systems.targets import is_of, targets
 from diagnosis.search.problem import Term, TermParameter
 
@@ -68,11 +69,11 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
     """
     courses: list[dict[tuple[str, str], Array]] = []
     for system in systems:
-        first = _copy(system.simulate())
-        again = _copy(system.simulate())
-        if first is None or again is None:
+        first = resolve(system)
+        rows = system.simulate()
+        if first is None or rows is None:
             raise NotFast("a simulation stops, or an FMU cannot be reset; `cosim run` tells which")
-        if not np.allclose(first, again, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(first), initial=1.0))):
+        if not np.allclose(first, rows.values, rtol=1e-9, atol=1e-12 * float(np.max(np.abs(first), initial=1.0))):
             raise NotFast("an FMU that was reset is not as a new one")
         courses.append({key: first[:, s] for key, s in system.recorded.items()})
     step = systems[0].times[1] - systems[0].times[0] if len(systems[0].times) > 1 else 1.0
@@ -91,10 +92,6 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
-
-
-def _copy(rows: Rows | None) -> Array | None:
-    return None if rows is None else rows.values.copy()
 
 
 def _untried(fmu: FastFmu, own: Places) -> list[str]:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
 from cosim.run import run
 from cosim.scenario import Scenario
-from cosim.unit.protocol import Array, Causality
+from cosim.unit.protocol import Causality
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
-
-#: Steps of the integration are halved until nothing moves by more than this share of its own standard deviation.
-EXACT, MOST_SUBSTEPS = 1e-3, 64
+from diagnosis.models.systems.steps import resolve
 
 
 def is_system(scenario: Scenario) -> bool:
@@ -48,7 +45,7 @@ def _run(scenario: Scenario) -> xr.Dataset | None:
             shown = [v for v in unit.variables.values() if v.causality in (Causality.OUTPUT, Causality.LOCAL)]
             if fmu is not None and any(v.name not in fmu.outputs for v in shown):
                 raise NotFast(f"{name} has outputs that are no numbers of double precision")
-        values = _exact(system)
+        values = resolve(system)
         if values is None:
             return None
         data = {}
@@ -63,19 +60,3 @@ def _run(scenario: Scenario) -> xr.Dataset | None:
         return xr.Dataset(data, {"time": system.times})
     finally:
         system.close()
-
-
-def _exact(system: FastSystem) -> Array | None:
-    """Rows with as few steps of the integration as give the result."""
-    count, before = 1, None
-    while True:
-        system.set_substeps(count)
-        rows = system.simulate()
-        if rows is not None and before is not None:
-            moved = np.max(np.abs(rows.values - before), axis=0, initial=0.0)
-            if np.all(moved <= EXACT * np.std(before, axis=0) + 1e-12 * np.max(np.abs(before), axis=0, initial=0.0)):
-                return rows.values
-        if count >= MOST_SUBSTEPS:
-            return None if rows is None else rows.values
-        before = None if rows is None else rows.values.copy()
-        count *= 2
