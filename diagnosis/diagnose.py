@@ -45,7 +45,7 @@ from diagnosis.judge.unfitted import (
 )
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
-from diagnosis.models.build import models_of, uses_batches
+from diagnosis.models.build import models_of, uses_batches, with_switch_times
 from diagnosis.models.cosimulation.unit_laws import identifiers
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.biased import with_biases
@@ -151,8 +151,14 @@ def diagnose(
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
-    given = model
-    outcome, model, judge = _searched(model, judge, settings, on_progress)
+    given, judge_before = model, judge
+    outcome, model, judge = _searched(given, judge, settings, on_progress)
+    laws = outcome.best.fit.point.lasting.terms
+    moved = None if outcome.left.is_noise else with_switch_times(given, judge_before, laws)
+    if moved is not None:
+        on_progress("searching again: inputs changed between rows of their tables")
+        given = moved[0]
+        outcome, model, judge = _searched(given, moved[1], settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
     is_open = accepted.agreement.is_rejected and not is_small(accepted)

@@ -21,6 +21,8 @@ from diagnosis.recording.usage import COURSE
 #: Share of the bends of a simulated course that its input must explain, and how much of the rise in one output must be
 #: over in the next, of an output that follows at once. A first-order lag of two output steps keeps 0.6 of its rate.
 EXPLAINED, OVER = 0.8, 0.6
+#: Output steps on either side of a change without another, and fewest such changes that tell whether an output jumps.
+ALONE, FEWEST_ALONE = 2, 3
 #: Share to which changes of the residuals must fall with the output after the change, where every reading is at one.
 AFTER = 0.7
 #: Share of the scatter between neighbours below which that of the residuals replaces it, as noise that nobody stated.
@@ -44,7 +46,7 @@ def settled(channel: Channel, series: Series, inputs: Sequence[tuple[Array, Arra
     if len(series.times) < 5 or not inputs:
         return channel
     levels = np.stack([_held(times, values, series.times) for times, values in inputs])
-    if not _jumps(series.values, levels, channel.deviation):
+    if not any(asked(series.values, levels, channel.deviation) for asked in (_jumps_alone, _jumps)):
         return channel
     step = float(series.times[1] - series.times[0])
     switched = series.times[:-1][np.any(np.diff(levels, axis=1) != 0.0, axis=0)]
@@ -62,8 +64,31 @@ def _held(times: Array, values: Array, outputs: Array) -> Array:
     return np.asarray(values[np.maximum(np.searchsorted(times, outputs - slack, side="right") - 1, 0)])
 
 
+def _jumps_alone(values: Array, levels: Array, deviation: float) -> bool:
+    """Whether a simulated course jumps where inputs change, by changes with none beside them.
+
+    The jump may have another size at each: a flow through a valve hangs on the pressure too.
+
+    Args:
+        values: Shape (outputs,).
+        levels: Shape (inputs, outputs).
+        deviation: Of the noise.
+    """
+    if not np.isfinite(values).all():
+        return False
+    has_changed = np.any(np.diff(levels, axis=1) != 0.0, axis=0)
+    near = np.convolve(has_changed, np.ones(2 * ALONE + 1), mode="same")
+    steps = np.flatnonzero(has_changed & (near == 1))
+    steps = steps[(steps > 0) & (steps < len(values) - 2)]
+    if len(steps) < FEWEST_ALONE:
+        return False
+    rates = np.diff(values)
+    rise, after = np.abs(rates[steps] - rates[steps - 1]), np.abs(rates[steps + 1] - rates[steps - 1])
+    return bool(rise.max() > deviation and after.sum() < (1.0 - OVER) * rise.sum())
+
+
 def _jumps(values: Array, levels: Array, deviation: float) -> bool:
-    """Whether a simulated course jumps with inputs, by more than the noise.
+    """Whether a simulated course jumps with inputs that may change all the time, by more than the noise.
 
     Args:
         values: Shape (outputs,).

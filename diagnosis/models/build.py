@@ -20,6 +20,7 @@ from diagnosis.models.systems.model import SystemModel
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.fits import fitting
 from diagnosis.recording.recording import Recording
+from diagnosis.search.switch_times import Terms
 
 
 def model_of(
@@ -106,6 +107,30 @@ def models_of(
         return model, judge
     first = ClosedLoopModel(scenario, fitting(scenario, training), without, batches)
     return first, ClosedLoopModel(scenario, fitting(scenario, held_out), without, batches, first)
+
+
+def with_switch_times(
+    model: DiagnosisModel, judge: DiagnosisModel | None, terms: Terms
+) -> tuple[DiagnosisModel, DiagnosisModel | None] | None:
+    """Both models with an instant for each change of a recorded input, where readings ask for that beside found laws.
+
+    Before anything is found a law that is missing hides that they do, or such instants take up a bit of it.
+
+    Args:
+        model: Model of the recordings that were fitted.
+        judge: Model of those held out.
+        terms: Laws that were found, with their values.
+
+    Returns:
+        None where they do not ask for it.
+
+    Raises:
+        InputError: See `models_of`.
+    """
+    moved = model.with_switch_times(terms) if isinstance(model, ClosedLoopModel) else None
+    if moved is None:
+        return None
+    return moved, judge.after(moved) if isinstance(judge, ClosedLoopModel) else judge
 
 
 def _without_beginning(recordings: Sequence[Recording]) -> None:

@@ -8,7 +8,7 @@ the rig explains, or that a dead time, a lag or a gain of the input seems to exp
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,8 +34,14 @@ ONE_ROW = 2.0
 MOST = 24
 #: Probability of taking instants that are not needed.
 CHANCE = 1e-3
+#: Share of what noise does not explain that instants have to explain.
+MOST_OF_IT = 0.5
 #: Share of an input's range from which a change is one.
 LEAST = 0.02
+
+
+#: Laws that are present, with the values of their numbers.
+Terms = Mapping[Term, tuple[float, ...]]
 
 
 @dataclass(frozen=True)
@@ -76,34 +82,40 @@ def switch_times(scenarios: Sequence[Scenario], recordings: Sequence[Recording])
     return found
 
 
-def are_needed(plain: Model, moved: Model, late: Sequence[Term] = ()) -> bool:
-    """Whether the training recordings ask for instants of their own, before any other law is looked for.
+def are_needed(plain: Model, moved: Model, late: Sequence[Term] = (), terms: Terms | None = None) -> bool:
+    """Whether the training recordings ask for instants of their own.
 
     By what they gain beyond their priors, more than chance gives so many of them once in a thousand: where changes
-    come with their rows, such instants would only make everything else less certain. A dead time is what all changes
-    of an input have in common: they must gain over that too.
+    come with their rows, such instants would only make everything else less certain. And by what they leave: where a
+    law is missing, many free instants take up a bit of it; they explain what noise does not if that is most of it.
+    A dead time is what all changes of an input have in common: they must gain over that too.
 
     Args:
         plain: The model without them.
         moved: The same with them.
         late: Dead times of inputs.
+        terms: Laws that were found, with their values.
     """
     count = len(moved.parameters) - len(plain.parameters)
     least = chdtri(count, CHANCE)
-    costs = [fit(m, Point(np.zeros(len(m.parameters)))).cost for m in (plain, moved)]
-    if not costs[0] - costs[1] > least:
+    given = terms or {}
+    costs = [fit(m, Point(np.zeros(len(m.parameters)), given)).cost for m in (plain, moved)]
+    excess = costs[0] - len(plain.layout.time)
+    if not costs[0] - costs[1] > max(least, MOST_OF_IT * excess):
         return False
-    common = _with_late(plain, late)
-    if not common.point.terms:
+    common = _with_late(plain, late, given)
+    if set(common.point.terms) == set(given):
         return True
     own = fit(moved, Point(np.zeros(len(moved.parameters)), common.point.terms))
     return bool(common.cost - min(own.cost, costs[1]) > least)
 
 
-def _with_late(plain: Model, late: Sequence[Term]) -> Fit:
+def _with_late(plain: Model, late: Sequence[Term], terms: Terms) -> Fit:
     """The model with those dead times that it gains by, one after the other."""
-    best = fit(plain, Point(np.zeros(len(plain.parameters))))
+    best = fit(plain, Point(np.zeros(len(plain.parameters)), terms))
     for term in late:
+        if term in terms:
+            continue
         (number,) = term.parameters
         starts = [Point(best.point.base, {**best.point.terms, term: (s,)}) for s in number.starts]
         found = fit_best(plain, starts)

@@ -15,6 +15,7 @@ from cosim.loading import load_scenario
 from cosim.scenario import Scenario
 from diagnosis.faults.programme import with_changes
 from diagnosis.models.build import models_of
+from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.fit import fit
@@ -42,8 +43,16 @@ connections: [stove.heating -> hut.power]
 """
 
 
-def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True) -> np.ndarray:
-    """Readings by the closed form between the instants at which the heating changes; the instants [s]."""
+def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True, square: float = 0.0) -> np.ndarray:
+    """Readings by the closed form between the instants at which the heating changes; the instants [s].
+
+    Args:
+        folder: Of the recording.
+        seed: Of instants, powers and noise.
+        changes: How often the heating changes.
+        is_between: Whether it changes between rows of the table.
+        square: What the stove gives beside its power, per power squared [1/W].
+    """
     rng = np.random.default_rng(seed)
     capacity, conductance = 9.4e4, 105.0
     instants = np.sort(rng.uniform(600.0, 28000.0, changes))
@@ -53,8 +62,9 @@ def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True) 
     times = ROW * np.arange(COUNT)
     every = np.unique(np.concatenate([times, instants]))
     course, value = {0.0: 283.15}, 283.15
+    heats = powers + square * powers**2
     for begin, end in itertools.pairwise(every):
-        rest = 283.15 + powers[np.searchsorted(instants, begin, side="right")] / conductance
+        rest = 283.15 + heats[np.searchsorted(instants, begin, side="right")] / conductance
         value = rest + (value - rest) * np.exp(-conductance / capacity * (end - begin))
         course[float(end)] = value
     logged = powers[np.searchsorted(instants, times, side="right")]
@@ -139,3 +149,22 @@ def test_courses_that_change_with_each_row_or_along_lines_have_no_such_instants(
     (tmp_path / "line.yaml").write_text(text)
     line = load_scenario(tmp_path / "line.yaml")
     assert switch_times([scenario_of(line, few)], [few]) == []
+
+
+def test_a_missing_law_is_looked_for_before_instants_are(hut: Scenario, tmp_path: Path) -> None:
+    """Twenty free instants take up a bit of anything: they wait until what noise does not explain is mostly theirs."""
+    for name, seed in (("one", 11), ("two", 12)):
+        record(tmp_path / name, seed, square=-1e-4)
+    recordings = [load_recording(tmp_path / name) for name in ("one", "two")]
+    model = ClosedLoopModel(hut, recordings)
+    assert not model.has_instants
+    nothing = Point(np.zeros(len(model.parameters)))
+    assert model.with_switch_times({}) is None
+    law = next(t for t in model.terms() if t.identifier == "input_square")
+    found = fit(model, nothing.plus(law, (law.parameters[0].starts[0],)))
+    moved = model.with_switch_times(found.point.terms)
+    assert moved is not None
+    assert moved.has_instants
+    changes = [p for p in moved.parameters if p.is_within_row]
+    assert len(changes) == len(moved.parameters) - len(model.parameters) > 10
+    assert moved.with_switch_times(found.point.terms) is None  # it has them already

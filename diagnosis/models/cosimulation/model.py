@@ -24,10 +24,10 @@ from diagnosis.models.systems.run import is_system
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
-from diagnosis.search.free_numbers import Numbers, free_parameters
+from diagnosis.search.free_numbers import Free, Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
-from diagnosis.search.switch_times import are_needed, switch_times
+from diagnosis.search.switch_times import Terms, are_needed, switch_times
 from diagnosis.search.unit_law import UnitLaw
 
 
@@ -40,6 +40,8 @@ class ClosedLoopModel(ModelBase):
         without: Laws that it must not know.
         batches: Makes the runs; None: one after the other in this process.
         like: Model of other recordings of the same scenario, whose laws and bounds it has too.
+        instants: Whether each change of a recorded input has an instant of its own; None: as `like`, or as the
+            recordings ask.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
@@ -52,7 +54,9 @@ class ClosedLoopModel(ModelBase):
         without: Sequence[str] = (),
         batches: Batches | None = None,
         like: ClosedLoopModel | None = None,
+        instants: bool | None = None,
     ) -> None:
+        self._given = scenario, recordings, without, batches
         recordings = [_with_rounding(r) for r in recordings]
         laws, kind = laws_of(scenario), CosimModel
         #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
@@ -61,7 +65,10 @@ class ClosedLoopModel(ModelBase):
         self.has_instants = False
         #: What may be missing in a system of FMUs.
         self.system_laws: SystemLaws | None = None
-        if is_system(scenario) and self._take_system(scenario, recordings, without, batches, like):
+        if instants is None and like is not None:
+            instants = like.has_instants
+        known = None if like is None else like.system_laws
+        if is_system(scenario) and self._take_system(scenario, recordings, without, batches, known, instants):
             return
         if is_single_pendulum(scenario, recordings):
             (component,) = scenario.components
@@ -82,22 +89,23 @@ class ClosedLoopModel(ModelBase):
         recordings: Sequence[Recording],
         without: Sequence[str],
         batches: Batches | None,
-        like: ClosedLoopModel | None,
+        known: SystemLaws | None,
+        has_instants: bool | None,
     ) -> bool:
         """Whether compiled code simulates the system of FMUs; if not, `slow` says why."""
         try:
             free = free_parameters(scenario, recordings)
-            known = None if like is None else like.system_laws
             laws = known or laws_at(scenario, recordings, free, without)
-            instants = []
-            if like is None or like.has_instants:
-                instants = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
-            model = SystemModel(scenario, recordings, [*laws.usual, *free, *instants], laws.found, batches)
-            if instants and like is None:
-                plain = SystemModel(scenario, recordings, [*laws.usual, *free], laws.found, batches)
-                if not are_needed(plain, model, plain.late_inputs()):
-                    model, instants = plain, []
-            self.has_instants = bool(instants)
+            plain = [*laws.usual, *free]
+            changes: Sequence[Free] = ()
+            if has_instants is not False:
+                changes = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
+            model = SystemModel(scenario, recordings, [*plain, *changes], laws.found, batches)
+            if changes and has_instants is None:
+                without_them = SystemModel(scenario, recordings, plain, laws.found, batches)
+                if not are_needed(without_them, model, model.late_inputs()):
+                    model, changes = without_them, ()
+            self.has_instants = bool(changes)
         except (NotFast, CompilerError) as reason:
             self.slow = str(reason)
             return False
@@ -106,6 +114,25 @@ class ClosedLoopModel(ModelBase):
         self._laws |= {law.place.term: law for law in laws.sensors}
         self._begin(model, recordings)
         return True
+
+    def with_switch_times(self, terms: Terms) -> ClosedLoopModel | None:
+        """The same with an instant of its own for each change of a recorded input.
+
+        Args:
+            terms: Laws that were found, with their values.
+
+        Returns:
+            None where the recordings do not ask for that beside those laws, or have it already.
+        """
+        if self.has_instants or not isinstance(self.model, SystemModel):
+            return None
+        found = ClosedLoopModel(*self._given, like=self, instants=True)
+        is_asked = found.has_instants and are_needed(self.model, found.model, self.model.late_inputs(), terms)
+        return found if is_asked else None
+
+    def after(self, other: ClosedLoopModel) -> ClosedLoopModel:
+        """The model of the same recordings with laws and kinds of numbers as the model of others has them."""
+        return ClosedLoopModel(*self._given, like=other)
 
     def _begin(self, model: CosimModel, recordings: Sequence[Recording]) -> None:
         self.model = model
