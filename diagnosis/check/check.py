@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -54,7 +55,7 @@ def check_recordings(
 
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
-    found: list[Doubt] = [*still_doubts(every), *odd_ones(every)]
+    found: list[Doubt] = list(still_doubts(every))
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
@@ -66,6 +67,8 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += _outside(one)
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
+    told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
+    found += [replace(d, is_serious=d.is_serious and d.recording not in told) for d in odd_ones(every)]
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
 
 

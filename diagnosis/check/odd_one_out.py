@@ -19,13 +19,17 @@ from diagnosis.recording.recording import FEWEST_VALUES
 MET = 0.95
 #: How many times more of its variance is left of a recording that stands out.
 TIMES = 10.0
+#: Share of the variance of each channel that is left of a recording whose input is hardly the one that acted: nothing
+#: of its course is explained, while the same numbers explain the others.
+NOTHING = 0.9
 #: Other recordings that have to be met: one alone may be the odd one itself.
 OTHERS = 2
 
 
 def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about recordings that stand out from the others, one each; none is serious."""
-    left = [_left(one) for one in every]
+    """Doubts about recordings that stand out from the others, one each; serious where nothing of one is explained."""
+    shares = [_left(one) for one in every]
+    left = [max(own, default=None) for own in shares]
     found = []
     for number, (one, own) in enumerate(zip(every, left)):
         others = [v for i, v in enumerate(left) if i != number and v is not None]
@@ -36,15 +40,16 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
         remedy = (
             "a wrong number or a missing law would show in all of them: look at this recording's input, start and day"
         )
+        is_serious = min(shares[number]) >= NOTHING
         z = float(np.sqrt(own / max(*others, 1e-12)))
         found.append(
-            Doubt(one.recording.title, "all channels", "odd one out", text, remedy, False, one.begin, one.end, z)
+            Doubt(one.recording.title, "all channels", "odd one out", text, remedy, is_serious, one.begin, one.end, z)
         )
     return found
 
 
-def _left(one: Compared) -> float | None:
-    """Largest share of a channel's variance that the scenario as it is leaves; None where nothing can be compared.
+def _left(one: Compared) -> list[float]:
+    """Share of each channel's variance that the scenario as it is leaves; empty where nothing can be compared.
 
     Of channels that change by far more than their noise: of others the noise is the variance.
     """
@@ -57,4 +62,4 @@ def _left(one: Compared) -> float | None:
             continue
         rest = float(np.mean((beside.measured - beside.simulated_there) ** 2))
         shares.append(max(rest - beside.floor**2, 0.0) / total)
-    return max(shares) if shares else None
+    return shares

@@ -30,7 +30,7 @@ def test_the_recording_with_another_run_s_input_is_named_and_nulls_and_missing_l
     assert len(table) == COUNT
     (told,) = _doubts(tmp_path, null)
     assert told.recording == "run_2"
-    assert not told.is_serious
+    assert told.is_serious  # nothing of its course is explained, and all of the others' is
     assert "of the variance of each other recording" in told.statement
 
 
@@ -38,3 +38,17 @@ def test_a_law_that_is_missing_in_all_recordings_makes_none_of_them_odd(tmp_path
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: -4.0 * float(np.tanh(v / 0.02)))
     assert _doubts(tmp_path, recordings) == []
+
+
+def test_a_recording_that_is_met_in_part_stands_out_and_is_searched_all_the_same(tmp_path: Path) -> None:
+    """A sensor that is off for a while leaves a recording of this experiment: what is off is looked for."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    table = pd.read_csv(recordings[1] / "data.csv")
+    last = table.columns[-1]
+    offset = 1.0 * float(np.std(table[last]))
+    table.loc[COUNT // 2 : 3 * COUNT // 4, last] += offset
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    (told,) = _doubts(tmp_path, recordings)
+    assert told.recording == "run_2"
+    assert not told.is_serious
