@@ -10,6 +10,7 @@ from diagnosis.report.figures import colour
 from diagnosis.report.fits import plain_channel
 from diagnosis.report.section import Section, section
 from diagnosis.report.sentences import ambiguity, decisive, fall, what, when, where
+from diagnosis.report.unit_factor import unit_factor
 from diagnosis.report.user_units import IN_SI, Units
 
 
@@ -38,11 +39,16 @@ def finding_section(order: int, finding: Finding, units: Units = IN_SI, is_open:
             ("Shows in", shown),
             ("What", what(finding)),
         ],
-        after=[("Gain", _gain(finding)), *((doubt, text) for text in finding.doubts)],
+        after=[("Gain", _gain(finding)), *((doubt, text) for text in finding.doubts), *_unit(finding)],
         ambiguity=ambiguity(finding),
         decisive=decisive(finding),
         confusions={e: text for e, text in finding.confused_with.items() if e not in finding.ambiguous_with},
     )
+
+
+def _unit(finding: Finding) -> list[tuple[str, str]]:
+    told = unit_factor(finding)
+    return [("Unit", told)] if told else []
 
 
 def _gain(finding: Finding) -> str:
