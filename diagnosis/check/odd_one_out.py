@@ -7,6 +7,7 @@ others and not this one, its input, its start or its day is another one. Which o
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,17 +20,25 @@ from diagnosis.recording.recording import FEWEST_VALUES
 MET = 0.95
 #: How many times more of its variance is left of a recording that stands out.
 TIMES = 10.0
-#: Share of the variance of each channel that is left of a recording whose input is hardly the one that acted: nothing
-#: of its course is explained, while the same numbers explain the others.
-NOTHING = 0.9
+#: Share of the variance of each channel that is left, scaled and shifted as suits best, of a recording whose input is
+#: hardly the one that acted: less than half of its course is explained, while the same numbers explain the others.
+HALF = 0.5
 #: Other recordings that have to be met: one alone may be the odd one itself.
 OTHERS = 2
 
 
+@dataclass(frozen=True)
+class _Left:
+    """Shares of a channel's variance that the scenario leaves: as it is, and scaled and shifted as suits best."""
+
+    as_is: float
+    scaled: float
+
+
 def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about recordings that stand out from the others, one each; serious where nothing of one is explained."""
-    shares = [_left(one) for one in every]
-    left = [max(own, default=None) for own in shares]
+    """Doubts about recordings that stand out from the others, one each; serious where little of one is explained."""
+    channels = [_left(one) for one in every]
+    left = [max((c.as_is for c in own), default=None) for own in channels]
     found = []
     for number, (one, own) in enumerate(zip(every, left)):
         others = [v for i, v in enumerate(left) if i != number and v is not None]
@@ -37,19 +46,23 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             continue
         told = f"at least {percent(1.0 - max(others))} of the variance of each other recording"
         text = f"the scenario as it is explains {told} and {percent(max(1.0 - own, 0.0))} of this one's"
+        least = min(c.scaled for c in channels[number])
+        if least >= HALF:
+            text += f", at most {percent(1.0 - least)} however its channels are scaled and shifted"
         remedy = (
             "a wrong number or a missing law would show in all of them: look at this recording's input, start and day"
         )
-        is_serious = min(shares[number]) >= NOTHING
         z = float(np.sqrt(own / max(*others, 1e-12)))
         found.append(
-            Doubt(one.recording.title, "all channels", "odd one out", text, remedy, is_serious, one.begin, one.end, z)
+            Doubt(
+                one.recording.title, "all channels", "odd one out", text, remedy, least >= HALF, one.begin, one.end, z
+            )
         )
     return found
 
 
-def _left(one: Compared) -> list[float]:
-    """Share of each channel's variance that the scenario as it is leaves; empty where nothing can be compared.
+def _left(one: Compared) -> list[_Left]:
+    """What is left of each channel; empty where nothing can be compared.
 
     Of channels that change by far more than their noise: of others the noise is the variance.
     """
@@ -60,6 +73,9 @@ def _left(one: Compared) -> list[float]:
         total = float(np.var(beside.measured))
         if total <= (TIMES * beside.floor) ** 2:
             continue
-        rest = float(np.mean((beside.measured - beside.simulated_there) ** 2))
-        shares.append(max(rest - beside.floor**2, 0.0) / total)
+        rest = beside.measured - beside.simulated_there
+        as_is = max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / total
+        moves = float(np.std(beside.simulated_there)) > 0.0
+        followed = float(np.corrcoef(beside.measured, beside.simulated_there)[0, 1]) if moves else 0.0
+        shares.append(_Left(as_is, 1.0 - max(followed, 0.0) ** 2))
     return shares

@@ -61,7 +61,7 @@ class _Size:
 
 def unit_doubts(compared: Compared) -> list[Doubt]:
     """Doubts about the unit of every channel."""
-    units = _units(compared)
+    units = units_stated(compared)
     return [
         d for b in _simulated(compared) for d in _unit_doubts(compared, b, units.get(b.channel.name, b.channel.unit))
     ]
@@ -79,7 +79,7 @@ def _simulated(compared: Compared) -> list[Beside]:
     return [b for b in every if np.ptp(b.simulated_there) > 0.0 and (b.moves or not b.scatter)]
 
 
-def _units(compared: Compared) -> dict[str, str]:
+def units_stated(compared: Compared) -> dict[str, str]:
     """Unit of every channel's column, as recording.yaml states it."""
     try:
         sidecar = load_sidecar(compared.recording.path / "recording.yaml")

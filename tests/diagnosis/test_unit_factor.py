@@ -8,8 +8,9 @@ from dataclasses import replace
 import pytest
 
 from diagnosis.judge.diagnosis import Estimate, Finding
+from diagnosis.judge.unit_factors import FACTORS
 from diagnosis.report.finding_section import finding_section
-from diagnosis.report.unit_factor import FACTORS, unit_factor
+from diagnosis.report.unit_factor import unit_factor
 from tests.diagnosis.report_examples import CONTACT
 
 

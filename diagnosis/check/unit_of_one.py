@@ -1,0 +1,94 @@
+"""A channel that one recording states in another unit than it was written in, seen beside the other recordings.
+
+What the scenario misses of a size it misses in all recordings about alike. Where one recording reads so many times what
+the others read, beside the simulation, and that is the factor to another unit of the quantity, it is asked
+whether its unit is right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cosim.unit.quantity import conversion
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.scale import units_stated
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import FEWEST_VALUES
+
+#: Units in which tables of laboratories are written, by the SI unit of their quantity.
+UNITS = {
+    "K": ("degC", "degF"),
+    "A": ("A", "mA", "uA"),
+    "V": ("V", "mV"),
+    "W": ("W", "mW", "kW", "hp", "Btu/h"),
+    "J": ("J", "kJ", "cal", "Btu", "W*h"),
+    "kg": ("kg", "g", "lb"),
+    "kg/s": ("kg/s", "kg/min", "kg/h", "lb/min"),
+    "m": ("m", "cm", "mm", "um", "inch", "ft"),
+    "m/s": ("m/s", "mm/s", "km/h", "mph", "ft/s", "knot"),
+    "m^3/s": ("m^3/s", "l/s", "l/min", "m^3/h", "gallon/min"),
+    "m^3": ("m^3", "l", "ml", "gallon"),
+    "rad": ("rad", "deg", "turn"),
+    "rad/s": ("rad/s", "deg/s", "rpm"),
+    "N": ("N", "mN", "kN", "lbf", "kgf"),
+    "N*m": ("N*m", "N*mm", "lbf*ft", "lbf*inch"),
+    "Pa": ("Pa", "mbar", "kPa", "psi", "bar", "MPa", "mmHg", "inHg", "atm"),
+}
+#: Share of a channel's variance that a straight line in its simulation explains, in every recording that is compared.
+FOLLOWED = 0.95
+#: How far apart the others may be, relative to their median, and how far a factor may be from one of units: where a
+#: number of the scenario is off, recordings of other inputs differ by a few hundredths.
+ALIKE, NEAR = 0.05, 0.08
+#: Least departure from 1 of a factor that is one, and other recordings that agree: of two, either may be the wrong one.
+LEAST, OTHERS = 0.25, 2
+
+
+def units_of_one(every: Sequence[Compared]) -> list[Doubt]:
+    """Doubts about the unit of a channel in one recording alone; all are serious."""
+    return [d for name in dict.fromkeys(n for one in every for n in one.channels) for d in _of_channel(every, name)]
+
+
+def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
+    slopes = [(one, _slope(one.channels[name])) for one in every if name in one.channels]
+    for one, own in slopes:
+        others = [s for other, s in slopes if other is not one and s is not None]
+        if own is None or len(others) < OTHERS or len(others) < len(slopes) - 1:
+            continue
+        usual = float(np.median(others))
+        if usual <= 0.0 or own <= 0.0 or max(abs(o / usual - 1.0) for o in others) > ALIKE:
+            continue
+        stated = units_stated(one).get(name, one.channels[name].channel.unit)
+        ratio = own / usual
+        near = _units_near(ratio, stated, one.channels[name].channel.unit)
+        if not near:
+            continue
+        text = (
+            f"beside the simulation its readings are {ratio:.3g} times those of the other recordings, as if they were "
+            f"in {' or '.join(near)} and not in {stated}"
+        )
+        remedy = f"is `channels.{name}.unit` of this recording right?"
+        z = abs(float(np.log(ratio))) / NEAR
+        yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+
+
+def _units_near(ratio: float, stated: str, base: str) -> list[str]:
+    """Units of a quantity in which numbers are about so many times those in the stated one."""
+    own = conversion(stated, base)[0]
+    factors = {u: own / conversion(u, base)[0] for u in UNITS.get(base, ()) if u != stated}
+    return [u for u, f in factors.items() if abs(np.log(f)) > LEAST and abs(np.log(ratio / f)) < NEAR]
+
+
+def _slope(beside: Beside) -> float | None:
+    """Slope of the readings in the simulation, where a straight line explains them."""
+    if beside.simulated is None or len(beside.pick) < FEWEST_VALUES:
+        return None
+    simulated = beside.simulated_there - np.mean(beside.simulated_there)
+    measured = beside.measured - np.mean(beside.measured)
+    size, total = float(simulated @ simulated), float(measured @ measured)
+    if not size > 0.0 or not total > 0.0:
+        return None
+    slope = float(simulated @ measured) / size
+    left = measured - slope * simulated
+    return slope if float(left @ left) <= (1.0 - FOLLOWED) * total else None
