@@ -25,6 +25,9 @@ FEWEST, WIDEST = 6, 2.5
 LATE = 1.5
 #: Faults with begin and end that a model may have beside its laws.
 MOST_FAULTS = 3
+#: Share of what noise does not explain that the last effect took away at least, where faults of a day make room for
+#: more. Where it took less it is not what is missing: many more would have to follow.
+LEAST_SHARE = 0.1
 #: Share of the best's gain from which the best of names alone is gone on from too.
 NAMED = 0.8
 
@@ -171,10 +174,11 @@ def search(
         grown = list(select(current[0], grown))
         if not grown:
             break
+        share = (current[0].cost - grown[0].cost) / max(current[0].cost - len(model.layout.time), 1.0)
         current, named = _gone_on_from(grown, settings.beam, best.cost)
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
-        if _is_enough(best, level + 1, is_left, settings):
+        if _is_enough(best, level + 1, is_left, share, settings):
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)
@@ -188,9 +192,17 @@ def _nth(level: int) -> str:
     return words[level] if level < len(words) else f"effect {level + 1}, one more"
 
 
-def _is_enough(best: Explanation, terms: int, is_left: bool, settings: Settings) -> bool:
-    """Whether no further term is looked for: faults of a day leave as much room for laws as there was without them."""
-    faults = sum(t.recording is not None for t in best.terms)
+def _is_enough(best: Explanation, terms: int, is_left: bool, share: float, settings: Settings) -> bool:
+    """Whether no further term is looked for: faults of a day leave as much room for laws as there was without them.
+
+    Args:
+        best: The best explanation.
+        terms: How many terms it has.
+        is_left: Whether it leaves structure.
+        share: Of what noise did not explain, what the last term took away.
+        settings: Of the search.
+    """
+    faults = sum(t.recording is not None for t in best.terms) if share >= LEAST_SHARE else 0
     is_done = settings.stops_at_noise and not is_left and terms >= settings.most_terms - 1
     return is_done or terms >= settings.most_terms + faults
 

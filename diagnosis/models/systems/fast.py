@@ -271,6 +271,8 @@ class FastSystem:
         outputs = steps // self.per_output + 1
         #: Times of the outputs [s].
         self.times: Array = (start + size * self.per_output * np.arange(outputs)) / 1e9
+        #: Begins of the macro-steps [s].
+        self._begins: Array = (start + size * np.arange(steps)) / 1e9
         self._columns = {key: self._column(key) for key in self._sources}
         self.recorded: dict[tuple[str, str], slice] = {}
         addresses: list[int] = []
@@ -395,9 +397,13 @@ class FastSystem:
         shift = changes.shifts.get(key[0], {}).get(key[1], 0.0)
         if shift:
             values = values + shift
-        low, stated = (self.start + self.size * np.arange(self.steps)) / 1e9, values.T
+        stated = values
         for fault in changes.faults.get(key[0], {}).get(key[1], ()):
-            values = values + fault.change(stated, fault.shares(low, self.size / 1e9)).T
+            first, last = np.searchsorted(self._begins, (fault.begin - self.size / 1e9, fault.end))
+            part = slice(max(int(first) - 1, 0), int(last) + 1)  # one step more on either side, whose share is nothing
+            values = values.copy() if values is stated else values
+            shares = fault.shares(self._begins[part], self.size / 1e9)
+            values[:, part] += fault.change(stated[:, part].T, shares).T
         return np.ascontiguousarray(values)
 
     def _set_laws(self, laws: Mapping[int, Sequence[float]]) -> None:
