@@ -312,7 +312,7 @@ def _buoy(
 
 
 def buoy_drag(folder: Path, rng: Rng) -> Truth:
-    drag = rng.uniform(70.0, 120.0)
+    drag = rng.uniform(140.0, 220.0)
     _buoy(folder, rng, drag=drag)
     return Truth(f"drag of the water with the square of the speed, {drag:.1f} N s^2/m^2", PHYSICS, ("quadratic_drag",))
 
@@ -389,7 +389,7 @@ def _pan(
         ]
 
     for name in FOLDERS:
-        stated = bursts(rng, stop, 260.0, 130.0, 250.0, 950.0, 10.0)
+        stated = bursts(rng, stop, 260.0, 130.0, 300.0, 1050.0, 10.0)
         power = stated
         if boost is not None and name == "second":
             power = between(stated, boost[0], boost[1], lambda v: boost[2] * v)
@@ -397,7 +397,7 @@ def _pan(
         t, x = integrated(rates, (begin, begin), (power, room), stop, 2.0)
         sensors = [
             Sensor("pan.plate", "plate_F", "degF", lambda t, x, u: (x[:, 0] - CELSIUS) * 1.8 + 32, 1.5, 10.0, 1.0, 0.5),
-            Sensor("pan.water", "water_C", "degC", celsius(1), 0.25, 10.0, 1.0, 0.1),
+            Sensor("pan.water", "water_C", "degC", celsius(1), 0.12, 10.0, 1.0, 0.05),
         ]
         made = Written(
             t,
@@ -417,7 +417,7 @@ def pan_null(folder: Path, rng: Rng) -> Truth:
 
 
 def pan_steam(folder: Path, rng: Rng) -> Truth:
-    steam = rng.uniform(3.5e-3, 5.5e-3)
+    steam = rng.uniform(3.0e-3, 4.5e-3)
     _pan(folder, rng, steam=steam)
     return Truth(
         f"the water evaporates: {steam:.2e} W/Pa times its vapour pressure above that of the room",
