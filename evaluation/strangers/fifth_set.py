@@ -168,8 +168,8 @@ def tanks_overflow(folder: Path, rng: Rng) -> Truth:
 
 def tanks_stuck(folder: Path, rng: Rng) -> Truth:
     begin = 2.0 * round(rng.uniform(150.0, 300.0))
-    _tanks(folder, rng, stuck=(begin, begin + 150.0))
-    return Truth(f"the level of tank 2 is stuck for 150 s from {begin:.0f} s of the second recording", SENSOR)
+    _tanks(folder, rng, stuck=(begin, begin + 220.0))
+    return Truth(f"the level of tank 2 is stuck for 220 s from {begin:.0f} s of the second recording", SENSOR)
 
 
 # --- a piezoelectric harvester on a shaker, FMI 3 Model Exchange; V, mm, ms; the acceleration is a column of the log
@@ -389,7 +389,7 @@ def _pan(
         ]
 
     for name in FOLDERS:
-        stated = bursts(rng, stop, 260.0, 130.0, 300.0, 1050.0, 10.0)
+        stated = bursts(rng, stop, 500.0, 300.0, 200.0, 700.0, 10.0)
         power = stated
         if boost is not None and name == "second":
             power = between(stated, boost[0], boost[1], lambda v: boost[2] * v)
@@ -417,7 +417,7 @@ def pan_null(folder: Path, rng: Rng) -> Truth:
 
 
 def pan_steam(folder: Path, rng: Rng) -> Truth:
-    steam = rng.uniform(3.0e-3, 4.5e-3)
+    steam = rng.uniform(2.0e-3, 3.0e-3)
     _pan(folder, rng, steam=steam)
     return Truth(
         f"the water evaporates: {steam:.2e} W/Pa times its vapour pressure above that of the room",
@@ -812,7 +812,7 @@ def solar_null(folder: Path, rng: Rng) -> Truth:
 
 
 def solar_two(folder: Path, rng: Rng) -> Truth:
-    sky, pipe = rng.uniform(0.45, 0.7), rng.uniform(3.0, 5.0)
+    sky, pipe = rng.uniform(0.3, 0.45), rng.uniform(3.0, 5.0)
     _solar(folder, rng, sky=sky, pipe=pipe)
     return Truth(
         f"the collector radiates to the sky with {sky:.3f} m^2 and the pipe to the store holds {pipe:.1f} kg of water: "
@@ -977,7 +977,7 @@ def _brake(
 
 
 def brake_critical(folder: Path, rng: Rng) -> Truth:
-    critical = rng.uniform(340.0, 440.0)
+    critical = rng.uniform(260.0, 330.0)
     _brake(folder, rng, critical=critical)
     return Truth(
         f"above a critical speed of {critical:.0f} rad/s the disc's own field weakens the brake", PHYSICS, **FOUR_SPLIT
