@@ -394,6 +394,12 @@ class AddedTerms:
             if variable.variable.causality is not Causality.INPUT and self.is_model_exchange:
                 self._inner[name] = np.zeros(variable.variable.shape)
                 self._readers.append(binding.reader(variable, self._inner[name]))
+        #: States that terms at outputs use, at a communication point; nobody else reads them there.
+        self._states_there: dict[str, AnyArray] = {}
+        self._state_readers: list[Access] = []
+        for name in {n for t in self.outputs for n in t.names} & set(self.states) - set(values):
+            self._states_there[name] = np.zeros(self.table.all[name].variable.shape)
+            self._state_readers.append(binding.reader(self.table.all[name], self._states_there[name]))
         for term in self.inputs:
             own = np.zeros(self.table.all[term.target].variable.shape)
             self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
@@ -413,6 +419,8 @@ class AddedTerms:
                 values = self._own_outputs[name]
             elif name in self._outside:
                 values = self._outside[name]
+            elif name in self._states_there:
+                values = self._states_there[name]
             else:
                 continue
             factor, offset = self._bases[name]
@@ -465,6 +473,8 @@ class AddedTerms:
         if self.outputs:
             for name, own in self._own_outputs.items():
                 own[...] = self._outside[name]
+            for read in self._state_readers:
+                read()
             environment = self._environment(self.time, None)
             for term in self.outputs:
                 self._outside[term.target][...] += self._amount(term, environment)

@@ -16,7 +16,7 @@ from cosim.fmu.unit import FmuUnit
 from cosim.fmu.units import is_known
 from cosim.formula import to_base
 from cosim.unit.protocol import Array, Causality
-from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, UnitLayout
+from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, Kind, UnitLayout
 
 #: States that the laws of one FMU may have together.
 MOST_ADDED = 64
@@ -173,7 +173,8 @@ class FastFmu:
         self._added_array = (AddedLayout * max(len(added), 1))(*added)
         layout.added, layout.added_count = ctypes.addressof(self._added_array), len(added)
         layout.has_delays = any(a.delay_count for a in added)
-        layout.has_inputs_added = any(a.kind == 1 for a in added)
+        layout.has_inputs_added = any(a.kind == Kind.INPUT for a in added)
+        layout.has_outputs_added = any(a.kind == Kind.OUTPUT for a in added)
 
     def take_over(self) -> None:
         """Inputs, states and the next event as the initialisation has left them."""

@@ -115,6 +115,7 @@ class UnitLayout(ctypes.Structure):
         ("own_output_count", ctypes.c_int64),
         ("has_delays", ctypes.c_int64),
         ("step", ctypes.c_int64),
+        ("has_outputs_added", ctypes.c_int64),
     )
 
 

@@ -14,6 +14,7 @@ from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, parse_unit, registry
 from diagnosis.laws.law import Law, Number
+from diagnosis.models.systems.derivative_outputs import derivatives_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
@@ -39,6 +40,8 @@ class Fit:
         term: For the search.
         reaction: What is added with it to the other part of which it loses or gets something; None: nothing.
         beside: Name of that part, or of the surroundings where there are several; empty where there is one choice.
+        read: The same in outputs that are derivatives which it is added to: an accelerometer reads a force that the
+            equations of the FMU do not have.
     """
 
     law: Law
@@ -46,11 +49,12 @@ class Fit:
     term: Term
     reaction: Placed | None = None
     beside: str = ""
+    read: tuple[Placed, ...] = ()
 
     @property
     def every(self) -> tuple[Placed, ...]:
         """What is added, to one derivative, input or output each."""
-        return (self.placed,) if self.reaction is None else (self.placed, self.reaction)
+        return (self.placed, *(() if self.reaction is None else (self.reaction,)), *self.read)
 
     def values_of(self, placed: Placed, values: Sequence[float]) -> tuple[float, ...]:
         """Values of the numbers that one of them uses, from those of the law."""
@@ -88,6 +92,8 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
             outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
         own.velocity_of, own.twist_of = _kinematics(systems[0], fmu, own)
+        own.derivatives_read = derivatives_read(systems[0], fmu, own)
+        own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
         own.apart = _apart(fmu, own, courses, step)
         own.untried = _untried(fmu, own)
         found.append(own)
@@ -264,6 +270,9 @@ def _fit(
         reaction = _reaction(law, placed, names, symbols, scale, fresh)
         if reaction is not None:
             _check(own, reaction, reaction.to)
+        read = tuple(r for p in (placed, reaction) if p is not None for r in read_by_outputs(own, p))
+        for one in read:
+            _check(own, one, one.to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
     domain = domain_of(target.unit, own)
@@ -280,7 +289,7 @@ def _fit(
     others = [beside] if beside else [q.name for symbol, q in symbols.items() if symbol == "o"]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
-    return Fit(law, placed, term, reaction, beside)
+    return Fit(law, placed, term, reaction, beside, read)
 
 
 def _reaction(
@@ -338,6 +347,7 @@ def _evaluated(of: str, values: Mapping[str, object]) -> Any:
 def _check(own: Places, placed: Placed, to: str) -> None:
     """Whether the co-simulation will take the formula, units and all."""
     units = {q.name: q.unit for q in (*own.states.values(), *own.inputs.values(), *own.outputs.values())}
+    units |= own.output_units
     units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}
     units |= {s.name: s.unit for s in placed.states}
     units |= {d.name: units[d.of] for d in placed.delays}

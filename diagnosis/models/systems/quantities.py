@@ -35,6 +35,8 @@ class Places:
         outputs: Outputs of a Co-Simulation FMU.
         velocity_of: Position to its velocity.
         apart: Two states of one unit to what they are apart by, whose name is that difference as a formula.
+        derivatives_read: State to the outputs that are its derivative, times a factor in their units, plus a constant.
+        output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
         untried: Where no law can be tried, and why.
     """
@@ -46,4 +48,6 @@ class Places:
     velocity_of: dict[str, str] = field(default_factory=dict)
     apart: dict[tuple[str, str], Quantity] = field(default_factory=dict)
     twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
+    derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
+    output_units: dict[str, str] = field(default_factory=dict)
     untried: list[str] = field(default_factory=list)

@@ -96,6 +96,7 @@ typedef struct {
     int64_t own_output_count;
     int64_t has_delays;
     int64_t step; /* number of the macro-step; -1 before the first */
+    int64_t has_outputs_added;
 } Unit;
 
 typedef struct {
@@ -245,8 +246,11 @@ static int read_own_outputs(const Unit *u)
 /* What laws add to outputs that were just read. */
 static void add_to_outputs(const Unit *u, double time)
 {
-    if (!u->own_output_count) {
+    if (!u->own_output_count && !u->has_outputs_added) {
         return;
+    }
+    if (u->states) { /* the last point of the integration is none that it has reached */
+        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
     }
     look_around(u, time);
     for (int64_t i = 0; i < u->added_count; ++i) {
@@ -646,7 +650,7 @@ static int begin_laws(Unit *u, double time)
     if (!u->added_count) {
         return DONE;
     }
-    if (u->own_output_count && read_own_outputs(u) != DONE) {
+    if ((u->own_output_count || u->has_outputs_added) && read_own_outputs(u) != DONE) {
         return FAILED;
     }
     if (u->states) {

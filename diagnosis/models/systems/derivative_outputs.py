@@ -1,0 +1,108 @@
+"""Outputs of a Model Exchange FMU that are the derivative of a state: an accelerometer, the net flow into a store.
+
+A law is added to the derivative, which the FMU does not know: its output leaves the law out. So the law is added to the
+output too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fmu_layout import FastFmu
+from diagnosis.models.systems.placed import Placed
+from diagnosis.models.systems.quantities import Places
+
+#: Random points at which the equations are asked, and their seed.
+PROBES, SEED = 8, 21
+#: Largest departure of an output from its straight line in a derivative, as a share of the output's own range.
+ROUNDING = 1e-8
+#: Name of the factor in the added term.
+FACTOR = "derivative_factor"
+
+
+def derivatives_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, dict[str, float]]:
+    """States with the outputs that are their derivative times a factor plus a constant, at every point.
+
+    Args:
+        system: After a simulation.
+        fmu: One of its FMUs.
+        own: Its quantities.
+
+    Returns:
+        State to output to factor, in the units of the output and of the state per second. Not of a state whose
+        derivative is a state: that output is the reading of a velocity, to which nothing is added.
+    """
+    moving = [n for n in own.states if n not in own.velocity_of and n not in own.twist_of]
+    outputs = [n for n, a in fmu.outputs.items() if a.size == 1 and n in fmu.units and n not in fmu.states]
+    if not fmu.is_model_exchange or set(fmu.states) != set(own.states) or not moving or not outputs:
+        return {}
+    states, rates, read = _asked(system, fmu, own)
+    names = list(fmu.states)
+    found: dict[str, dict[str, float]] = {}
+    for state in moving:
+        rate, value = rates[:, names.index(state)], states[:, names.index(state)]
+        for output in outputs:
+            factor = _line(rate, read[output])
+            # of a store that decays by itself, whatever reads its level is a straight line in its rate
+            if factor is not None and _line(value, read[output]) is None:
+                found.setdefault(state, {})[output] = factor
+    return found
+
+
+def _asked(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[Array, Array, dict[str, Array]]:
+    """Random states, shape (probes, states), their rates there, and outputs by name, shape (probes,)."""
+    rng = np.random.default_rng(SEED)
+    names, before = list(fmu.states), fmu.inner.copy()
+    states, rates, read = [], [], []
+    for _ in range(PROBES):
+        for name, quantity in own.inputs.items():
+            fmu.inner[fmu.inputs[name]] = quantity.middle + quantity.size * rng.standard_normal()
+        for write in fmu.writers:
+            write()
+        point = np.array([own.states[n].middle + own.states[n].size * rng.standard_normal() for n in names])
+        found = system.outputs_at(own.component, system.start / 1e9, point)
+        states.append(point)
+        rates.append(found[0])
+        read.append(found[1])
+    fmu.inner[:] = before
+    for write in fmu.writers:
+        write()
+    return np.array(states), np.array(rates), {n: np.array([r[n] for r in read]) for n in read[0]}
+
+
+def _line(given: Array, values: Array) -> float | None:
+    """Slope of values that are a straight line in others; None where they are not, or where nothing changes."""
+    if not (np.isfinite(given).all() and np.isfinite(values).all()) or np.ptp(given) == 0.0 or np.ptp(values) == 0.0:
+        return None
+    centred = given - given.mean()
+    slope = float(centred @ (values - values.mean()) / (centred @ centred))
+    left = values - values.mean() - slope * centred
+    return slope if float(np.max(np.abs(left))) <= ROUNDING * float(np.ptp(values)) else None
+
+
+def read_by_outputs(own: Places, placed: Placed) -> Iterator[Placed]:
+    """What an addition to a derivative adds to the outputs that are this derivative.
+
+    Raises:
+        ValueError: A unit is none.
+    """
+    state = placed.to[4:-1] if placed.to.startswith("der(") else ""
+    for output, factor in own.derivatives_read.get(state, {}).items():
+        per_second = parse_unit(own.states[state].unit) / parse_unit("s")
+        unit = registry().Quantity(1.0, parse_unit(own.output_units[output])) / registry().Quantity(1.0, per_second)
+        text = f"{unit.units:~C}".replace("**", "^") or "1"
+        constants = {**placed.constants, FACTOR: PhysicalValue(factor, text)}
+        yield Placed(
+            placed.component,
+            output,
+            f"{FACTOR} * ({placed.formula})",
+            placed.numbers,
+            constants,
+            placed.states,
+            placed.delays,
+        )
