@@ -21,7 +21,7 @@ FACTORS = {
     "1 imperial gallon is 4.546 l": 4.54609,
     "1 lb is 0.4536 kg": 0.45359237,
     "1 pound-force is 4.448 N": 4.448222,
-    "1 kgf is 9.807 N": 9.80665,
+    "1 kgf is 9.807 N and 1 g of acceleration 9.807 m/s^2": 9.80665,
     "1 foot-pound is 1.356 N m": 1.355818,
     "1 psi is 6.895 kPa": 6.894757,
     "1 bar is 14.50 psi": 14.50377,

@@ -55,6 +55,6 @@ def test_factors_are_those_of_the_units() -> None:
     assert FACTORS["1 psi is 6.895 kPa"] == pytest.approx(0.45359237 * 9.80665 / 0.0254**2 / 1000)
     assert FACTORS["1 rad/s is 9.549 rpm"] == pytest.approx(30 / math.pi)
     assert FACTORS["1 hp is 745.7 W"] == pytest.approx(550 * 0.3048 * 0.45359237 * 9.80665)
-    for told, factor in FACTORS.items():  # the second number in the words is that factor
+    for told, factor in FACTORS.items():  # the last number in the words is that factor
         number = [float(w) for w in told.split() if w.replace(".", "").isdigit()][-1]
         assert number == pytest.approx(factor, rel=5e-4), told
