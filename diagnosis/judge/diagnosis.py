@@ -346,6 +346,8 @@ class Left:
         limit: Noise alone exceeds it in one of a thousand diagnoses.
         scatter: Root mean square of what is left as far as it changes from one reading to the next [unit].
         is_noise_stated: Whether the recording states this noise; else it was estimated from neighbouring readings.
+        by_rows: Root mean square change of it where inputs of its recording changed anywhere within the row before
+            their own; 0 where that was not asked [unit].
     """
 
     recording: str
@@ -357,6 +359,7 @@ class Left:
     limit: float
     scatter: float = 0.0
     is_noise_stated: bool = True
+    by_rows: float = 0.0
 
 
 @dataclass(frozen=True)

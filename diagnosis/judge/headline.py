@@ -25,6 +25,8 @@ _LESS = (
     ({"unit", "sign"}, "A column is not what its recording says"),
     ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
 )
+#: Share of what stays from which instants of inputs within a row are named as a possible reason.
+ROWS = 0.5
 #: Share below which what recalibration explains would read as 0 %.
 LEAST_SHARE = 0.005
 
@@ -258,7 +260,7 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
             text += f" (recalibration alone {_percent(alone)}{_course(adequacy) if alone > ALL else ''})"
         text += f"; what is left is not more than {noise}" if is_met else ""
     if not is_met and adequacy.worst is not None:
-        text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more)}"
+        text += f"; {what_stays(adequacy, units)}: {_cause(adequacy, has_more, units)}"
     return f"{text}."
 
 
@@ -273,7 +275,7 @@ def _course(adequacy: Adequacy) -> str:
     return f"; chi-square per reading {number(chi['recalibrated'])} by it, {number(chi['after'])} now"
 
 
-def _cause(adequacy: Adequacy, has_more: bool) -> str:
+def _cause(adequacy: Adequacy, has_more: bool, units: Units) -> str:
     """Why something stays."""
     if adequacy.is_irregular:
         worst = adequacy.worst
@@ -284,7 +286,17 @@ def _cause(adequacy: Adequacy, has_more: bool) -> str:
             "wild, or a little is missing that changes as fast"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
-    return f"something {'else ' if has_more else ''}is missing or wrong{slow}"
+    return f"something {'else ' if has_more else ''}is missing or wrong{slow}{_by_rows(adequacy, units)}"
+
+
+def _by_rows(adequacy: Adequacy, units: Units) -> str:
+    """That inputs may be the reason, where what their table does not say moves the channel by much of what stays."""
+    worst = adequacy.worst
+    if worst is None or worst.by_rows < ROWS * worst.rmse:
+        return ""
+    factor, unit = units.difference(worst.unit)
+    size = f"{number(factor * worst.by_rows, 2)} {unit}".strip()
+    return f", or its inputs changed between rows of their table, which alone may move it by {size}"
 
 
 def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:

@@ -1,0 +1,78 @@
+"""How far a channel is moved by what rows of a table do not say: when within a row its inputs changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.components import ProgrammeComponent
+from cosim.run import RunStopped
+from cosim.scenario import Scenario
+from diagnosis.judge.diagnosis import Adequacy
+from diagnosis.models.systems.run import is_system, run_quickly
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Channel, Input, Recording
+from diagnosis.search.cosim_run import predicted
+from diagnosis.search.problem import Parameter
+
+#: Simulations with every change somewhere within the row before it, and the seed of their instants.
+DRAWS, SEED = 4, 33
+
+
+def with_input_rows(
+    adequacy: Adequacy, scenario: Scenario, recordings: Sequence[Recording], parameters: Sequence[Parameter]
+) -> Adequacy:
+    """The same with how far the worst channel is moved by instants of inputs that its recording does not say.
+
+    Args:
+        adequacy: How right the model is.
+        scenario: As the recordings are compared with.
+        recordings: Among them the one with the worst channel.
+        parameters: Of the model: where it has these instants, they are estimated.
+    """
+    if any(p.is_within_row for p in parameters):
+        return adequacy
+    worst = adequacy.worst
+    own = next((r for r in recordings if worst is not None and r.title == worst.recording), None)
+    if worst is None or own is None or not adequacy.is_rejected or worst.channel not in own.channels:
+        return adequacy
+    return replace(adequacy, worst=replace(worst, by_rows=moved_by_rows(scenario, own, own.channels[worst.channel])))
+
+
+def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) -> float:
+    """Root mean square change of a channel [SI] where every change of an input came anywhere within the row before it.
+
+    Returns:
+        0 where no recorded input holds its values, or where compiled code does not simulate the scenario.
+    """
+    conditions = scenario_of(scenario, recording)
+    held = [i for i in recording.inputs if _is_held(conditions, i)]
+    if not held or not is_system(conditions):
+        return 0.0
+    rng, source = np.random.default_rng(SEED), recording.path / "recording.yaml"
+    try:
+        usual = predicted(run_quickly(conditions), channel.target, channel.times, source)
+        squares = []
+        for _ in range(DRAWS):
+            inputs = tuple(_moved(i, rng) if i in held else i for i in recording.inputs)
+            results = run_quickly(scenario_of(scenario, replace(recording, inputs=inputs)))
+            squares.append(np.mean((predicted(results, channel.target, channel.times, source) - usual) ** 2))
+    except RunStopped:
+        return 0.0
+    return float(np.sqrt(np.mean(squares)))
+
+
+def _is_held(conditions: Scenario, recorded: Input) -> bool:
+    component = conditions.components[recorded.component]
+    if not isinstance(component, ProgrammeComponent) or component.outputs[recorded.output].interpolation == "linear":
+        return False
+    return len(recorded.times) > 1 and bool(np.any(np.diff(recorded.values)))
+
+
+def _moved(recorded: Input, rng: np.random.Generator) -> Input:
+    """The input with each change earlier by a part of the row before it."""
+    times = recorded.times.copy()
+    times[1:] -= rng.uniform(0.0, 1.0, len(times) - 1) * np.diff(recorded.times) * (np.diff(recorded.values) != 0.0)
+    return replace(recorded, times=times)
