@@ -20,7 +20,7 @@ from diagnosis.recording.recording import FEWEST_VALUES
 MET = 0.95
 #: How many times more of its variance is left of a recording that stands out.
 TIMES = 10.0
-#: Share of the variance of each channel that is left, scaled and shifted as suits best, of a recording whose input is
+#: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording of which an input is
 #: hardly the one that acted: less than half of its course is explained, while the same numbers explain the others.
 HALF = 0.5
 #: Other recordings that have to be met: one alone may be the odd one itself.
@@ -31,6 +31,7 @@ OTHERS = 2
 class _Left:
     """Shares of a channel's variance that the scenario leaves: as it is, and scaled and shifted as suits best."""
 
+    name: str
     as_is: float
     scaled: float
 
@@ -46,16 +47,24 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             continue
         told = f"at least {percent(1.0 - max(others))} of the variance of each other recording"
         text = f"the scenario as it is explains {told} and {percent(max(1.0 - own, 0.0))} of this one's"
-        least = min(c.scaled for c in channels[number])
-        if least >= HALF:
-            text += f", at most {percent(1.0 - least)} however its channels are scaled and shifted"
+        worst = max(channels[number], key=lambda c: c.scaled)
+        if worst.scaled >= HALF:
+            text += f", of {worst.name} at most {percent(1.0 - worst.scaled)} however it is scaled and shifted"
         remedy = (
             "a wrong number or a missing law would show in all of them: look at this recording's input, start and day"
         )
         z = float(np.sqrt(own / max(*others, 1e-12)))
         found.append(
             Doubt(
-                one.recording.title, "all channels", "odd one out", text, remedy, least >= HALF, one.begin, one.end, z
+                one.recording.title,
+                "all channels",
+                "odd one out",
+                text,
+                remedy,
+                worst.scaled >= HALF,
+                one.begin,
+                one.end,
+                z,
             )
         )
     return found
@@ -67,7 +76,7 @@ def _left(one: Compared) -> list[_Left]:
     Of channels that change by far more than their noise: of others the noise is the variance.
     """
     shares = []
-    for beside in one.channels.values():
+    for name, beside in one.channels.items():
         if beside.simulated is None or len(beside.pick) < FEWEST_VALUES:
             continue
         total = float(np.var(beside.measured))
@@ -77,5 +86,5 @@ def _left(one: Compared) -> list[_Left]:
         as_is = max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / total
         moves = float(np.std(beside.simulated_there)) > 0.0
         followed = float(np.corrcoef(beside.measured, beside.simulated_there)[0, 1]) if moves else 0.0
-        shares.append(_Left(as_is, 1.0 - max(followed, 0.0) ** 2))
+        shares.append(_Left(name, as_is, 1.0 - max(followed, 0.0) ** 2))
     return shares
