@@ -20,8 +20,8 @@ from diagnosis.recording.recording import FEWEST_VALUES
 MET = 0.95
 #: How many times more of its variance is left of a recording that stands out.
 TIMES = 10.0
-#: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording of which an input is
-#: hardly the one that acted: less than half of its course is explained, while the same numbers explain the others.
+#: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording one of whose
+#: inputs hardly is the one that acted: the same numbers explain the others.
 HALF = 0.5
 #: Other recordings that have to be met: one alone may be the odd one itself.
 OTHERS = 2
