@@ -44,6 +44,8 @@ def with_input_rows(
 def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) -> float:
     """Root mean square change of a channel [SI] where every change of an input came anywhere within the row before it.
 
+    By the scenario as it is, in proportion to the readings.
+
     Returns:
         0 where no recorded input holds its values, or where compiled code does not simulate the scenario.
     """
@@ -61,7 +63,9 @@ def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) ->
             squares.append(np.mean((predicted(results, channel.target, channel.times, source) - usual) ** 2))
     except RunStopped:
         return 0.0
-    return float(np.sqrt(np.mean(squares)))
+    # what the fitted model answers is as large as the readings, whatever the scenario as it is answers
+    size = float(np.std(usual))
+    return float(np.sqrt(np.mean(squares))) * (float(np.std(channel.values)) / size if size > 0.0 else 0.0)
 
 
 def _is_held(conditions: Scenario, recorded: Input) -> bool:
