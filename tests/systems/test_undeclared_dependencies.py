@@ -13,7 +13,6 @@ from cosim.run import run
 from cosim.scenario import load_scenario
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
-from diagnosis.models.systems.model import CHECKED
 from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import LUMP
 
@@ -59,7 +58,7 @@ def test_a_ring_without_declared_dependencies_is_simulated_as_the_co_simulation_
 ) -> None:
     scenario = load_scenario(str(_ring(tmp_path, integrator)))
     system = FastSystem(scenario)
-    system.set_substeps(CHECKED)
+    system.set_substeps(8)
     rows = system.simulate()
     assert rows is not None
     results = run(scenario)
