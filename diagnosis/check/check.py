@@ -21,6 +21,7 @@ from diagnosis.check.scale import sign_doubts, unit_doubts
 from diagnosis.check.start import start_doubts
 from diagnosis.check.still import still_doubts
 from diagnosis.check.swapped import swap_doubts
+from diagnosis.check.swapped_in_one import swapped_in_one
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.check.unit_of_one import units_of_one
@@ -57,12 +58,13 @@ def check_recordings(
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = list(still_doubts(every))
-    of_one = units_of_one(every)
+    of_one, exchanged = units_of_one(every), swapped_in_one(every)
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)
         relation = [] if known else _relation(one, [o for o in every if o is not one])
+        relation = relation or [d for d in exchanged if d.recording == one.recording.title]
         units = unit_doubts(one) or size_doubts(one) or [d for d in of_one if d.recording == one.recording.title]
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
         if not any(d.is_serious for d in (*relation, *units)):  # milliseconds for seconds, say, are known as such
