@@ -172,10 +172,7 @@ def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
         if not reason and np.count_nonzero(known) < FEWEST_VALUES:
             reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}: leave it out"
         if reason:
-            steered = [n for n in _programmes(scenario) if _is_called(head, n)]
-            if len(steered) == 1:
-                entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
-                reason = f"by its name it is the input {steered[0]}: write `{steered[0]}: {entry}` under `inputs`"
+            reason = _input(head, _programmes(scenario), set(names.values())) or reason
             unclear.append(f"{head.name}: {reason}")
             continue
         channels[name] = _entry(head, times[known], table.columns[k][known])
@@ -286,10 +283,30 @@ def _called(head: Heading, names: dict[str, str], taken: Sequence[str]) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-def _programmes(scenario: Scenario) -> list[str]:
-    """Outputs of all programmes."""
+def _programmes(scenario: Scenario) -> dict[str, str]:
+    """Outputs of all programmes, with the SI unit of each."""
     every = scenario.components.items()
-    return [f"{n}.{o}" for n, c in every if isinstance(c, ProgrammeComponent) for o in c.outputs]
+    return {
+        f"{n}.{o}": si_unit(given.unit)
+        for n, c in every
+        if isinstance(c, ProgrammeComponent)
+        for o, given in c.outputs.items()
+    }
+
+
+def _input(head: Heading, programmes: dict[str, str], units: set[str]) -> str:
+    """Why a column is the course of an input, by its name or by a unit that no channel has; empty if it is none."""
+    entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
+    called = [n for n in programmes if _is_called(head, n)]
+    if len(called) == 1:
+        return f"by its name it is the input {called[0]}: write `{called[0]}: {entry}` under `inputs`"
+    fitting = [n for n, unit in programmes.items() if head.si_unit is not None and unit == head.si_unit]
+    if not fitting or head.si_unit in units:
+        return ""
+    numbered = [n for n in fitting if tuple(int(k) for k in re.findall(r"\d+", n.partition(".")[2])) == head.numbers]
+    likely = numbered if head.numbers and len(numbered) == 1 else fitting
+    kind = "the input" if len(likely) == 1 else "one of the inputs"
+    return f"by its unit it is {kind} {_few(likely)}: write `{likely[0]}: {entry}` under `inputs` if it was applied so"
 
 
 def _is_called(head: Heading, name: str) -> bool:
