@@ -45,8 +45,9 @@ def test_a_terminal_of_80_columns_has_a_line_for_each_channel_and_cuts_none(tmp_
     lines = [line for line in text.splitlines() if "].temperature" in line]
     assert len(lines) == 2
     number = r"-?\d+(\.\d+)?"
+    span = f"{number} to {number}"
     for line in lines:
-        whole = rf"coil\[[12]\]\.temperature +°C +0\.08/{number} +{number} to {number} +{number} to {number}( +{number}){{2}} *"
+        whole = rf"coil\[[12]\]\.temperature +°C +0\.08/{number} +{span} +{span}( +{number}){{2}} *"
         assert re.fullmatch(whole, line), line
     assert "…" not in text
 
