@@ -19,7 +19,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         for name in ("room.temperature", "bath.temperature"):
             if name in run:
                 ambient = run[name] - (273.15 if run[name].attrs["units"] == "K" else 0.0)
-                axes.plot(run["time"], ambient, color="0.5", ls=":", label=name.split(".")[0])
+                axes.plot(run["time"], ambient, color="0.25", ls=":", zorder=3, label=name.split(".")[0])
         mark_switches(axes, marks)
         axes.set_xlabel("time [s]")
         axes.set_ylabel(f"coil temperature [{DEGREES}]")

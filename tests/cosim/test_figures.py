@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from chainmail.figures import quantities
+from chainmail.figures import currents, quantities
 from chainmail.figures.draw import draw_run
 from cosim import figure_style as style
 from cosim.figure_style import SWITCH, figure, mark_switches, smoothed
@@ -174,3 +174,41 @@ def test_a_large_system_says_how_much_of_it_is_drawn(tmp_path):
     assert quantities._left_out(quantities.by_unit(dataset), quantities.by_unit(dataset)) == (
         ", 10 of 300 (all of them: results.nc)"
     )
+
+
+def test_a_line_on_the_same_values_as_another_is_dashed_so_that_both_are_seen(tmp_path, monkeypatch):
+    time = np.arange(0.0, 5.0, 0.5)
+    columns = {"arm.angle": np.sin(time), "arm.sensor": np.sin(time), "arm.other": np.cos(time)}
+    run = xr.Dataset({n: ("time", v, {"units": "rad"}) for n, v in columns.items()}, {"time": time})
+    seen = {}
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        seen.update({line.get_label(): line.get_linestyle() for line in self.axes[0].lines})
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    quantities.draw(tmp_path / "quantities.png", run, [])
+    assert seen == {"arm.angle": "-", "arm.sensor": "--", "arm.other": "-"}
+
+
+def test_lines_of_the_supply_have_no_colour_of_a_coil(tmp_path, monkeypatch):
+    time = np.arange(0.0, 5.0, 0.5)
+    data = {
+        "circuit.current": (("time", "coil"), np.outer(1.0 + time, [0.1, 0.2])),
+        "circuit.supply_current": ("time", time),
+        "circuit.supply_power": ("time", time),
+    }
+    coils, supply = set(), set()
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        coils.update(line.get_color() for line in self.axes[0].lines)
+        supply.update(line.get_color() for axes in self.axes[1:] for line in axes.lines)
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    currents.draw(tmp_path / "currents.png", xr.Dataset(data, {"time": time}), [])
+    assert len(coils) == 2
+    assert supply == {currents.SUPPLY}
+    assert coils.isdisjoint(supply)
