@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from chainmail.figures import currents, quantities
+from chainmail.figures import currents, quantities, temperatures
 from chainmail.figures.draw import draw_run
+from chainmail.figures.usual_names import with_usual_names
+from chainmail.measures import switches
 from cosim import figure_style as style
 from cosim.figure_style import SWITCH, figure, mark_switches, smoothed
 from cosim.options import FORMATS, formats_of
@@ -212,3 +214,29 @@ def test_lines_of_the_supply_have_no_colour_of_a_coil(tmp_path, monkeypatch):
     assert len(coils) == 2
     assert supply == {currents.SUPPLY}
     assert coils.isdisjoint(supply)
+
+
+def test_figures_follow_what_components_do_and_not_how_they_are_called(tmp_path):
+    """A run whose actuator was not called `actuator` had no figure of its temperatures."""
+    time = np.arange(0.0, 5.0, 0.5)
+    coils = np.outer(300.0 + time, [1.0, 1.1])
+    data = {
+        "cell.voltage": ("time", np.where(time < 2.0, 0.0, 3.0), {"units": "V"}),
+        "lab.temperature": ("time", np.full(len(time), 295.0), {"units": "K"}),
+        "muscles.temperature": (("time", "coil"), coils, {"units": "K"}),
+        "muscles.stiffness": (("time", "coil"), coils, {"units": "N/m"}),
+        "net.current": (("time", "coil"), 0.001 * coils, {"units": "A"}),
+        "net.voltage": (("time", "coil"), 0.001 * coils, {"units": "V"}),
+        "net.supply_current": ("time", time, {"units": "A"}),
+        "net.supply_power": ("time", time, {"units": "W"}),
+    }
+    folder = RunFolder(tmp_path / "run")
+    folder.path.mkdir()
+    run = xr.Dataset(data, {"time": time}, {"title": "Own names"})
+    run.to_netcdf(folder.results, engine="netcdf4")
+    named = with_usual_names(run)
+    assert switches(named) == [1.5]
+    assert temperatures.surroundings(named) == ["lab.temperature"]
+    assert [path.name for path in draw_run(folder.path)] == ["temperatures.png", "stiffness_loops.png", "currents.png"]
+    two = run.assign({"more.temperature": run["muscles.temperature"], "more.stiffness": run["muscles.stiffness"]})
+    assert "muscles.temperature" in with_usual_names(two)  # which of the two is meant cannot be said
