@@ -1,4 +1,4 @@
-"""Figures ask for `actuator.temperature`, `circuit.current` and so on; a scenario may call its components as it likes."""
+"""Figures ask for `actuator.temperature`, `circuit.current` and so on; scenarios call components as they like."""
 
 from __future__ import annotations
 

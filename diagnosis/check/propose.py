@@ -12,7 +12,14 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from cosim.components import CircuitComponent, PendulumComponent, ProgrammeComponent, nanoseconds
+from cosim.components import (
+    CircuitComponent,
+    FmuComponent,
+    PendulumComponent,
+    ProgrammeComponent,
+    ProgrammeOutput,
+    nanoseconds,
+)
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario, parse_scenario
 from cosim.unit.errors import InputError
@@ -81,6 +88,8 @@ WORDS = {
     "max_curvature": ("max_curvature", "curvature", "kappa"),
     "length": ("length",),
 }
+#: Points up to which a programme is written out for a recording to change; a longer one is rather a recorded input.
+MOST_POINTS = 12
 _TIMES = frozenset({"time", "t", "timestamp", "date", "datetime", "clock", "seconds", "elapsed", "zeit"})
 _NAME = re.compile(r"^\s*(?P<body>.*?)\s*[\[(]\s*(?P<unit>[^\])]*)\s*[\])]\s*$")
 
@@ -398,10 +407,13 @@ def _sidecar(
     if clock.unit is None and clock.name not in table.instants:
         lines.append(f"# The unit of the clock `{clock.name}` is not in its name: s is taken. Is it ms, min?")
     lines.append(yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110).rstrip())
+    conditions = [f"# {line}" for line in _conditions(scenario)]
+    if conditions:
+        conditions.insert(0, "# Take away the `# ` before what differs, and write this recording's own numbers:")
     lines += [
         "# The clock starts at the scenario's time 0; else give `zero` and `offset_bound` under `time`.",
         "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
-        *_conditions(scenario),
+        *conditions,
     ]
     if channels:
         lines.append(
@@ -421,14 +433,40 @@ def _shown(separator: str) -> str:
 
 
 def _conditions(scenario: Scenario) -> list[str]:
-    """Comments with what drives the scenario, to be replaced."""
-    lines = []
+    """The `overrides` that state what drove a recording and how it started, with the scenario's own numbers."""
+    components: dict[str, object] = {}
     for name, component in scenario.components.items():
         if isinstance(component, ProgrammeComponent):
-            for output, given in component.outputs.items():
-                what = f"constant: {given.constant}" if given.points is None else "points: [[0 s, ...], ...]"
-                lines.append(f"#   {name}.{output} [{given.unit}]: {what if len(what) < 60 else 'constant: ...'}")
-    return lines
+            courses = {o: _course(g) for o, g in component.outputs.items() if len(g.points or ()) <= MOST_POINTS}
+            if courses:
+                components[name] = {"outputs": courses}
+        elif isinstance(component, FmuComponent | PendulumComponent):
+            starts = {k: _plain_value(v) for k, v in component.parameters.items() if k.startswith("initial_")}
+            if starts:
+                components[name] = {"parameters": starts}
+    if not components:
+        return []
+    text = yaml.safe_dump(
+        {"overrides": {"components": components}},
+        default_flow_style=None,
+        sort_keys=False,
+        allow_unicode=True,
+        width=10_000,
+    )
+    return text.rstrip().splitlines()
+
+
+def _course(given: ProgrammeOutput) -> dict[str, object]:
+    """What an output of a programme does."""
+    kept: dict[str, object] = {"unit": given.unit} | ({"dim": given.dim} if given.dim else {})
+    kept |= {"interpolation": given.interpolation} if given.interpolation != "hold" else {}
+    if given.points is None:
+        return kept | {"constant": _plain_value(given.constant)}
+    return kept | {"points": [[str(t), _plain_value(v)] for t, v in given.points]}
+
+
+def _plain_value(value: object) -> object:
+    return [str(v) for v in value] if isinstance(value, list) else str(value)
 
 
 def _plain(table: Sniffed, keep: np.ndarray) -> str:

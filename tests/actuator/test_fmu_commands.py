@@ -77,12 +77,26 @@ def test_info_tells_version_interfaces_structure_states_and_whether_it_is_an_act
         r"structure\s+coils = 36",
         r"continuous states\s+temperature, convected_energy",
         r"actuator\s+yes",
-        r"stiffness\s+output\s+Float64\s+36\s+N/m",
+        r"stiffness\s+output\s+Float64\[36\]\s+N/m",
     ):
         assert re.search(line, answer.out), line
     data = json.loads(cosim("fmu", "info", fmus / "niti_kinetics_fmi2.fmu", "--json").out)
     assert data["actuator"] == {"is_actuator": True, "faults": []}
     assert {v["name"]: v["causality"] for v in data["variables"]}["tension"] == "input"
+
+
+@pytest.mark.parametrize("columns", [80, 200])
+def test_info_cuts_no_name_and_no_unit_in_any_terminal(cosim, fmus, monkeypatch, columns):
+    """At 80 columns types, units and start values were one dot each."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    answer = cosim("fmu", "info", fmus / "thermal_stiffness_fmi3.fmu")
+    assert answer.code == 0
+    assert "…" not in answer.out
+    assert re.search(
+        r"^heat_transfer_coefficient +parameter +Float64\[36\] +W/\(m\^2\*K\) +[\d.]+ *", answer.out, re.MULTILINE
+    )
+    assert re.search(r"(^stiffness: |N/m +)Spring constant", answer.out, re.MULTILINE)
+    assert max(map(len, answer.out.splitlines())) <= columns
 
 
 def checks(out):
