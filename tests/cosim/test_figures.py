@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from chainmail.figures import currents, quantities, temperatures
+from chainmail.figures import currents, quantities, side_view, temperatures
 from chainmail.figures.draw import draw_run
 from chainmail.figures.usual_names import with_usual_names
 from chainmail.measures import switches
@@ -240,3 +240,12 @@ def test_figures_follow_what_components_do_and_not_how_they_are_called(tmp_path)
     assert [path.name for path in draw_run(folder.path)] == ["temperatures.png", "stiffness_loops.png", "currents.png"]
     two = run.assign({"more.temperature": run["muscles.temperature"], "more.stiffness": run["muscles.stiffness"]})
     assert "muscles.temperature" in with_usual_names(two)  # which of the two is meant cannot be said
+
+
+def test_the_side_view_says_when_and_at_which_voltage_and_claims_no_heat():
+    """A fabric whose coils had reached 32 degC was labelled hot."""
+    now = xr.Dataset({"supply.voltage": 6.0}, {"time": 1.5})
+    assert side_view._label(now) == "t = 1.50 s, 6 V"
+    assert side_view._label(now.drop_vars("supply.voltage")) == "t = 1.50 s"
+    two = xr.Dataset({"supply.voltage": ("string", [6.0, 0.0])}, {"time": 1.5})
+    assert side_view._label(two) == "t = 1.50 s"
