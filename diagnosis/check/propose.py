@@ -437,11 +437,15 @@ def _conditions(scenario: Scenario) -> list[str]:
     components: dict[str, object] = {}
     for name, component in scenario.components.items():
         if isinstance(component, ProgrammeComponent):
-            courses = {o: _course(g) for o, g in component.outputs.items() if len(g.points or ()) <= MOST_POINTS}
+            courses: dict[str, object] = {
+                o: _course(g) for o, g in component.outputs.items() if len(g.points or ()) <= MOST_POINTS
+            }
             if courses:
                 components[name] = {"outputs": courses}
         elif isinstance(component, FmuComponent | PendulumComponent):
-            starts = {k: _plain_value(v) for k, v in component.parameters.items() if k.startswith("initial_")}
+            starts: dict[str, object] = {
+                k: _plain_value(v) for k, v in component.parameters.items() if k.startswith("initial_")
+            }
             if starts:
                 components[name] = {"parameters": starts}
     if not components:
@@ -459,7 +463,8 @@ def _conditions(scenario: Scenario) -> list[str]:
 def _course(given: ProgrammeOutput) -> dict[str, object]:
     """What an output of a programme does."""
     kept: dict[str, object] = {"unit": given.unit} | ({"dim": given.dim} if given.dim else {})
-    kept |= {"interpolation": given.interpolation} if given.interpolation != "hold" else {}
+    if given.interpolation != "hold":
+        kept["interpolation"] = given.interpolation
     if given.points is None:
         return kept | {"constant": _plain_value(given.constant)}
     return kept | {"points": [[str(t), _plain_value(v)] for t, v in given.points]}
