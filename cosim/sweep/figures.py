@@ -47,7 +47,7 @@ def draw(folder: Path, data: xr.Dataset, axes: Sequence[Points], outputs: Sequen
 
 def draw_indices(path: Path, name: str, keys: Sequence[str], found: Indices) -> Path:
     """Bars of first-order and total indices with their 95 % intervals."""
-    with figure(path, height=1.2 + 0.45 * len(keys)) as (place,):
+    with figure(path, height=1.5 + 0.45 * len(keys), title=f"Sensitivity of {name}") as (place,):
         rows = np.arange(len(keys))[::-1]
         place.barh(rows + 0.18, found.first, 0.34, xerr=found.first_error, label="first order: alone", capsize=2)
         place.barh(rows - 0.18, found.total, 0.34, xerr=found.total_error, label="total: with all others", capsize=2)

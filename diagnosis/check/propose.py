@@ -462,7 +462,9 @@ def _conditions(scenario: Scenario) -> list[str]:
 
 def _course(given: ProgrammeOutput) -> dict[str, object]:
     """What an output of a programme does."""
-    kept: dict[str, object] = {"unit": given.unit} | ({"dim": given.dim} if given.dim else {})
+    kept: dict[str, object] = {"unit": given.unit}
+    if given.dim:
+        kept["dim"] = given.dim
     if given.interpolation != "hold":
         kept["interpolation"] = given.interpolation
     if given.points is None:
