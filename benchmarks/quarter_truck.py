@@ -58,13 +58,13 @@ def _rates(time: float, x: Vector) -> Vector:
     )
 
 
-def monolithic() -> float:
-    """Height of the chassis at 2 s [m] from all equations at once (DOP853, tolerance 1e-12).
+def monolithic(stop: float = QUARTER_TRUCK.stop) -> float:
+    """Height of the chassis at `stop` [s] (after 1 s) in m, from all equations at once (DOP853, tolerance 1e-12).
 
     The system rests until the ground's step at 1 s, so the integration begins there. The tyre sees the integral of the
     filtered velocity, which is the step behind the filter.
     """
-    solution = solve_ivp(_rates, (1.0, QUARTER_TRUCK.stop), np.zeros(5), method="DOP853", rtol=1e-12, atol=1e-14)
+    solution = solve_ivp(_rates, (1.0, stop), np.zeros(5), method="DOP853", rtol=1e-12, atol=1e-14)
     return 1.0 + float(solution.y[0, -1])
 
 

@@ -18,6 +18,7 @@ import tempfile
 import threading
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -188,6 +189,23 @@ class Ngspice:
             if info != null and info.v_realdata != null:
                 values[i] = info.v_realdata[0]
         return values
+
+
+def require_ngspice() -> None:
+    """Look for libngspice and PySpice without loading PySpice, which takes as long as all other checks of a file.
+
+    Raises:
+        NgspiceMissingError: libngspice is not there or does not load.
+        PySpiceMissingError: PySpice, or a package that it needs, is not installed.
+    """
+    find_ngspice()
+    for package in ("PySpice", "cffi"):
+        try:
+            is_there = find_spec(package) is not None
+        except ModuleNotFoundError:  # how an importer of somebody else says it
+            is_there = False
+        if not is_there:
+            raise PySpiceMissingError(package)
 
 
 @functools.cache

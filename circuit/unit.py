@@ -20,7 +20,7 @@ from circuit.netlist import (
     render,
     source_name,
 )
-from circuit.ngspice import Circuit, NgspiceError
+from circuit.ngspice import Circuit, NgspiceError, require_ngspice
 from cosim.unit.protocol import (
     Array,
     ArrayStore,
@@ -59,8 +59,9 @@ class CircuitUnit(Unit):
         network: What is connected to what.
 
     Raises:
-        NgspiceMissingError: libngspice is not there (a UnitError and a ValueError).
-        UnitError: ngspice does not take the netlist.
+        NgspiceMissingError, PySpiceMissingError: libngspice or PySpice is not there (UnitErrors and ValueErrors).
+            Whether it is there is found out here; it is loaded for the first solution, as a check of a scenario does
+            without it.
     """
 
     can_restore = True
@@ -100,10 +101,9 @@ class CircuitUnit(Unit):
         number = {n: k for k, n in enumerate(self._nodes)}
         self._node_of_coil = np.array([number.get(n, len(number)) for n in nodes])
         self._start = 0
-        try:
-            self._circuit: Circuit | None = Circuit(render(network), self._vectors())
-        except NgspiceError as fault:
-            raise UnitError(name, str(fault)) from fault
+        require_ngspice()
+        self._circuit: Circuit | None = None  # made for the first solution
+        self._is_terminated = False
 
     def _vectors(self) -> list[str]:
         network = self.network
@@ -161,6 +161,7 @@ class CircuitUnit(Unit):
 
     def terminate(self) -> None:
         """Free the circuit in ngspice."""
+        self._is_terminated = True
         if self._circuit is not None:
             self._circuit.remove()
             self._circuit = None
@@ -233,15 +234,25 @@ class CircuitUnit(Unit):
             return free
         return self._solution(np.concatenate([lowered, wanted[sources:]]), contacts, time)
 
+    def _loaded(self, time: int) -> Circuit:
+        """The circuit in ngspice, loaded at the first call; UnitError if ngspice does not take the netlist."""
+        if self._is_terminated:
+            raise UnitError(self.name, "the unit was terminated", time, "construct a new one")
+        if self._circuit is None:
+            try:
+                self._circuit = Circuit(render(self.network), self._vectors())
+            except NgspiceError as fault:
+                raise UnitError(self.name, str(fault), time) from fault
+        return self._circuit
+
     def _solution(self, wanted: Array, contacts: Array, time: int) -> Solution:
         """One operating point; `contacts` are those of all strings [ohm] and replace the ones in `wanted`."""
-        if self._circuit is None:
-            raise UnitError(self.name, "the unit was terminated", time, "construct a new one")
+        circuit = self._loaded(time)
         whole = self.network.sources + self.network.coils
         wanted = np.concatenate([wanted[:whole], contacts[self._with_contacts]])
         changed = np.flatnonzero(self._in_use & (wanted != self._altered))
         try:
-            values = self._circuit.solve({self._elements[i]: float(wanted[i]) for i in changed})
+            values = circuit.solve({self._elements[i]: float(wanted[i]) for i in changed})
         except NgspiceError as fault:
             self._altered[...] = np.nan  # unknown how far ngspice came: alter everything next time
             raise UnitError(self.name, str(fault), time, "check voltages and resistances") from fault

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import re
 from collections.abc import Mapping, Sequence
@@ -70,7 +71,6 @@ class Assembly:
         algorithm: Makes the macro-steps.
         start: First values of feedback inputs, SI.
         parameters: Component to resolved parameters, for the run's record.
-        versions: What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
     """
 
     scenario: Scenario
@@ -78,7 +78,15 @@ class Assembly:
     algorithm: Algorithm
     start: Mapping[str, Mapping[str, float]]
     parameters: Mapping[str, Resolved]
-    versions: Mapping[str, str]
+
+    @functools.cached_property
+    def versions(self) -> Mapping[str, str]:
+        """What the components compute with beside Python packages: ngspice, every FMU with its SHA-256.
+
+        Raises:
+            UnitError: ngspice does not load: a check of a scenario only looks whether it is there.
+        """
+        return _versions(self.system.units)
 
 
 def assemble(scenario: Scenario) -> Assembly:
@@ -108,7 +116,7 @@ def assemble(scenario: Scenario) -> Assembly:
         for unit in units.values():
             unit.terminate()
         raise
-    return Assembly(scenario, system, algorithm, start, parameters, _versions(units))
+    return Assembly(scenario, system, algorithm, start, parameters)
 
 
 def _build_all(scenario: Scenario, source: Path, units: dict[str, Unit], parameters: dict[str, Resolved]) -> Scenario:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 from typing import Annotated
 
 import typer
@@ -26,9 +25,11 @@ def show_version(wanted: bool) -> None:
 
 def version() -> str:
     """Version of the installed package, `unknown` where it is imported from a folder that was never installed."""
+    from importlib import metadata  # late: `--help` does without
+
     try:
-        return importlib.metadata.version("active-chainmail")
-    except importlib.metadata.PackageNotFoundError:
+        return metadata.version("active-chainmail")
+    except metadata.PackageNotFoundError:
         return "unknown"
 
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 import csv
 import errno
 import importlib
-import importlib.metadata
 import itertools
 import json
 import os
@@ -349,11 +348,13 @@ def resolved_scenario(scenario: Scenario, parameters: Mapping[str, Resolved]) ->
 
 def versions() -> dict[str, str]:
     """Versions of Python, the packages that compute, the machine and the commit where it is a checkout."""
+    from importlib import metadata  # late: `--help` does without
+
     found = {"python": platform.python_version(), "platform": platform.platform()}
     for package in ("active-chainmail", *_PACKAGES):
         try:
-            found[package] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
+            found[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
             found[package] = "not installed"
     found["commit"] = _commit()
     return found

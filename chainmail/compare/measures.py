@@ -57,7 +57,7 @@ def measures(run: xr.Dataset, layout: Layout) -> list[Measure]:
         Measure(
             "peak_temperature_degC",
             "peak temperature",
-            "degC",
+            "°C",
             _peak(run.get(f"{layout.actuator}.temperature")) - 273.15,
         ),
         Measure("cold_stiffness_N_per_m", "stiffness, cold", "N/m", stiff[0]),

@@ -43,7 +43,10 @@ def cells(columns: Columns) -> list[list[str]]:
 def show(columns: Columns, console: Console) -> None:
     """Print the table."""
     table = Table(box=None, pad_edge=False)
-    for heading in ("quantity", *columns):
+    for heading in (
+        "quantity",
+        *(name.replace("_", "_\n") for name in columns),
+    ):  # a long name breaks between its words
         table.add_column(heading, overflow="fold")
     for row in cells(columns):
         table.add_row(*map(escape, row))  # [s] is a unit here, no markup

@@ -18,6 +18,7 @@ from chainmail.figures import (
     stiffness_loops,
     temperatures,
 )
+from chainmail.figures.usual_names import with_usual_names
 from chainmail.measures import one_start, switches
 from cosim.alone import alone
 from cosim.run_folder import RunFolder, writing
@@ -61,7 +62,7 @@ def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> lis
     Raises:
         InputError: A folder holds no results, or the figures cannot be written.
     """
-    runs = [open_run(f) for f in folders]
+    runs = [with_usual_names(open_run(f)) for f in folders]
     target = folders[0] / "figures"
     drawn: list[Path] = []
     with alone(folders[0], "drawing"), writing(target):

@@ -45,9 +45,13 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         path, width=8.5, height=0.8 + 1.6 * len(shown), rows=len(shown), title=title, run=label_of(run)
     ) as places:
         for axes, (unit, lines) in zip(places, shown.items(), strict=True):
+            drawn: list[Array] = []
             for name, values in list(lines.items())[:MOST_LINES]:
                 label = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 4]} ..."
-                axes.plot(run["time"], values, lw=1.1, label=label.replace("$", r"\$").lstrip("_"))
+                is_covered = any(np.array_equal(values, other, equal_nan=True) for other in drawn)
+                style = "--" if is_covered else "-"  # dashed over a line of the same values: both are seen
+                axes.plot(run["time"], values, lw=1.1, ls=style, label=label.replace("$", r"\$").lstrip("_"))
+                drawn.append(values)
             axes.set_ylabel("[1]" if unit == "1" else f"[{unit}]".replace("$", r"\$"))
             mark_switches(axes, marks)
             axes.legend(

@@ -1,4 +1,4 @@
-"""Side view of the fabric: cold, hot and re-cooled."""
+"""Side view of the fabric: before its supply is switched, at the end of being driven, and at the end."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
     """Draw the links in the plane of gravity, from their markers, at up to three moments."""
     positive = [m for m in marks if m >= 0.0]
     end = float(run["time"][-1])
-    moments = [("cold", positive[0] if positive else end, COLD)]
+    moments = [(positive[0] if positive else end, COLD)]
     if positive:
-        moments.append(("hot", positive[1] if len(positive) > 1 else end, HOT))
+        moments.append((positive[1] if len(positive) > 1 else end, HOT))
     if len(positive) > 1:
-        moments.append(("re-cooled", end, RECOOLED))
+        moments.append((end, RECOOLED))
     with figure(path, width=6.4, height=4.0, title="Side view", run=label_of(run)) as (axes,):
-        for label, moment, colour in moments:
+        for moment, colour in moments:
             now = run.sel(time=moment, method="nearest")
             _outline(
                 axes,
                 now["fabric.marker_position"].values,
                 now["fabric.row_centre"].values,
                 colour,
-                f"{label}, t = {float(now['time']):.2f} s",
+                _label(now),
             )
         axes.set_aspect("equal")
         if "start" in run.coords:
@@ -38,6 +38,13 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
         axes.set_ylabel("z, up [cm]")
         axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     return path
+
+
+def _label(now: xr.Dataset) -> str:
+    """Instant and voltage of the one supply; how warm the coils are by then stands in the figure of temperatures."""
+    voltage = now.get("supply.voltage")
+    driven = f", {float(voltage):g} V" if voltage is not None and voltage.ndim == 0 else ""
+    return f"t = {float(now['time']):.2f} s{driven}"
 
 
 def _outline(axes: Axes, markers: np.ndarray, centres: np.ndarray, colour: str, label: str) -> None:

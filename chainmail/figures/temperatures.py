@@ -16,15 +16,21 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
     with figure(path, title="Temperatures of the coils", run=label_of(run)) as (axes,):
         celsius = run["actuator.temperature"] - 273.15
         draw_coils(axes, celsius, "coil")
-        for name in ("room.temperature", "bath.temperature"):
-            if name in run:
-                ambient = run[name] - (273.15 if run[name].attrs["units"] == "K" else 0.0)
-                axes.plot(run["time"], ambient, color="0.5", ls=":", label=name.split(".")[0])
+        for name in surroundings(run):
+            ambient = run[name] - (273.15 if run[name].attrs["units"] == "K" else 0.0)
+            label = name.split(".")[0].replace("$", r"\$").lstrip("_")
+            axes.plot(run["time"], ambient, color="0.25", ls=":", zorder=3, label=label)
         mark_switches(axes, marks)
         axes.set_xlabel("time [s]")
         axes.set_ylabel(f"coil temperature [{DEGREES}]")
         axes.legend(frameon=False, fontsize=8)
     return path
+
+
+def surroundings(run: xr.Dataset) -> list[str]:
+    """Temperatures that are no coil's: of the room, of a bath."""
+    every = [n for n in map(str, run.data_vars) if n.endswith(".temperature") and not n.startswith("actuator.")]
+    return [n for n in every if run[n].dims == ("time",) and run[n].attrs.get("units") in ("K", "degC")]
 
 
 def draw_coils(axes: Axes, values: xr.DataArray, label: str) -> None:

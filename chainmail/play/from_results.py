@@ -21,7 +21,7 @@ FRAMES = 1000
 _ZERO = 273.15
 #: Quantity of a coil to its name on the page, shown unit, factor and shift.
 _FIELDS = {
-    "temperature": ("degC", 1.0, -_ZERO),
+    "temperature": ("°C", 1.0, -_ZERO),
     "stiffness": ("N/mm", 1e-3, 0.0),
     "tension": ("N", 1.0, 0.0),
     "extension": ("mm", 1e3, 0.0),
@@ -188,7 +188,7 @@ def _curves(shown: xr.Dataset, name: str) -> Iterator[Curve]:
             yield Curve(plot, unit, "", times, shown[variable].values)
     for variable in [v for v in shown.data_vars if str(v).endswith(".temperature") and shown[v].ndim == 2][:1]:
         kelvin = shown[variable].values - _ZERO
-        yield Curve("Coil temperature", "degC", "", times, kelvin.mean(axis=1), kelvin.min(axis=1), kelvin.max(axis=1))
+        yield Curve("Coil temperature", "°C", "", times, kelvin.mean(axis=1), kelvin.min(axis=1), kelvin.max(axis=1))
     for quantity, plot, unit, factor in (
         ("max_curvature", "Maximum curvature", "1/m", 1.0),
         ("fabric_length", "Fabric length", "mm", 1e3),

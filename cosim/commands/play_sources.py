@@ -20,7 +20,7 @@ _PLOTS = {
     ("supply", "voltage"): ("Supply voltage", "V", 1.0, 0.0),
     ("supply", "current"): ("Supply current", "A", 1.0, 0.0),
     ("supply", "power"): ("Supply power", "W", 1.0, 0.0),
-    ("coil", "temperature"): ("Coil temperature", "degC", 1.0, -273.15),
+    ("coil", "temperature"): ("Coil temperature", "°C", 1.0, -273.15),
     ("fabric", "max_curvature"): ("Maximum curvature", "1/m", 1.0, 0.0),
     ("fabric", "length"): ("Fabric length", "mm", 1e3, 0.0),
 }

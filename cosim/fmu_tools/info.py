@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from cosim.actuator.interface import PORTS, faults
@@ -32,6 +33,8 @@ _CAPABILITIES = (
     "needsExecutionTool",
     "canBeInstantiatedOnlyOncePerProcess",
 )
+#: Room that a description needs beside the other columns; with less it stands below.
+_DESCRIPTION = 30
 
 
 @dataclass(frozen=True)
@@ -140,16 +143,40 @@ def show_info(path: Path, info: FmuInfo, console: Console) -> None:
     head.add_row("actuator", "yes" if not info.actuator else "no: " + info.actuator[0])
     console.print(head)
     console.print()
-    table = Table(box=None, pad_edge=False)
-    for heading in ("variable", "causality", "type", "shape", "unit", "start"):
-        table.add_column(heading, no_wrap=True)
-    table.add_column("description", overflow="ellipsis", no_wrap=True)
-    for row in info.variables:
-        shape = "x".join(map(str, row["shape"])) or "scalar"
-        table.add_row(
-            row["name"], row["causality"], row["type"], shape, row["unit"], _short(row["start"]), row["description"]
+    console.print(_variables(info.variables, console.width), soft_wrap=False)
+
+
+def _variables(rows: list[dict[str, Any]], width: int) -> Table:
+    """One row per variable; where a terminal has no room for descriptions, they stand below the table."""
+    headings = ("variable", "causality", "type", "unit", "start")
+    cells = [
+        (
+            row["name"],
+            row["causality"],
+            row["type"] + "".join(f"[{size}]" for size in row["shape"]),
+            row["unit"],
+            _short(row["start"]),
         )
-    console.print(table)
+        for row in rows
+    ]
+    taken = sum(max(len(line[k]) for line in [headings, *cells]) + 2 for k in range(len(headings)))
+    has_room = taken + _DESCRIPTION <= width
+    table = Table(box=None, pad_edge=False, padding=(0, 1) if has_room else (0, 1, 0, 0))
+    for heading in headings:
+        table.add_column(heading, no_wrap=has_room, overflow="fold")
+    if has_room:
+        table.add_column("description", overflow="fold")
+    for line, row in zip(cells, rows, strict=True):
+        table.add_row(*map(escape, line), *([escape(row["description"])] if has_room else []))
+    if has_room or not any(row["description"] for row in rows):
+        return table
+    both = Table.grid()
+    both.add_row(table)
+    both.add_row("")
+    for row in rows:
+        if row["description"]:
+            both.add_row(escape(f"{row['name']}: {row['description']}"))
+    return both
 
 
 def _short(start: str | None) -> str:

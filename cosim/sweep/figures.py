@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.figure_style import figure
+from cosim.figure_style import DEGREES, figure, label_of
 from cosim.sweep.axes import Points
 from cosim.sweep.sensitivity import Indices
 from cosim.unit.protocol import Array
@@ -47,7 +47,7 @@ def draw(folder: Path, data: xr.Dataset, axes: Sequence[Points], outputs: Sequen
 
 def draw_indices(path: Path, name: str, keys: Sequence[str], found: Indices) -> Path:
     """Bars of first-order and total indices with their 95 % intervals."""
-    with figure(path, height=1.2 + 0.45 * len(keys)) as (place,):
+    with figure(path, height=1.5 + 0.45 * len(keys), title=f"Sensitivity of {name}") as (place,):
         rows = np.arange(len(keys))[::-1]
         place.barh(rows + 0.18, found.first, 0.34, xerr=found.first_error, label="first order: alone", capsize=2)
         place.barh(rows - 0.18, found.total, 0.34, xerr=found.total_error, label="total: with all others", capsize=2)
@@ -66,13 +66,19 @@ def _lines(
     split = others[0] if others and others[0].size <= _CURVES else None
     across = [a.name for a in (*scatter, *(o for o in others if o is not split))]
     x, label, ticks = _abscissa(data, main)
-    with figure(path) as (place,):
+    drawn: list[Array] = []
+    with figure(path, title=f"{values.name} over {main.name}", run=label_of(data)) as (place,):
         for number in range(1 if split is None else split.size):
             own = values if split is None else values.isel({split.name: number})
             rows = own.transpose(main.name, *across).values.reshape(main.size, -1)
             colour = f"C{number}"
             name = "" if split is None else f"{split.name} = {_point(data, split, number)}"
-            place.plot(x, _percentile(rows, 50.0), "o-" if main.size <= 40 else "-", ms=3, color=colour, label=name)
+            middle = _percentile(rows, 50.0)
+            # A line on the same values as another is dashed, so that both are seen.
+            style = "--" if any(np.allclose(middle, other, rtol=1e-9, equal_nan=True) for other in drawn) else "-"
+            drawn.append(middle)
+            mark = "o" if main.size <= 40 else ""
+            place.plot(x, middle, ls=style, marker=mark, ms=3, color=colour, label=name)
             if rows.shape[1] > 1:
                 place.fill_between(x, _percentile(rows, LOW), _percentile(rows, HIGH), alpha=0.2, color=colour, lw=0)
         if across:
@@ -92,7 +98,8 @@ def _heat_map(
     one, other = chosen[:2]
     across = [a.name for a in (*scatter, *chosen[2:])]
     rows = values.transpose(other.name, one.name, *across).values.reshape(other.size, one.size, -1)
-    with figure(path) as (place,):
+    title = f"{values.name} over {one.name} and {other.name}"
+    with figure(path, title=title, run=label_of(data)) as (place,):
         x, x_label, x_ticks = _abscissa(data, one)
         y, y_label, y_ticks = _abscissa(data, other)
         drawn = place.pcolormesh(x, y, _percentile(rows, 50.0), shading="nearest", cmap="viridis")
@@ -115,7 +122,7 @@ def _heat_map(
 
 def _distribution(path: Path, data: xr.Dataset, values: xr.DataArray, chosen: Sequence[Points]) -> Path:
     split = next((a for a in chosen if a.size <= _CURVES), None)
-    with figure(path) as (place,):
+    with figure(path, title=f"Distribution of {values.name}", run=label_of(data)) as (place,):
         for number in range(1 if split is None else split.size):
             own = values if split is None else values.isel({split.name: number})
             numbers = np.sort(own.values[np.isfinite(own.values)].ravel())
@@ -141,12 +148,13 @@ def _abscissa(data: xr.Dataset, axis: Points) -> tuple[Array, str, list[str] | N
     """Places along an axis, its label, and texts of its ticks where it has no numbers."""
     column = axis.columns[0]
     if _is_numeric(data, axis) and column.numbers is not None:
-        return column.numbers, f"{axis.name} [{column.unit}]" if column.unit else axis.name, None
+        unit = column.unit.replace("degC", DEGREES)
+        return column.numbers, f"{axis.name} [{unit}]" if unit else axis.name, None
     return np.arange(axis.size, dtype=np.float64), axis.name, [_short(t) for t in column.labels()]
 
 
 def _point(data: xr.Dataset, axis: Points, number: int) -> str:
-    return _short(str(axis.columns[0].values[number]))
+    return _short(str(axis.columns[0].values[number]).replace("degC", DEGREES))
 
 
 def _short(text: str) -> str:
@@ -154,7 +162,7 @@ def _short(text: str) -> str:
 
 
 def _name(values: xr.DataArray) -> str:
-    unit = values.attrs.get("units", "")
+    unit = str(values.attrs.get("units", "")).replace("degC", DEGREES)
     return f"{values.name} [{unit}]" if unit not in ("", "1") else str(values.name)
 
 

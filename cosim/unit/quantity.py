@@ -38,6 +38,8 @@ with _hidden("dask", "scipy"):
 #: `9**9**9**9` ends with the memory of the machine.
 _LONGEST_UNIT = 1000
 _COSTLY = re.compile(r"(?<![\w.])[\d.]+[\s)]*\*\*|(?<![\w.])\d{7}")
+#: Coulomb and farad where a temperature is asked for, and what is meant.
+_TEMPERATURES = {"C": "degC", "F": "degF"}
 _TEXT = re.compile(r"^\s*(?P<number>[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>.*?)\s*$")
 _PATTERN = r"^\s*[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?\s*.*$"
 
@@ -66,7 +68,16 @@ def parse_unit(text: str) -> pint.Unit:
     try:
         return registry().Unit("" if text.strip() in ("", "1") else text)
     except Exception as error:  # pint raises several unrelated kinds, also for malformed text
-        raise ValueError(f"`{text}` is not a unit that is known here") from error
+        raise ValueError(f"`{text}` is not a unit that is known here{_in_small_letters(text)}") from error
+
+
+def _in_small_letters(text: str) -> str:
+    """`Volt` is a slip for `volt`; empty where small letters are no unit either."""
+    try:
+        registry().Unit(text.lower())
+    except Exception:  # as above
+        return ""
+    return f"; did you mean `{text.lower()}`?"
 
 
 @functools.cache
@@ -168,7 +179,9 @@ class PhysicalValue:
         try:
             wanted = registry().Quantity(self.number, given).to(asked)
         except (pint.PintError, ArithmeticError) as error:
-            raise ValueError(f"`{self}` is no quantity in {unit}") from error
+            meant = _TEMPERATURES.get(self.unit, "") if asked.dimensionality == parse_unit("K").dimensionality else ""
+            hint = f"; write `{self.number:g} {meant}`" if meant else ""
+            raise ValueError(f"`{self}` is no quantity in {unit}{hint}") from error
         number = float(wanted.magnitude) * turns(self.unit, unit)
         if not math.isfinite(number):
             raise ValueError(f"`{self}` is too large for a number in {unit}")

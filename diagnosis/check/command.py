@@ -39,13 +39,18 @@ def new(
         with writing(out):
             write_atomically(out / "data.csv", found.table.encode())
             write_atomically(out / "recording.yaml", found.sidecar.encode())
-    print(f"{out / 'recording.yaml'}: {found.channels} channels proposed, {len(found.unclear_columns)} columns unclear")
+    channels, columns = _counted(found.channels, "channel"), _counted(len(found.unclear_columns), "column")
+    print(f"{out / 'recording.yaml'}: {channels} proposed, {columns} unclear")
     for text in found.unclear_columns:
         print(f"  unclear column {printable(text)}")
     if not found.channels:
         print("no column could be matched: write the channels yourself (docs/recordings.md lists their names)")
     else:
         print(f"read it, then: cosim recording check {as_argument(out)} --scenario {as_argument(scenario)}")
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 @app.command("import")

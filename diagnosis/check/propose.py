@@ -12,7 +12,14 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from cosim.components import CircuitComponent, PendulumComponent, ProgrammeComponent, nanoseconds
+from cosim.components import (
+    CircuitComponent,
+    FmuComponent,
+    PendulumComponent,
+    ProgrammeComponent,
+    ProgrammeOutput,
+    nanoseconds,
+)
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario, parse_scenario
 from cosim.unit.errors import InputError
@@ -81,6 +88,8 @@ WORDS = {
     "max_curvature": ("max_curvature", "curvature", "kappa"),
     "length": ("length",),
 }
+#: Points up to which a programme is written out for a recording to change; a longer one is rather a recorded input.
+MOST_POINTS = 12
 _TIMES = frozenset({"time", "t", "timestamp", "date", "datetime", "clock", "seconds", "elapsed", "zeit"})
 _NAME = re.compile(r"^\s*(?P<body>.*?)\s*[\[(]\s*(?P<unit>[^\])]*)\s*[\])]\s*$")
 
@@ -172,10 +181,7 @@ def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:
         if not reason and np.count_nonzero(known) < FEWEST_VALUES:
             reason = f"it has {np.count_nonzero(known)} values, fewer than {FEWEST_VALUES}: leave it out"
         if reason:
-            steered = [n for n in _programmes(scenario) if _is_called(head, n)]
-            if len(steered) == 1:
-                entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
-                reason = f"by its name it is the input {steered[0]}: write `{steered[0]}: {entry}` under `inputs`"
+            reason = _input(head, _programmes(scenario), set(names.values())) or reason
             unclear.append(f"{head.name}: {reason}")
             continue
         channels[name] = _entry(head, times[known], table.columns[k][known])
@@ -286,10 +292,30 @@ def _called(head: Heading, names: dict[str, str], taken: Sequence[str]) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-def _programmes(scenario: Scenario) -> list[str]:
-    """Outputs of all programmes."""
+def _programmes(scenario: Scenario) -> dict[str, str]:
+    """Outputs of all programmes, with the SI unit of each."""
     every = scenario.components.items()
-    return [f"{n}.{o}" for n, c in every if isinstance(c, ProgrammeComponent) for o in c.outputs]
+    return {
+        f"{n}.{o}": si_unit(given.unit)
+        for n, c in every
+        if isinstance(c, ProgrammeComponent)
+        for o, given in c.outputs.items()
+    }
+
+
+def _input(head: Heading, programmes: dict[str, str], units: set[str]) -> str:
+    """Why a column is the course of an input, by its name or by a unit that no channel has; empty if it is none."""
+    entry = _flow({"column": head.name, "unit": head.unit or "UNIT"})
+    called = [n for n in programmes if _is_called(head, n)]
+    if len(called) == 1:
+        return f"by its name it is the input {called[0]}: write `{called[0]}: {entry}` under `inputs`"
+    fitting = [n for n, unit in programmes.items() if head.si_unit is not None and unit == head.si_unit]
+    if not fitting or head.si_unit in units:
+        return ""
+    numbered = [n for n in fitting if tuple(int(k) for k in re.findall(r"\d+", n.partition(".")[2])) == head.numbers]
+    likely = numbered if head.numbers and len(numbered) == 1 else fitting
+    kind = "the input" if len(likely) == 1 else "one of the inputs"
+    return f"by its unit it is {kind} {_few(likely)}: write `{likely[0]}: {entry}` under `inputs` if it was applied so"
 
 
 def _is_called(head: Heading, name: str) -> bool:
@@ -381,10 +407,13 @@ def _sidecar(
     if clock.unit is None and clock.name not in table.instants:
         lines.append(f"# The unit of the clock `{clock.name}` is not in its name: s is taken. Is it ms, min?")
     lines.append(yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110).rstrip())
+    conditions = [f"# {line}" for line in _conditions(scenario)]
+    if conditions:
+        conditions.insert(0, "# Take away the `# ` before what differs, and write this recording's own numbers:")
     lines += [
         "# The clock starts at the scenario's time 0; else give `zero` and `offset_bound` under `time`.",
         "# What was done: the programme, the room and the start of THIS recording. Without it the scenario's hold.",
-        *_conditions(scenario),
+        *conditions,
     ]
     if channels:
         lines.append(
@@ -404,14 +433,47 @@ def _shown(separator: str) -> str:
 
 
 def _conditions(scenario: Scenario) -> list[str]:
-    """Comments with what drives the scenario, to be replaced."""
-    lines = []
+    """The `overrides` that state what drove a recording and how it started, with the scenario's own numbers."""
+    components: dict[str, object] = {}
     for name, component in scenario.components.items():
         if isinstance(component, ProgrammeComponent):
-            for output, given in component.outputs.items():
-                what = f"constant: {given.constant}" if given.points is None else "points: [[0 s, ...], ...]"
-                lines.append(f"#   {name}.{output} [{given.unit}]: {what if len(what) < 60 else 'constant: ...'}")
-    return lines
+            courses: dict[str, object] = {
+                o: _course(g) for o, g in component.outputs.items() if len(g.points or ()) <= MOST_POINTS
+            }
+            if courses:
+                components[name] = {"outputs": courses}
+        elif isinstance(component, FmuComponent | PendulumComponent):
+            starts: dict[str, object] = {
+                k: _plain_value(v) for k, v in component.parameters.items() if k.startswith("initial_")
+            }
+            if starts:
+                components[name] = {"parameters": starts}
+    if not components:
+        return []
+    text = yaml.safe_dump(
+        {"overrides": {"components": components}},
+        default_flow_style=None,
+        sort_keys=False,
+        allow_unicode=True,
+        width=10_000,
+    )
+    return text.rstrip().splitlines()
+
+
+def _course(given: ProgrammeOutput) -> dict[str, object]:
+    """What an output of a programme does."""
+    kept: dict[str, object] = {"unit": given.unit}
+    if given.dim:
+        kept["dim"] = given.dim
+    if given.interpolation != "hold":
+        kept["interpolation"] = given.interpolation
+    if given.points is None:
+        return kept | {"constant": _plain_value(given.constant)}
+    return kept | {"points": [[str(t), _plain_value(v)] for t, v in given.points]}
+
+
+def _plain_value(value: object) -> object:
+    return [str(v) for v in value] if isinstance(value, list) else str(value)
 
 
 def _plain(table: Sniffed, keep: np.ndarray) -> str:

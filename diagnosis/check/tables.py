@@ -38,6 +38,7 @@ class Row:
         noise: Stated, and by its neighbours.
         ranges: Measured and simulated, smallest to largest.
         fit: Correlation and root mean square error of the simulation as it is; empty where nothing was simulated.
+        unit: In which values are shown, and that of differences (noise, error); each ends in it.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Row:
     noise: str
     ranges: tuple[str, str]
     fit: tuple[str, str]
+    unit: tuple[str, str] = ("", "")
 
 
 def row(beside: Beside, units: Units, clock: Scale) -> Row:
@@ -70,6 +72,7 @@ def row(beside: Beside, units: Units, clock: Scale) -> Row:
         f"{stated} / {factor * measured_noise(beside):.3g} {of_difference}",
         (_range(factor * channel.values + offset, unit), _simulated(beside, unit, factor, offset)),
         _fit(beside, of_difference, factor),
+        (unit, of_difference),
     )
 
 
@@ -142,25 +145,12 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         console: Where to.
     """
     for one in every:
+        clock = one.units.scale(one.end, "s")
         console.print(f"\n[bold]{escape(one.recording.title)}[/] ({escape(str(one.recording.path))})")
         if one.note:
             console.print(escape(one.note))
-        table, clock = Table(box=None), one.units.scale(one.end, "s")
-        table.add_column("channel", no_wrap=True)
-        for name in (
-            "readings",
-            f"span [{clock.unit}]",
-            "noise stated / seen",
-            "measured",
-            "simulated",
-            "corr.",
-            "RMSE",
-        ):
-            table.add_column(name)
-        for beside in one.channels.values():
-            r = row(beside, one.units_of(beside.channel.name), clock)
-            table.add_row(escape(r.name), r.samples, r.span, r.noise, *r.ranges, *r.fit)
-        console.print(table)
+        rows = [row(b, one.units_of(b.channel.name), clock) for b in one.channels.values()]
+        console.print(_table(rows, clock.unit))
         for course in one.courses:
             console.print("  " + escape(course_text(course, one.units)))
         for compared in compare_inputs(one):
@@ -178,6 +168,33 @@ def print_check(every: Sequence[Compared], doubts: Sequence[Doubt], console: Con
         )
         console.print(f"  -> {escape(doubt.remedy)}", soft_wrap=True)
     console.print(summary(every, doubts), soft_wrap=True)
+
+
+def _table(rows: Sequence[Row], clock: str) -> Table:
+    """Channels beside their simulation, narrow enough for 80 columns: what all share stands in the heading."""
+    table = Table(box=None, padding=(0, 1, 0, 0))
+    shared = {(r.samples, r.span) for r in rows}
+    if len(shared) == 1:
+        samples, span = next(iter(shared))
+        table.title = f"{samples} readings each, {span} {clock}"
+        table.title_justify, table.title_style = "left", ""
+    table.add_column("channel", no_wrap=True)
+    for name in (*(() if len(shared) == 1 else ("readings", f"span [{clock}]")), "unit", "noise stated/seen"):
+        table.add_column(name)
+    for name in ("measured", "simulated", "corr.", "RMSE"):
+        table.add_column(name, no_wrap=True)
+    for r in rows:
+        unit, difference = r.unit
+        own = () if len(shared) == 1 else (r.samples, r.span)
+        noise = _bare(r.noise, difference).replace(" / ", "/")
+        ranges = [_bare(text, unit) for text in r.ranges]
+        table.add_row(escape(r.name), *own, unit, noise, *ranges, r.fit[0], _bare(r.fit[1], difference))
+    return table
+
+
+def _bare(text: str, unit: str) -> str:
+    """A number without its unit, which has a column of its own."""
+    return text.removesuffix(f" {unit}").rstrip() if unit else text.rstrip()
 
 
 def summary(every: Sequence[Compared], doubts: Sequence[Doubt]) -> str:

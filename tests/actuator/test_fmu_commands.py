@@ -1,5 +1,6 @@
 """`cosim fmu build`, `export`, `info`, `validate`."""
 
+import io
 import json
 import re
 import subprocess
@@ -8,7 +9,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
+from cosim.fmu_tools.info import read_info, show_info
 from cosim.shipped import shipped_actuators
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -77,12 +80,26 @@ def test_info_tells_version_interfaces_structure_states_and_whether_it_is_an_act
         r"structure\s+coils = 36",
         r"continuous states\s+temperature, convected_energy",
         r"actuator\s+yes",
-        r"stiffness\s+output\s+Float64\s+36\s+N/m",
+        r"stiffness\s+output\s+Float64\[36\]\s+N/m",
     ):
         assert re.search(line, answer.out), line
     data = json.loads(cosim("fmu", "info", fmus / "niti_kinetics_fmi2.fmu", "--json").out)
     assert data["actuator"] == {"is_actuator": True, "faults": []}
     assert {v["name"]: v["causality"] for v in data["variables"]}["tension"] == "input"
+
+
+@pytest.mark.parametrize("columns", [80, 200])
+def test_info_cuts_no_name_and_no_unit_in_any_terminal(fmus, columns):
+    """At 80 columns types, units and start values were one dot each."""
+    out, file = io.StringIO(), fmus / "thermal_stiffness_fmi3.fmu"
+    show_info(Path(file.name), read_info(file), Console(file=out, width=columns))
+    text = out.getvalue()
+    assert "…" not in text
+    assert re.search(
+        r"^heat_transfer_coefficient +parameter +Float64\[36\] +W/\(m\^2\*K\) +[\d.]+ ", text, re.MULTILINE
+    )
+    assert re.search(r"(^stiffness: |N/m +)Spring constant", text, re.MULTILINE)
+    assert max(map(len, text.splitlines())) <= columns
 
 
 def checks(out):

@@ -16,8 +16,9 @@ from tests.check import rig
 from tests.diagnosis.test_report import Page
 
 
-def check(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(app, ["recording", "check", *arguments], catch_exceptions=False, env={"COLUMNS": "200"})
+def check(*arguments: str, columns: int = 200) -> tuple[int, str]:
+    width = {"COLUMNS": str(columns)}
+    result = CliRunner().invoke(app, ["recording", "check", *arguments], catch_exceptions=False, env=width)
     return result.exit_code, result.output
 
 
@@ -27,7 +28,8 @@ def test_no_doubt_is_exit_code_0_and_a_page(tmp_path: Path) -> None:
     code, text = check(str(a), "--scenario", "tclab", "--out", str(page))
     assert code == 0
     assert "No serious doubt. That is no statement about the model" in text
-    assert re.search(r"coil\[2\]\.temperature +300 +0 to 598 +0\.08 / 0\.0[789]", text)
+    assert "300 readings each, 0 to 598 s" in text
+    assert re.search(r"coil\[2\]\.temperature +°C +0\.08/0\.0[789]", text)
     assert "drive.power_1: programme, 0 to 1 W, switches at 10, 250, 430 s" in text
     html = page.read_text()
     (picture,) = re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html)
@@ -35,6 +37,19 @@ def test_no_doubt_is_exit_code_0_and_a_page(tmp_path: Path) -> None:
     assert "http:" not in html.replace("http://www.w3.org", "")
     assert "https:" not in html
     assert svg.count("<!-- measured -->") == svg.count("<!-- simulated -->") == 2
+
+
+def test_a_terminal_of_80_columns_has_a_line_for_each_channel_and_cuts_none(tmp_path: Path) -> None:
+    a = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
+    _, text = check(str(a), "--scenario", "tclab", columns=80)
+    lines = [line for line in text.splitlines() if "].temperature" in line]
+    assert len(lines) == 2
+    number = r"-?\d+(\.\d+)?"
+    span = f"{number} to {number}"
+    for line in lines:
+        whole = rf"coil\[[12]\]\.temperature +°C +0\.08/{number} +{span} +{span}( +{number}){{2}} *"
+        assert re.fullmatch(whole, line), line
+    assert "…" not in text
 
 
 def test_serious_doubt_is_exit_code_1_with_its_remedy(tmp_path: Path) -> None:

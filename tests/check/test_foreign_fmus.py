@@ -150,7 +150,7 @@ def test_new_knows_the_variables_and_inputs_of_a_foreign_fmu(folder: Path) -> No
         ],
         catch_exceptions=False,
     )
-    assert "2 channels proposed, 1 columns unclear" in told.output
+    assert "2 channels proposed, 1 column unclear" in told.output
     assert set(load_recording(out).channels) == {"rig.y", "rig.body"}
     assert "by its name it is the input source.u" in (out / "recording.yaml").read_text()
 

@@ -10,9 +10,12 @@ import yaml
 from typer.testing import CliRunner
 
 from cosim.cli import app
+from cosim.components import ProgrammeComponent
+from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 from diagnosis.check.propose import heading
 from diagnosis.check.sniff import read_table
+from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
 
@@ -115,3 +118,28 @@ def test_names_of_columns() -> None:
     assert (heading("I1_mA").unit, heading("I1_mA").numbers) == ("mA", (1,))
     assert (heading("coil[2,3].temperature [degC]").numbers, heading("x1_mm").si_unit) == ((2, 3), "m")
     assert heading("T1").unit is None
+
+
+@pytest.mark.parametrize("scenario", ["tclab", "sma_limb", "pendulum"])
+def test_the_proposed_conditions_load_once_their_comment_signs_are_gone(tmp_path: Path, scenario: str) -> None:
+    """What a recording changes was named in no form that could be used."""
+    table = tmp_path / "raw.csv"
+    table.write_text("time_s,T1_degC,angle_rad\n" + "\n".join(f"{n / 10},{22 + n % 3},{n % 5}" for n in range(60)))
+    CliRunner().invoke(
+        app,
+        ["recording", "new", str(table), "--scenario", scenario, "--out", str(tmp_path / "out")],
+        catch_exceptions=False,
+    )
+    sidecar = tmp_path / "out" / "recording.yaml"
+    lines = sidecar.read_text().splitlines()
+    begin = lines.index("# overrides:") if "# overrides:" in lines else len(lines)
+    end = next((k for k in range(begin, len(lines)) if not lines[k].startswith("#  ") and k > begin), len(lines))
+    block = [line.removeprefix("# ") for line in lines[begin:end]]
+    proposed = yaml.safe_load("\n".join(block))["overrides"]["components"]
+    sidecar.write_text("\n".join([*lines[:begin], *block, *lines[end:]]) + "\n")
+    loaded = load_scenario(scenario)
+    same = scenario_of(loaded, load_recording(tmp_path / "out"))
+    programmes = {n: c for n, c in loaded.components.items() if isinstance(c, ProgrammeComponent)}
+    assert {n: same.components[n] for n in programmes} == programmes
+    assert programmes.keys() <= proposed.keys()
+    assert len(proposed) == len(programmes) + 1  # how one component starts

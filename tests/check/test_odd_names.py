@@ -71,6 +71,10 @@ UNCLEAR = {
     "`PROGRAMME.OUTPUT: {column: setpoint_degC, unit: degC}` under `inputs`",
     "power_1 [W]": "power_1 [W]: by its name it is the input drive.power_1: write "
     "`drive.power_1: {column: 'power_1 [W]', unit: W}` under `inputs`",
+    "Q1 [W]": "Q1 [W]: by its unit it is the input drive.power_1: write "
+    "`drive.power_1: {column: 'Q1 [W]', unit: W}` under `inputs` if it was applied so",
+    "heat [mW]": "heat [mW]: by its unit it is one of the inputs drive.power_1, drive.power_2: write "
+    "`drive.power_1: {column: 'heat [mW]', unit: mW}` under `inputs` if it was applied so",
 }
 
 
@@ -83,7 +87,7 @@ def test_an_unclear_column_is_named_with_what_to_write(command, tmp_path, name):
     assert f"unclear column {UNCLEAR[name]}" in said
     text = (tmp_path / "out" / "recording.yaml").read_text()
     assert f"# unclear column {UNCLEAR[name]}" in text
-    if name == "power_1 [W]":  # followed literally, it loads
+    if name in ("power_1 [W]", "Q1 [W]"):  # followed literally, it loads
         sidecar = yaml.safe_load(text) | {"inputs": yaml.safe_load(UNCLEAR[name].split("`")[1])}
         (tmp_path / "out" / "recording.yaml").write_text(yaml.safe_dump(sidecar))
         assert load_recording(tmp_path / "out").inputs[0].output == "power_1"

@@ -194,7 +194,7 @@ def test_a_user_without_an_entry_in_the_password_database_gets_a_circuit():
         "before, seen, write = os.getcwd(), [], pathlib.Path.write_text\n"
         "pathlib.Path.write_text = lambda p, text: seen.append(p.name) or write(p, text)\n"
     )
-    done = run_in_new_process(f"{code}{_ONE_CIRCUIT}print(seen, os.getcwd() == before)\n")
+    done = run_in_new_process(f"{code}{_ONE_CIRCUIT}ngspice.ngspice()\nprint(seen, os.getcwd() == before)\n")
     assert done.stdout == "['.spiceinit'] True\n", done.stderr
 
 

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from chainmail.figures import quantities
+from chainmail.figures import currents, quantities, side_view, temperatures
 from chainmail.figures.draw import draw_run
+from chainmail.figures.usual_names import with_usual_names
+from chainmail.measures import switches
 from cosim import figure_style as style
 from cosim.figure_style import SWITCH, figure, mark_switches, smoothed
 from cosim.options import FORMATS, formats_of
@@ -174,3 +176,76 @@ def test_a_large_system_says_how_much_of_it_is_drawn(tmp_path):
     assert quantities._left_out(quantities.by_unit(dataset), quantities.by_unit(dataset)) == (
         ", 10 of 300 (all of them: results.nc)"
     )
+
+
+def test_a_line_on_the_same_values_as_another_is_dashed_so_that_both_are_seen(tmp_path, monkeypatch):
+    time = np.arange(0.0, 5.0, 0.5)
+    columns = {"arm.angle": np.sin(time), "arm.sensor": np.sin(time), "arm.other": np.cos(time)}
+    run = xr.Dataset({n: ("time", v, {"units": "rad"}) for n, v in columns.items()}, {"time": time})
+    seen = {}
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        seen.update({line.get_label(): line.get_linestyle() for line in self.axes[0].lines})
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    quantities.draw(tmp_path / "quantities.png", run, [])
+    assert seen == {"arm.angle": "-", "arm.sensor": "--", "arm.other": "-"}
+
+
+def test_lines_of_the_supply_have_no_colour_of_a_coil(tmp_path, monkeypatch):
+    time = np.arange(0.0, 5.0, 0.5)
+    data = {
+        "circuit.current": (("time", "coil"), np.outer(1.0 + time, [0.1, 0.2])),
+        "circuit.supply_current": ("time", time),
+        "circuit.supply_power": ("time", time),
+    }
+    coils, supply = set(), set()
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        coils.update(line.get_color() for line in self.axes[0].lines)
+        supply.update(line.get_color() for axes in self.axes[1:] for line in axes.lines)
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    currents.draw(tmp_path / "currents.png", xr.Dataset(data, {"time": time}), [])
+    assert len(coils) == 2
+    assert supply == {currents.SUPPLY}
+    assert coils.isdisjoint(supply)
+
+
+def test_figures_follow_what_components_do_and_not_how_they_are_called(tmp_path):
+    """A run whose actuator was not called `actuator` had no figure of its temperatures."""
+    time = np.arange(0.0, 5.0, 0.5)
+    coils = np.outer(300.0 + time, [1.0, 1.1])
+    data = {
+        "cell.voltage": ("time", np.where(time < 2.0, 0.0, 3.0), {"units": "V"}),
+        "lab.temperature": ("time", np.full(len(time), 295.0), {"units": "K"}),
+        "muscles.temperature": (("time", "coil"), coils, {"units": "K"}),
+        "muscles.stiffness": (("time", "coil"), coils, {"units": "N/m"}),
+        "net.current": (("time", "coil"), 0.001 * coils, {"units": "A"}),
+        "net.voltage": (("time", "coil"), 0.001 * coils, {"units": "V"}),
+        "net.supply_current": ("time", time, {"units": "A"}),
+        "net.supply_power": ("time", time, {"units": "W"}),
+    }
+    folder = RunFolder(tmp_path / "run")
+    folder.path.mkdir()
+    run = xr.Dataset(data, {"time": time}, {"title": "Own names"})
+    run.to_netcdf(folder.results, engine="netcdf4")
+    named = with_usual_names(run)
+    assert switches(named) == [1.5]
+    assert temperatures.surroundings(named) == ["lab.temperature"]
+    assert [path.name for path in draw_run(folder.path)] == ["temperatures.png", "stiffness_loops.png", "currents.png"]
+    two = run.assign({"more.temperature": run["muscles.temperature"], "more.stiffness": run["muscles.stiffness"]})
+    assert "muscles.temperature" in with_usual_names(two)  # which of the two is meant cannot be said
+
+
+def test_the_side_view_says_when_and_at_which_voltage_and_claims_no_heat():
+    """A fabric whose coils had reached 32 degC was labelled hot."""
+    now = xr.Dataset({"supply.voltage": 6.0}, {"time": 1.5})
+    assert side_view._label(now) == "t = 1.50 s, 6 V"
+    assert side_view._label(now.drop_vars("supply.voltage")) == "t = 1.50 s"
+    two = xr.Dataset({"supply.voltage": ("string", [6.0, 0.0])}, {"time": 1.5})
+    assert side_view._label(two) == "t = 1.50 s"

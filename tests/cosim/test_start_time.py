@@ -31,9 +31,9 @@ print(*sys.modules, sep="\\n", file=sys.stderr)
 @pytest.mark.parametrize(
     ("command", "also"),
     [
-        (("--help",), ("jinja2", "numpy", "pint", "pydantic", "pybullet", "PySpice")),
+        (("--help",), ("importlib.metadata", "jinja2", "numpy", "pint", "pydantic", "pybullet", "PySpice")),
         (("run", "--help"), ("jinja2", "numpy", "pint")),
-        (("validate", "prototype_cantilever"), ("rich",)),
+        (("validate", "prototype_cantilever"), ("rich", "PySpice", "cffi")),
         (("validate", "tclab"), ("rich", "pybullet", "PySpice")),
     ],
 )

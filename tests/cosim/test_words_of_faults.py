@@ -12,6 +12,7 @@ from cosim.faults import _WORDS, is_weak, known_keys, shown, words
 from cosim.nearest import did_you_mean, nearest
 from cosim.scenario import Scenario, load_scenario, parse_scenario, shipped_scenarios
 from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 
 #: How the library that checks types begins its own sentences.
 FOREIGN = re.compile(
@@ -191,3 +192,18 @@ def test_names_of_components_variables_and_files_are_guessed(path, value, what):
 def test_the_name_of_a_scenario_is_guessed():
     with pytest.raises(InputError, match="did you mean `hanging_coils`"):
         load_scenario("hangin_coils")
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        ("23 C", "K", "`23 C` is no quantity in K; write `23 degC`"),
+        ("70 F", "K", "`70 F` is no quantity in K; write `70 degF`"),
+        ("2 C", "s", "`2 C` is no quantity in s"),
+        ("6 Volt", "V", "`Volt` is not a unit that is known here; did you mean `volt`?"),
+        ("6 Frobs", "V", "`Frobs` is not a unit that is known here"),
+    ],
+)
+def test_a_slip_in_a_unit_is_told_with_what_to_write(text, unit, words):
+    with pytest.raises(ValueError, match=r"^" + re.escape(words) + "$"):
+        PhysicalValue.parse(text).to(unit)

@@ -33,14 +33,14 @@ def fabric(rows: int = 6, per_row: int = 3, frames: int = 50, duration: float = 
     warm = 22 + 48 * np.sin(np.pi * times / duration)[:, None] * (1 + 0.02 * np.arange(2 * links) / links)
     length = 0.033 - 0.003 * (warm[:, ::2] - 22) / 50 + 2e-6 * random.standard_normal((frames, links))
     fields = (
-        Field("temperature", "degC", warm),
+        Field("temperature", "°C", warm),
         Field("stiffness", "N/mm", 0.157 + 0.01 * np.round(warm - 22)),
         Field("tension", "N", 3.7 + 0.001 * random.standard_normal(warm.shape)),
         Field("link length", "mm", 1e3 * np.repeat(length, 2, axis=1)),
     )
     curves = (
         Curve("Supply voltage", "V", "", times, np.where(times < duration / 2, 6.0, 0.0)),
-        Curve("Coil temperature", "degC", "", times, warm.mean(axis=1), warm.min(axis=1), warm.max(axis=1)),
+        Curve("Coil temperature", "°C", "", times, warm.mean(axis=1), warm.min(axis=1), warm.max(axis=1)),
         Curve("Maximum curvature", "1/m", "", times, 12 * sink),
     )
     return Fabric(

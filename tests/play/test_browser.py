@@ -185,7 +185,7 @@ def test_a_picture_that_the_driver_lost_comes_back(opened):
 
 def test_colours_follow_the_chosen_quantity(opened):
     opened.evaluate("player.fabrics[1].look = 'hidden'; player.seek(2.5)")
-    assert opened.evaluate("document.getElementById('high').textContent").endswith("degC")
+    assert opened.evaluate("document.getElementById('high').textContent").endswith("°C")
     warm = picture(opened)
     opened.evaluate("""(() => { const q = document.getElementById('quantity'); q.value = 'tension';
         q.dispatchEvent(new Event('change')); })()""")

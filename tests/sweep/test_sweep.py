@@ -12,11 +12,14 @@ import pytest
 import xarray as xr
 from scipy.stats import norm, qmc
 
+from cosim import figure_style as style
 from cosim.compute.cache import Cache
 from cosim.compute.cluster import Here, choose_place
 from cosim.run import run
 from cosim.scenario import load_scenario
+from cosim.sweep.axes import Column, Points
 from cosim.sweep.command import plan, sweep
+from cosim.sweep.figures import draw
 from cosim.sweep.keys import changed, parts_of
 from cosim.sweep.result import reasons
 from cosim.unit.errors import InputError
@@ -134,6 +137,35 @@ def test_sobol_indices_of_a_known_function(tmp_path):
     np.testing.assert_allclose(found.first, [0.2, 0.8, 0.0], atol=0.02)
     np.testing.assert_allclose(found.total, [0.2, 0.8, 0.0], atol=0.02)
     assert sobol_indices(np.ones(5 * 8), ["a", "b", "c"], 1) is None
+
+
+def test_figures_of_a_sweep_have_a_title_the_sweep_and_degrees(tmp_path, monkeypatch):
+    """They had neither a title nor the name of what they show."""
+    columns = (
+        Column("a", (0.6, 0.7), np.array([0.6, 0.7]), "V"),
+        Column("b", (1.0, 2.0), np.array([1.0, 2.0]), "degC"),
+    )
+    points = [Points("voltage", "key", columns[:1]), Points("room", "key", columns[1:])]
+    data = xr.Dataset(
+        {"hottest": (("voltage", "room"), np.array([[30.0, 30.0], [40.0, 40.0]]), {"units": "degC"})},
+        {"voltage": [0.6, 0.7], "room": [1.0, 2.0]},
+        {"title": "Two rooms at 20 degC"},
+    )
+    seen = {}
+    save = style.Figure.savefig
+
+    def saved(self, path, **options):
+        place = self.axes[0]
+        styles = [line.get_linestyle() for line in place.lines]
+        seen[path.name] = (self.get_suptitle(), place.get_xlabel(), place.get_ylabel(), styles)
+        save(self, path, **options)
+
+    monkeypatch.setattr(style.Figure, "savefig", saved)
+    assert len(draw(tmp_path, data, points, ["hottest"])) == 2
+    heading = "Two rooms at 20 °C"
+    assert seen["hottest_lines.png"] == (f"hottest over voltage\n{heading}", "voltage [V]", "hottest [°C]", ["-", "--"])
+    title = f"hottest over voltage and room\n{heading}"
+    assert seen["hottest_map.png"] == (title, "voltage [V]", "room [°C]", [])
 
 
 def test_indices_of_a_sweep_are_written_and_drawn(tmp_path):
