@@ -13,7 +13,7 @@ from chainmail.design.candidate import Candidate, Rig, scenario_for
 from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import COARSE, Entry, Ledger
 from chainmail.design.outcome import Outcome
-from chainmail.design.search import APART, ERROR, Search
+from chainmail.design.search import Search, check_of
 from chainmail.design.sequential import Verdict, share_interval
 from chainmail.design.task import Wanted
 
@@ -112,15 +112,15 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
             f"| {wanted.text()} | {told[0]} | {told[1]} to {told[2]} | {met} of {count} | "
             f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * wanted.confidence:.0f} %) |"
         )
-    share = max(w.share for _, w in asked)
+    test = check_of([w for _, w in asked])
     meaning = {
-        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - APART:.2f} or less, it "
-        f"would happen in at most {100 * ERROR:.0f} % of checks",
-        Verdict.REJECTED: f"rejected: were the share {share:.2f} or more, this would happen in at most "
-        f"{100 * ERROR:.0f} % of checks",
+        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {test.bad:.2f} or less, it "
+        f"would happen in about {100 * test.error:.0f} % of checks",
+        Verdict.REJECTED: f"rejected: were the share {test.good:.2f} or more, this would happen in about "
+        f"{100 * test.error:.0f} % of checks",
         Verdict.OPEN: "open: more fresh starts are needed (`runs.full`)",
     }[outcome.verdict]
-    return [*lines, "", f"Sequential test of {share:.2f} against {share - APART:.2f}: {meaning}."]
+    return [*lines, "", f"Sequential test of {test.good:.2f} against {test.bad:.2f}: {meaning}."]
 
 
 def _counted(ledger: Ledger, counting: Sequence[int] | None) -> list[tuple[int, Wanted]]:

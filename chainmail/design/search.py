@@ -22,7 +22,7 @@ from chainmail.design.outcome import Outcome
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
 from chainmail.design.shape import fewest_rows, scheduled
-from chainmail.design.task import Schedule, Shape, Span
+from chainmail.design.task import Schedule, Shape, Span, Wanted
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
 
@@ -424,9 +424,8 @@ class Search:
     def last_check(self, found: list[Candidate], outcome: Outcome) -> None:
         every = self.ledger.task.wanted
         wanted = every if self.counting is None else [every[n] for n in self.counting]
-        share = max(w.share for w in wanted)
         outcome.counting = self.counting
-        test = SequentialTest(share, share - APART, min(ERROR, 1.0 - max(w.confidence for w in wanted) + 1e-12))
+        test = check_of(wanted)
         for candidate in found:
             # Of one programme for several delays, fresh starts are run once and say something about each.
             known = self._fresh.setdefault(candidate, [])
@@ -435,7 +434,7 @@ class Search:
             self.tell(f"fresh starts of {candidate.text()}")
             try:
                 while verdict is Verdict.OPEN:
-                    number = max(1, min(self.ledger.batches.place.parallel, CHECKS - len(checks)))
+                    number = max(1, min(self.ledger.batches.place.parallel, test.fewest - len(checks)))
                     if len(known) < len(checks) + number:
                         start = FRESH + self.ledger.count("full")
                         known += self.ledger.full_batch(candidate, range(start, start + number))
@@ -493,6 +492,12 @@ class Search:
             if wanted.quantity == f"{self._rig.fabric}.tip_sag":
                 return value
         return None
+
+
+def check_of(wanted: Sequence[Wanted]) -> SequentialTest:
+    """The sequential test of the last check: of the greatest share, with the smaller of its own and the stated error."""
+    share = max(w.share for w in wanted)
+    return SequentialTest(share, share - APART, min(ERROR, 1.0 - max(w.confidence for w in wanted) + 1e-12))
 
 
 def taut_pitch(rig: Rig) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import combinations
+from pathlib import Path
 
 from chainmail.design.candidate import Candidate, Pulse, Rig, holding_power, on_grid
 from chainmail.design.closed_form import heated_together
@@ -23,17 +24,21 @@ COLD_BEND, HOT_BEND = math.radians(12.5), math.radians(3.0)
 MOST_ROWS = 16
 
 
-def with_requirements(task: Task, rig: Rig) -> Task:
+def with_requirements(task: Task, rig: Rig, path: Path) -> Task:
     """The task with what `shape`, `schedule` and `cycle` want written out as bends of rows and curvatures.
 
+    Args:
+        task: As its file has it.
+        rig: Scenario of the task.
+        path: File of the task, for errors.
+
     Raises:
-        InputError: A row is none of the free ones, or is wanted to be both.
+        InputError: A row is none of the free ones, or times do not fit each other.
     """
-    wanted = list(task.wanted)
-    source = rig.scenario.path or "scenario"
+    wanted, source = list(task.wanted), str(path)
     if task.shape is not None:
         shape = task.shape
-        _check_rows([*shape.rigid, *shape.flexible], rig, "shape", str(source))
+        _check_rows([*shape.rigid, *shape.flexible], rig, "shape", source)
         last = max((w.at.to("s") for w in wanted if w.at is not None), default=0.0)
         if last > shape.at.to("s"):
             raise InputError(
@@ -48,7 +53,7 @@ def with_requirements(task: Task, rig: Rig) -> Task:
         ]
     if task.schedule is not None:
         plan = task.schedule
-        _check_rows(list(plan.rows), rig, "schedule.rows", str(source))
+        _check_rows(list(plan.rows), rig, "schedule.rows", source)
         for moment in sorted({t.to("s") for t in plan.rows.values()}):
             at = moment + plan.settle.to("s")
             for row, time in plan.rows.items():

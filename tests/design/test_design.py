@@ -318,7 +318,7 @@ def test_of_a_shape_only_rows_that_bend_too_much_are_heated_more():
     source = EXAMPLES / "bend_in_the_middle.yaml"
     task, scenario = load_task(source)
     rig = rig_of(scenario, source)
-    task = with_requirements(task, rig)
+    task = with_requirements(task, rig, source)
 
     class Bends(Ledger):
         def _made(self, candidates, starts, fidelities):
@@ -358,7 +358,7 @@ def test_a_schedule_heats_one_row_after_another_within_the_limits(tmp_path):
         at = [int(np.argmin(np.abs(found.time.values - (time.to("s") + d)))) for d in (-1.5, 0.0)]
         assert stiffness[at[0], row - 1] < 160.0
         assert stiffness[at[1], row - 1] > 330.0
-    wanted = with_requirements(task, rig).wanted
+    wanted = with_requirements(task, rig, source).wanted
     assert [(w.of, w.at.to("s"), w.below is not None) for w in wanted[1:]] == [
         (3, 5.0, True),
         (4, 5.0, False),
