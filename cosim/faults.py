@@ -155,7 +155,7 @@ def known_keys(model: type[BaseModel], place: Sequence[int | str]) -> list[str]:
 
 
 def places_in_lists(model: type[BaseModel], place: Sequence[int | str]) -> list[bool]:
-    """Of the steps that lead to a fault, which are places in a list; a whole number may be the key of a mapping, too."""
+    """Which of the steps that lead to a fault are places in a list: a whole number may also be a key of a mapping."""
     found, told = [model], []
     for step in place:
         is_list = any(get_origin(m) in (list, tuple) for annotation in found for m in _members(annotation))

@@ -157,10 +157,15 @@ class Wanted(Output):
     def text(self) -> str:
         """For people."""
         relation = f"below {self.below}" if self.below is not None else f"above {self.above}"
+        return f"{self.name} {relation}"
+
+    @property
+    def name(self) -> str:
+        """What is bounded, without the bound."""
         span = f" from {self.from_} to {self.to}" if self.from_ is not None and self.to is not None else ""
         when = f" at {self.at}" if self.at is not None else f" ({self.over}{span})"
         element = f"[{self.of}]" if isinstance(self.of, int) else ""
-        return f"{self.quantity}{element}{when} {relation}"
+        return f"{self.quantity}{element}{when}"
 
 
 _ANGLE = In("rad", minimum=0.0, is_exclusive=True)
