@@ -99,7 +99,7 @@ def design(
         if outcome.winner is not None and with_page:
             files["play.html"] = ""
             tell("the page that shows the design move")
-            write_page(scenario_for(outcome.winner, rig), out)
+            write_page(scenario_for(outcome.winner, rig).model_copy(update={"title": task.title}), out)
     print((out / "report.md").read_text(encoding="utf-8"))
     for name in files:
         print(f"{name}: {out / name}")
