@@ -375,6 +375,8 @@ def bent(bends) -> Search:
     source = EXAMPLES / "bend_in_the_middle.yaml"
     task, scenario = load_task(source)
     rig = rig_of(scenario, source)
+    assert task.shape is not None
+    task = task.model_copy(update={"shape": task.shape.model_copy(update={"share": 0.9})})
     task = with_requirements(task, rig, source)
 
     class Bends(Ledger):
