@@ -380,7 +380,8 @@ class Search:
             raise self._not_at_once(patterns[0])
         rows = ", ".join(map(str, patterns[0])) or "none"
         outcome.notes.append(
-            f"row model: {len(patterns)} of {total} patterns have the shape, the fewest rows are {rows}"
+            f"row model: {len(patterns)} of {total} patterns {'has' if len(patterns) == 1 else 'have'} the shape, the "
+            f"fewest heated rows are {rows}"
         )
         for pattern in patterns:
             heights = dict.fromkeys(pattern, 0)
