@@ -154,6 +154,16 @@ def known_keys(model: type[BaseModel], place: Sequence[int | str]) -> list[str]:
     return [key for annotation in found for key in _fields(annotation)]
 
 
+def places_in_lists(model: type[BaseModel], place: Sequence[int | str]) -> list[bool]:
+    """Which of the steps that lead to a fault are places in a list: a whole number may also be a key of a mapping."""
+    found, told = [model], []
+    for step in place:
+        is_list = any(get_origin(m) in (list, tuple) for annotation in found for m in _members(annotation))
+        told.append(isinstance(step, int) and is_list)
+        found = [inner for annotation in found for inner in _inside(annotation, step)]
+    return told
+
+
 def _members(annotation: Any) -> list[Any]:
     """The annotation without `Annotated`; of a union every member."""
     if get_origin(annotation) is typing.Annotated:

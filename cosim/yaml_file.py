@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import pydantic
 import yaml
 
-from cosim.faults import is_weak, shown, words
+from cosim.faults import is_weak, places_in_lists, shown, words
 from cosim.unit.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
@@ -152,26 +152,34 @@ def input_error(
     faults: dict[str, str] = {}
     weak: set[str] = set()
     for fault in error.errors():
-        key = _key(fault["loc"])
+        key = _key(fault["loc"], model)
         # Of the members of a union the one that reads numbers says most; the others only say what they are not.
         is_other_member = fault["type"] in ("bool_type", "list_type", "model_type") and len(fault["loc"]) > 1
         if key not in faults or (key in weak and not is_other_member):
             faults[key] = _message(fault, model)
             (weak.add if is_weak(fault) else weak.discard)(key)
     # Where a mapping has a wrong key, that it is none of the other members of a union says nothing.
-    weak = {k for k in weak if any(other.startswith(f"{k}.") for other in faults)}
+    weak = {k for k in weak if any(other.startswith((f"{k}.", f"{k}[")) for other in faults)}
     (key, message), *rest = ((k, text) for k, text in faults.items() if k not in weak)
     more = "".join(f"\n  also {other}: {text}" for other, text in rest)
     return InputError(source, key, message + more, remedy)
 
 
-def _key(place: Sequence[int | str]) -> str:
-    """Keys of the file that lead to a fault, for example `components.fabric.rows`."""
+def _key(place: Sequence[int | str], model: type[pydantic.BaseModel] | None) -> str:
+    """Keys of the file that lead to a fault, for example `components.fabric.rows`, `connections[2].factor`."""
     # The third part below a component or a connection, and the second below the algorithm, is its kind, which pydantic
     # inserts; no key of the file stands there.
     inserted = {"components": 2, "algorithm": 1, "connections": 2}.get(str(place[0])) if place else None
-    parts = [p for i, p in enumerate(place) if not (i == inserted and p in _KINDS)]
-    return ".".join(str(p) for p in parts if not (isinstance(p, str) and _MEMBER.match(p)))
+    is_place = places_in_lists(model, place) if model is not None else [isinstance(p, int) for p in place]
+    text = ""
+    for i, part in enumerate(place):
+        if (i == inserted and part in _KINDS) or (isinstance(part, str) and _MEMBER.match(part)):
+            continue
+        if isinstance(part, int) and is_place[i]:
+            text += f"[{part + 1}]"  # what a user reads counts from 1
+        else:
+            text += f".{part}" if text else str(part)
+    return text
 
 
 def _message(fault: Any, model: type[pydantic.BaseModel] | None) -> str:

@@ -216,6 +216,7 @@ def rig_of(scenario: Scenario, source: Path) -> Rig:
             "a design needs one circuit, one fabric and one `thermal_stiffness`",
             "begin with docs/examples/design/eight_rows.yaml",
         )
+    source = scenario.path or source
     (circuit, network), (fabric, woven) = circuits[0], fabrics[0]
     if network.supply != "per_string" or len(network.strings) != woven.rows:
         raise InputError(

@@ -35,6 +35,10 @@ class Row:
         """Of the whole row [W]."""
         return voltage**2 / (self.coils * self.resistance)
 
+    def voltage_of(self, power: float) -> float:
+        """Voltage at which the whole row takes a power [V]."""
+        return math.sqrt(power * self.coils * self.resistance)
+
     def limit(self, voltage: float) -> float:
         """Temperature after long time [K], equation (4)."""
         return self.ambient + self.power(voltage) / self.coils / self.conductance

@@ -11,7 +11,7 @@ from chainmail.design.impossible import Impossible
 from chainmail.design.keys import check_keys
 from chainmail.design.ledger import Ledger
 from chainmail.design.report import delay_front, front, impossible, report, winning_scenario
-from chainmail.design.search import Search
+from chainmail.design.search import HOLD, Search, check_of
 from chainmail.design.shape import with_requirements
 from chainmail.design.task import Task, load_task
 from chainmail.play.notebook import play
@@ -63,7 +63,9 @@ def design(
     rig = rig_of(scenario, path)
     _check_rows(task.vary.rows_heated, rig.free, path)
     check_keys(task.vary.keys, rig, path)
-    task = with_requirements(task, rig)
+    _check_temperatures(task, rig, path)
+    task = with_requirements(task, rig, path)
+    _check_effort(task, path)
     _check_wanted(task, rig, path)
     with alone(out, "design"):
         is_begun = (out / "report.md").exists() or (out / "runs").exists()
@@ -97,7 +99,7 @@ def design(
         if outcome.winner is not None and with_page:
             files["play.html"] = ""
             tell("the page that shows the design move")
-            write_page(scenario_for(outcome.winner, rig), out)
+            write_page(scenario_for(outcome.winner, rig).model_copy(update={"title": task.title}), out)
     print((out / "report.md").read_text(encoding="utf-8"))
     for name in files:
         print(f"{name}: {out / name}")
@@ -126,6 +128,37 @@ def _check_rows(given: object, free: tuple[int, ...], path: Path) -> None:
     if wrong or not given:
         problem = f"row {wrong[0]} is no free row of the fabric" if wrong else "there is no pattern"
         raise InputError(path, "vary.rows_heated", problem, f"free rows are {free[0]} to {free[-1]}")
+
+
+def _check_temperatures(task: Task, rig: Rig, path: Path) -> None:
+    """Refuse what the programme of a row cannot do: it is held at `HOLD` once it has been hotter."""
+    hold, ambient, low = f"{HOLD - 273.15:.3g} degC", rig.rows[rig.held].ambient, task.vary.temperature.low
+    if ambient >= HOLD:
+        raise InputError(
+            rig.scenario.path or path,
+            "components",
+            f"the room has {ambient - 273.15:.3g} degC, and rows are held stiff at {hold}: they never cool to it",
+            f"give a room below {hold}",
+        )
+    if low.to("K") < HOLD:
+        raise InputError(
+            path,
+            "vary.temperature",
+            f"{low} is below {hold}, at which a row is held after it has been hotter",
+            f"begin the range at {hold} or above",
+        )
+
+
+def _check_effort(task: Task, path: Path) -> None:
+    """Refuse a number of runs with which no design can be accepted."""
+    fewest = check_of(task.wanted).fewest
+    if task.runs.full < fewest:
+        raise InputError(
+            path,
+            "runs.full",
+            f"with {task.runs.full} runs no design can be accepted: the last check alone takes {fewest} fresh starts",
+            f"give more than {fewest}; the search makes runs of its own",
+        )
 
 
 def _check_wanted(task: Task, rig: Rig, path: Path) -> None:

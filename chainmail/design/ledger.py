@@ -278,7 +278,7 @@ class Ledger:
         """Every run, as CSV."""
         buffer = io.StringIO()
         writer = csv.writer(buffer)
-        wanted = [f"{w.quantity} [{u}]" for w, u in zip(self.task.wanted, self.units or [""] * len(self.task.wanted))]
+        wanted = [f"{w.name} [{u}]" for w, u in zip(self.task.wanted, self.units or [""] * len(self.task.wanted))]
         head = ["energy [J]", "overlap [mm]", "met", "wall time [s]", "failure"]
         writer.writerow(["run", "fidelity", "design", "start", *wanted, *head])
         for number, e in enumerate(self.entries, start=1):

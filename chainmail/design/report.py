@@ -13,7 +13,7 @@ from chainmail.design.candidate import Candidate, Rig, scenario_for
 from chainmail.design.impossible import Impossible
 from chainmail.design.ledger import COARSE, Entry, Ledger
 from chainmail.design.outcome import Outcome
-from chainmail.design.search import APART, ERROR, Search
+from chainmail.design.search import Search, check_of
 from chainmail.design.sequential import Verdict, share_interval
 from chainmail.design.task import Wanted
 
@@ -35,7 +35,7 @@ def front(ledger: Ledger) -> str:
     best = -math.inf
     buffer = io.StringIO()
     writer = csv.writer(buffer)
-    names = [f"{w.quantity} [{u}]" for w, u in zip(ledger.task.wanted, ledger.units)]
+    names = [f"{w.name} [{u}]" for w, u in zip(ledger.task.wanted, ledger.units)]
     writer.writerow(
         [
             "energy [J]",
@@ -85,15 +85,18 @@ def report(search: Search, outcome: Outcome) -> str:
         lines += [f"**{winner.text()}.**", "", "`scenario.yaml` carries it out.", ""]
     else:
         lines += [f"**No design was accepted.** The last check is {outcome.verdict.value}.", ""]
-    lines += [f"- {note}" for note in outcome.notes]
+    if outcome.notes:
+        lines += [*(f"- {note}" for note in outcome.notes), ""]
     if outcome.points:
-        lines += ["", "## Energy against delay", "", *_delays(ledger, outcome)]
+        lines += ["## Energy against delay", "", *_delays(ledger, outcome)]
     if outcome.checks:
-        lines += ["", f"## On {len(outcome.checks)} fresh starts", "", *_checks(ledger, outcome)]
+        lines += [f"## On {len(outcome.checks)} fresh starts", "", *_checks(ledger, outcome), ""]
     if winner is not None:
-        lines += ["", "## Energy", "", *_energy(search, winner, outcome, rig)]
-        lines += ["", "## Limits", "", *_limits(search, winner)]
-    lines += ["", "## Effort", "", *_effort(ledger, outcome)]
+        lines += ["## Energy", "", *_energy(search, winner, outcome, rig), ""]
+        lines += ["## Limits", "", *_limits(search, winner), *_nearest_bound(ledger, outcome), ""]
+    if search.room:
+        lines += ["## Room for the scatter", "", *_room(search), ""]
+    lines += ["## Effort", "", *_effort(ledger, outcome)]
     return "\n".join(lines) + "\n"
 
 
@@ -112,15 +115,27 @@ def _checks(ledger: Ledger, outcome: Outcome) -> list[str]:
             f"| {wanted.text()} | {told[0]} | {told[1]} to {told[2]} | {met} of {count} | "
             f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * wanted.confidence:.0f} %) |"
         )
-    share = max(w.share for _, w in asked)
+    if len(asked) > 1:
+        met, confidence = sum(e.meets(outcome.counting) for e in outcome.checks), max(w.confidence for _, w in asked)
+        low, high = share_interval(met, count, confidence)
+        lines.append(
+            f"| all of it in one run | | | {met} of {count} | "
+            f"{met / count:.2f} ({low:.2f} to {high:.2f} at {100 * confidence:.0f} %) |"
+        )
+    test = check_of([w for _, w in asked])
     meaning = {
-        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {share - APART:.2f} or less, it "
-        f"would happen in at most {100 * ERROR:.0f} % of checks",
-        Verdict.REJECTED: f"rejected: were the share {share:.2f} or more, this would happen in at most "
-        f"{100 * ERROR:.0f} % of checks",
+        Verdict.ACCEPTED: f"accepted: were the share of starts that meet all of it {test.bad:.2f} or less, it "
+        f"would happen in about {100 * test.error:.0f} % of checks",
+        Verdict.REJECTED: f"rejected: were the share {test.good:.2f} or more, this would happen in about "
+        f"{100 * test.error:.0f} % of checks",
         Verdict.OPEN: "open: more fresh starts are needed (`runs.full`)",
     }[outcome.verdict]
-    return [*lines, "", f"Sequential test of {share:.2f} against {share - APART:.2f}: {meaning}."]
+    return [
+        *lines,
+        "",
+        f"Sequential test of {test.good:.2f} against {test.bad:.2f}: {meaning}. The test tells these two shares apart; "
+        "how large the share is, the intervals say.",
+    ]
 
 
 def _counted(ledger: Ledger, counting: Sequence[int] | None) -> list[tuple[int, Wanted]]:
@@ -185,6 +200,9 @@ def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> li
     measured = [e.energy for e in outcome.checks if not e.failure]
     if measured:
         lines.append(f"- co-simulation: {np.median(measured):.1f} J")
+    task = search.ledger.task
+    if task.shape is not None or task.schedule is not None:
+        return lines  # with all rows hot together it would not be the same request
     reference = search.candidate(rig.free)
     if reference is not None and 0 < len(winner.rows) < len(rig.free):
         spent = reference.energy(rig)
@@ -206,7 +224,7 @@ def _energy(search: Search, winner: Candidate, outcome: Outcome, rig: Rig) -> li
 
 
 def _limits(search: Search, winner: Candidate) -> list[str]:
-    """Which limits are active, and what a tenth more of each would save, by the closed form."""
+    """Which limits of voltage and power are active, and what a tenth more of each would save, by the closed form."""
     rig = search.ledger.rig
     if not winner.rows:
         return ["none: nothing is heated"]
@@ -215,13 +233,49 @@ def _limits(search: Search, winner: Candidate) -> list[str]:
     for name, unit, value, limit in (("voltage", "V", voltage, search.voltage), ("power", "W", power, search.power)):
         if value > (1.0 - NEAR) * limit:
             more = {"voltage": 1.1 * limit} if name == "voltage" else {"power": 1.1 * limit}
-            wider = search.candidate(winner.rows, [p.hot for p in winner.pulses], **more, keys=winner.keys)
+            wider = search.wider(winner, **more)
             saved = winner.energy(rig) - wider.energy(rig) if wider is not None else 0.0
             lines.append(
                 f"- {name}: {value:.4g} of {limit:.4g} {unit}; a tenth more would save {saved:.2g} J "
                 f"of {winner.energy(rig):.3g} J"
             )
     return lines or ["no limit of voltage or power is active"]
+
+
+def _nearest_bound(ledger: Ledger, outcome: Outcome) -> list[str]:
+    """The requirement on the fabric that fresh starts come nearest to missing, in deviations between starts."""
+    complete = [e for e in outcome.checks if not e.failure]
+    found = []
+    for number, wanted in _counted(ledger, outcome.counting):
+        distances = [e.distances[number] for e in complete]
+        scatter = float(np.std(distances, ddof=1)) if len(distances) > 1 else 0.0
+        if scatter > 0.0 and wanted.quantity.startswith(f"{ledger.rig.fabric}."):
+            found.append((float(np.mean(distances)) / scatter, float(np.mean(distances)), scatter, wanted, number))
+    if not found:
+        return []
+    _, mean, scatter, wanted, number = min(found, key=lambda f: f[0])
+    unit = ledger.units[number]
+    return [
+        f"- nearest requirement: {wanted.text()}; fresh starts are {mean:.3g} {unit} from it on average, with a "
+        f"standard deviation of {scatter:.2g} {unit}"
+    ]
+
+
+def _room(search: Search) -> list[str]:
+    """By how much a design had to hold in the search, and which cheaper ones did not."""
+    ledger = search.ledger
+    lines = [
+        "The first design that met the request was run from three starts. From then on a design counted as good only "
+        "where it was farther from each bound than the scatter between these asks for:",
+        "",
+    ]
+    for number, (wanted, unit, least) in enumerate(zip(ledger.task.wanted, ledger.units, search.room)):
+        if least > 0.0 and any(not math.isnan(e.distances[number]) for e in ledger.entries if not e.failure):
+            lines.append(f"- {wanted.text()}: {least:.2g} {unit}")
+    missed = [c for c, e in ledger.decided().items() if e.fidelity != "short" and e.is_met and not search.has_room(e)]
+    lines += [""] * bool(missed)
+    lines += [f"Met the request from start 1, without that room: {c.text()}." for c in missed]
+    return lines
 
 
 def _effort(ledger: Ledger, outcome: Outcome) -> list[str]:

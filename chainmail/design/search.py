@@ -21,8 +21,8 @@ from chainmail.design.optimiser import minimised
 from chainmail.design.outcome import Outcome
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
-from chainmail.design.shape import fewest_rows, scheduled
-from chainmail.design.task import Schedule, Shape, Span
+from chainmail.design.shape import COLD_BEND, HOT_BEND, fewest_rows, scheduled
+from chainmail.design.task import Schedule, Shape, Span, Wanted
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
 
@@ -76,6 +76,11 @@ class Search:
         self._room: tuple[float, ...] = ()
         self._fresh: dict[Candidate, list[Entry]] = {}
         self.levels = tuple(float(t) for t in np.linspace(low, high, LEVELS))
+
+    @property
+    def room(self) -> tuple[float, ...]:
+        """How far a run must be from each bound; empty where no design met the request."""
+        return self._room
 
     @property
     def hold(self) -> float:
@@ -275,6 +280,13 @@ class Search:
                 f"{hot} by {time:.4g} s",
                 nearest,
             )
+        if power <= self.power:
+            most, least = row.voltage_of(self.power * (1 - BELOW)), row.power(self.lowest) / (1 - BELOW)
+            raise Impossible(
+                f"the lowest voltage: {self.power:.3g} W allow a row {_downwards(most)} V, and `voltage` begins at "
+                f"{self.lowest:.4g} V",
+                f"a range that begins at {_downwards(most)} V or below, or {_upwards(least)} W",
+            )
         raise Impossible(
             f"the power: a row needs {_upwards(power)} W to reach {hot} by {time:.4g} s, more than {self.power:.3g} W",
             f"from {_upwards(power)} W on one row can be heated in time",
@@ -325,7 +337,7 @@ class Search:
         """Rows one after another, hotter where what is wanted is not met."""
         for hot in self.levels:
             try:
-                made = scheduled(schedule, self._rig, hot, HOLD, (self.lowest, self.voltage), self.power)
+                made = self._scheduled(schedule, hot, self.voltage, self.power)
             except Impossible:
                 if hot == self.coolest:
                     raise
@@ -333,6 +345,23 @@ class Search:
             self.tell(made.text())
             if self.meets(made):
                 return
+
+    def _scheduled(self, schedule: Schedule, hot: float, voltage: float, power: float) -> Candidate:
+        return scheduled(schedule, self._rig, hot, HOLD, (self.lowest, voltage), power * (1 - BELOW))
+
+    def wider(
+        self, candidate: Candidate, *, voltage: float | None = None, power: float | None = None
+    ) -> Candidate | None:
+        """The programme of the same rows and temperatures under another limit of voltage or power."""
+        schedule = self.ledger.task.schedule
+        if schedule is None:
+            hots = [p.hot for p in candidate.pulses]
+            return self.candidate(candidate.rows, hots, voltage=voltage, power=power, keys=candidate.keys)
+        most = self.voltage if voltage is None else voltage, self.power if power is None else power
+        try:
+            return self._scheduled(schedule, candidate.hottest, *most)
+        except Impossible:
+            return None
 
     def _in_shape(self, shape: Shape, outcome: Outcome) -> None:
         """Patterns that have the shape by the row model, fewest rows first; hotter rows only where they bend too much.
@@ -344,11 +373,15 @@ class Search:
         if not patterns:
             raise Impossible(
                 f"the shape: by the row model none of {total} patterns of heated rows has it",
-                "another bound of the bends: a cold row bends by about 12 degrees, a hot one by few",
+                f"by that model a cold row bends by {math.degrees(COLD_BEND):.3g} and a hot one by "
+                f"{math.degrees(HOT_BEND):.2g} degrees: `straight` above the one, `bent` below the other",
             )
+        if all(self.candidate(p) is None for p in patterns):
+            raise self._not_at_once(patterns[0])
         rows = ", ".join(map(str, patterns[0])) or "none"
         outcome.notes.append(
-            f"row model: {len(patterns)} of {total} patterns have the shape, the fewest rows are {rows}"
+            f"row model: {len(patterns)} of {total} patterns {'has' if len(patterns) == 1 else 'have'} the shape, the "
+            f"fewest heated rows are {rows}"
         )
         for pattern in patterns:
             heights = dict.fromkeys(pattern, 0)
@@ -362,12 +395,29 @@ class Search:
                     break
                 heights |= {r: heights[r] + 1 for r in raised}
 
+    def _not_at_once(self, rows: tuple[int, ...]) -> Impossible:
+        """Why a pattern cannot be heated all at once by the closed forms."""
+        own, time = [self._rig.rows[r - 1] for r in rows], self.deadline - LEAD
+        power = sum(nearest_power(r, self.coolest, time) for r in own) / (1 - BELOW)
+        volts = max(r.voltage_for(self.coolest, time) for r in own)
+        return Impossible(
+            f"voltage, power and time together: rows {', '.join(map(str, rows))} cannot be heated to "
+            f"{self.coolest - 273.15:.3g} degC at once by {time:g} s",
+            f"by then it takes {_upwards(volts)} V and {_upwards(power)} W; allowed are {self.voltage:.4g} V and "
+            f"{self.power:.4g} W",
+        )
+
     def _bent(self, entry: Entry) -> set[int]:
-        """Rows that are to be straight and bend too much, or so much that other starts may."""
+        """Rows that are to be straight and bend too much, or so much that other starts may.
+
+        On the mean over the starts that are known: the first one may have the straightest rows of all.
+        """
+        if entry.failure:
+            return set()
         room = self._room or (0.0,) * len(entry.distances)
         return {
             w.of
-            for w, distance, least in zip(self.ledger.task.wanted, entry.distances, room)
+            for w, distance, least in zip(self.ledger.task.wanted, self.ledger.mean_distances(entry), room)
             if w.quantity == f"{self._rig.fabric}.row_bend"
             and isinstance(w.of, int)
             and w.below is not None
@@ -411,10 +461,27 @@ class Search:
         return [free[:count] for count in range(len(free), 0, -1)]
 
     def accepted(self) -> list[Candidate]:
-        """Designs that met the request, by the run that decided; cheapest first, those with room before others."""
+        """Designs that met the request, by the run that decided; those with room first, the cheapest of them first.
+
+        Of those without it the one that has most of it comes first: fresh starts are least likely to reject it.
+        """
         good = [c for c, e in self.ledger.decided().items() if e.fidelity != "short" and e.meets(self.counting)]
         roomy = [c for c, e in self.ledger.decided().items() if c in good and self.has_room(e)]
-        return [*self._cheapest(roomy), *self._cheapest([c for c in good if c not in roomy])]
+        others = self._cheapest([c for c in good if c not in roomy])
+        return [*self._cheapest(roomy), *sorted(others, key=lambda c: -self._share_of_room(self.ledger.decided()[c]))]
+
+    def _share_of_room(self, entry: Entry) -> float:
+        """How much of the room a design has, where it has least of it."""
+        known = self.ledger.mean_distances(entry)
+        where = range(len(known)) if self.counting is None else self.counting
+        return min(
+            (
+                known[n] / self._room[n]
+                for n in where
+                if self._room and self._room[n] > 0.0 and not math.isnan(known[n])
+            ),
+            default=math.inf,
+        )
 
     def _cheapest(self, good: list[Candidate]) -> list[Candidate]:
         if self.ledger.task.least == "rows_heated":
@@ -424,9 +491,8 @@ class Search:
     def last_check(self, found: list[Candidate], outcome: Outcome) -> None:
         every = self.ledger.task.wanted
         wanted = every if self.counting is None else [every[n] for n in self.counting]
-        share = max(w.share for w in wanted)
         outcome.counting = self.counting
-        test = SequentialTest(share, share - APART, min(ERROR, 1.0 - max(w.confidence for w in wanted) + 1e-12))
+        test = check_of(wanted)
         for candidate in found:
             # Of one programme for several delays, fresh starts are run once and say something about each.
             known = self._fresh.setdefault(candidate, [])
@@ -435,7 +501,7 @@ class Search:
             self.tell(f"fresh starts of {candidate.text()}")
             try:
                 while verdict is Verdict.OPEN:
-                    number = max(1, min(self.ledger.batches.place.parallel, CHECKS - len(checks)))
+                    number = max(1, min(self.ledger.batches.place.parallel, test.fewest - len(checks)))
                     if len(known) < len(checks) + number:
                         start = FRESH + self.ledger.count("full")
                         known += self.ledger.full_batch(candidate, range(start, start + number))
@@ -495,9 +561,25 @@ class Search:
         return None
 
 
+def check_of(wanted: Sequence[Wanted]) -> SequentialTest:
+    """The sequential test of the last check: of the greatest share, with the stated error or a smaller one."""
+    share = max(w.share for w in wanted)
+    return SequentialTest(share, share - APART, min(ERROR, 1.0 - max(w.confidence for w in wanted) + 1e-12))
+
+
 def taut_pitch(rig: Rig) -> float:
     """Pitch of the taut, cold weave of a fabric [m]."""
     return rig.weave.cold_weave.pitch
+
+
+def _downwards(value: float) -> str:
+    """Three digits, rounded downwards: a value that is said to be allowed must be so.
+
+    >>> _downwards(16.248), _downwards(2.2)
+    ('16.2', '2.2')
+    """
+    grain = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{grain * math.floor(value / grain + 1e-9):.3g}"
 
 
 def _upwards(value: float) -> str:

@@ -39,6 +39,15 @@ class SequentialTest:
     bad: float
     error: float
 
+    @property
+    def fewest(self) -> int:
+        """Runs after which the share can be accepted, where all of them meet the requirement.
+
+        >>> SequentialTest(0.9, 0.6, 0.1).fewest
+        6
+        """
+        return math.ceil(math.log((1 - self.error) / self.error) / math.log(self.good / self.bad) - 1e-9)
+
     def verdict(self, met: int, missed: int) -> Verdict:
         """After so many runs that met the requirement and so many that did not."""
         ratio = met * math.log(self.good / self.bad) + missed * math.log((1 - self.good) / (1 - self.bad))

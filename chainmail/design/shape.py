@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import combinations
+from pathlib import Path
 
 from chainmail.design.candidate import Candidate, Pulse, Rig, holding_power, on_grid
-from chainmail.design.closed_form import heated_together
+from chainmail.design.closed_form import Row, heated_together, nearest_power
 from chainmail.design.cycle import cycle_requirements
 from chainmail.design.impossible import Impossible
 from chainmail.design.row_model import Chain
@@ -23,17 +24,21 @@ COLD_BEND, HOT_BEND = math.radians(12.5), math.radians(3.0)
 MOST_ROWS = 16
 
 
-def with_requirements(task: Task, rig: Rig) -> Task:
+def with_requirements(task: Task, rig: Rig, path: Path) -> Task:
     """The task with what `shape`, `schedule` and `cycle` want written out as bends of rows and curvatures.
 
+    Args:
+        task: As its file has it.
+        rig: Scenario of the task.
+        path: File of the task, for errors.
+
     Raises:
-        InputError: A row is none of the free ones, or is wanted to be both.
+        InputError: A row is none of the free ones, or times do not fit each other.
     """
-    wanted = list(task.wanted)
-    source = rig.scenario.path or "scenario"
+    wanted, source = list(task.wanted), str(path)
     if task.shape is not None:
         shape = task.shape
-        _check_rows([*shape.rigid, *shape.flexible], rig, "shape", str(source))
+        _check_rows([*shape.rigid, *shape.flexible], rig, "shape", source)
         last = max((w.at.to("s") for w in wanted if w.at is not None), default=0.0)
         if last > shape.at.to("s"):
             raise InputError(
@@ -48,7 +53,7 @@ def with_requirements(task: Task, rig: Rig) -> Task:
         ]
     if task.schedule is not None:
         plan = task.schedule
-        _check_rows(list(plan.rows), rig, "schedule.rows", str(source))
+        _check_rows(list(plan.rows), rig, "schedule.rows", source)
         for moment in sorted({t.to("s") for t in plan.rows.values()}):
             at = moment + plan.settle.to("s")
             for row, time in plan.rows.items():
@@ -152,8 +157,7 @@ def scheduled(
         end = on_grid(moment, rig, up=False)
         exact = heated_together(own, [hot] * len(rows), voltages[1] * (1 - 1e-9), spare * (1 - 1e-9), end - free_from)
         if exact is None or min(exact) < voltages[0]:
-            needed = own[0].power(own[0].voltage_for(hot, max(end - free_from, 1e-3)))
-            raise _refusal(rows, moment, end - free_from, needed, spare)
+            raise _refusal(rows, own, moment, (free_from, end), hot, voltages, spare)
         volts = [math.floor(1e4 * v) / 1e4 for v in exact]
         begin = on_grid(end - max(r.heating_time(v, hot) for r, v in zip(own, volts)), rig, up=False)
         held = on_grid(end + own[0].coasting_time(hot, hold), rig, up=False)
@@ -163,10 +167,32 @@ def scheduled(
     return Candidate(ordered, hold, min(p.begin for p in pulses), deadline)
 
 
-def _refusal(rows: list[int], moment: float, time: float, needed: float, spare: float) -> Impossible:
-    names = ", ".join(map(str, rows))
-    return Impossible(
-        f"the schedule: row {names} cannot be rigid by {moment:g} s; it has {max(time, 0.0):.3g} s and "
-        f"{max(spare, 0.0):.3g} W, and needs {needed:.3g} W per row",
-        "more time between this row and the one before, more voltage or more power",
+def _refusal(
+    rows: list[int],
+    own: Sequence[Row],
+    moment: float,
+    times: tuple[float, float],
+    hot: float,
+    voltages: tuple[float, float],
+    spare: float,
+) -> Impossible:
+    """Why rows cannot be hot by their time, and when they could be."""
+    names = f"row{'s' if len(rows) > 1 else ''} {', '.join(map(str, rows))}"
+    time = max(times[1] - times[0], 0.0)
+    limit = (
+        f"the schedule: {names} cannot be rigid by {moment:g} s: there are {time:.3g} s in which no other row is heated"
+        f", {max(spare, 0.0):.3g} W and {voltages[1]:.4g} V"
     )
+    # As long as it takes: a row comes within 1e-3 of what a voltage settles at in seven time constants.
+    longest = 7.0 * own[0].capacity / own[0].conductance
+    exact = heated_together(own, [hot] * len(own), voltages[1] * (1 - 1e-9), max(spare, 0.0) * (1 - 1e-9), longest)
+    if exact is None:
+        volts = max(r.voltage_for(hot, longest) for r in own)
+        power = sum(nearest_power(r, hot, longest) for r in own)
+        return Impossible(limit, f"in any time it takes more than {volts:.3g} V and {power:.3g} W")
+    if min(exact) < voltages[0]:
+        return Impossible(
+            limit, f"a lowest voltage of {math.floor(100 * min(exact)) / 100:g} V; it is {voltages[0]:g} V"
+        )
+    soonest = times[0] + max(r.heating_time(v, hot) for r, v in zip(own, exact))
+    return Impossible(limit, f"{names} by {math.ceil(100 * soonest) / 100:g} s, or more power or voltage")

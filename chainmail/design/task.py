@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, StrictInt, StrictStr, model_validator
 
 from cosim.components import AnyQuantity, Count, Strict, Time
+from cosim.faults import shown
 from cosim.scenario import Scenario, find_scenario, scenario_of_data
 from cosim.sweep.file import Output
 from cosim.unit.errors import InputError
@@ -77,10 +78,21 @@ class Span(Strict):
         return min(max((value.to(self.low.unit or "1") - low) / (high - low), 0.0), 1.0)
 
 
+def _patterns(value: object) -> object:
+    if isinstance(value, list) and all(isinstance(pattern, list) for pattern in value):
+        wrong = [r for pattern in value for r in pattern if not isinstance(r, int) or isinstance(r, bool) or r < 1]
+        if wrong:
+            raise ValueError(f"{shown(wrong[0])} is no number of a row; rows are counted from 1, from the tether on")
+        return value
+    if value == "any":
+        return value
+    raise ValueError(f"{shown(value)} is neither `any` nor a list of patterns such as `[[3, 4], [3, 4, 5]]`")
+
+
 class Vary(Strict):
     """What a design may choose."""
 
-    rows_heated: Literal["any"] | list[list[Count]] = Field(
+    rows_heated: Annotated[Literal["any"] | list[list[Count]], BeforeValidator(_patterns)] = Field(
         default="any", description="Patterns of heated rows, counted from the tether; any: every pattern of free rows."
     )
     voltage: Annotated[_Voltages, BeforeValidator(_ends)] = Field(description="Of a string while it is heated.")
@@ -107,7 +119,7 @@ class Wanted(Output):
 
     below: AnyQuantity | None = None
     above: AnyQuantity | None = None
-    share: float = Field(default=0.9, gt=0.0, lt=1.0, description="Share of starts in which it must hold.")
+    share: float = Field(default=0.9, ge=0.5, lt=1.0, description="Share of starts in which it must hold.")
     confidence: float = Field(default=0.9, gt=0.5, lt=1.0, description="Of the statement that this share is reached.")
 
     @model_validator(mode="before")
@@ -145,10 +157,15 @@ class Wanted(Output):
     def text(self) -> str:
         """For people."""
         relation = f"below {self.below}" if self.below is not None else f"above {self.above}"
+        return f"{self.name} {relation}"
+
+    @property
+    def name(self) -> str:
+        """What is bounded, without the bound."""
         span = f" from {self.from_} to {self.to}" if self.from_ is not None and self.to is not None else ""
         when = f" at {self.at}" if self.at is not None else f" ({self.over}{span})"
         element = f"[{self.of}]" if isinstance(self.of, int) else ""
-        return f"{self.quantity}{element}{when} {relation}"
+        return f"{self.quantity}{element}{when}"
 
 
 _ANGLE = In("rad", minimum=0.0, is_exclusive=True)
@@ -163,8 +180,17 @@ class _Bends(Strict):
     bent: Annotated[PhysicalValue, _ANGLE] = Field(
         default=PhysicalValue(8.0, "deg"), description="A flexible row bends by more."
     )
-    share: float = Field(default=0.9, gt=0.0, lt=1.0)
+    share: float = Field(default=0.9, ge=0.5, lt=1.0)
     confidence: float = Field(default=0.9, gt=0.5, lt=1.0)
+
+    @model_validator(mode="after")
+    def _ordered(self) -> _Bends:
+        if self.bent.to("rad") < self.straight.to("rad"):
+            raise ValueError(
+                f"a row that bends by an angle between `bent` {self.bent} and `straight` {self.straight} would be both "
+                "flexible and rigid; give a `bent` that is not below `straight`"
+            )
+        return self
 
 
 class Shape(_Bends):
@@ -176,6 +202,9 @@ class Shape(_Bends):
 
     @model_validator(mode="after")
     def _check(self) -> Shape:
+        twice = [r for rows in (self.rigid, self.flexible) for r in rows if rows.count(r) > 1]
+        if twice:
+            raise ValueError(f"row {twice[0]} stands twice")
         both = sorted(set(self.rigid) & set(self.flexible))
         if both:
             raise ValueError(f"row {both[0]} is wanted rigid and flexible")
@@ -209,7 +238,7 @@ class Cycle(Strict):
     delay: list[Time] = Field(min_length=1, description="From the first switch until it is hot; a front over several.")
     hot_for: Time = Field(default=PhysicalValue(1.0, "s"), description="How long it is to stay so.")
     period: Time = Field(description="From the first switch until it is cold again.")
-    share: float = Field(default=0.9, gt=0.0, lt=1.0)
+    share: float = Field(default=0.9, ge=0.5, lt=1.0)
     confidence: float = Field(default=0.9, gt=0.5, lt=1.0)
 
     @model_validator(mode="before")

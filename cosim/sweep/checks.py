@@ -91,11 +91,18 @@ def _kind(quantity: str, units: Mapping[str, Unit]) -> tuple[str, int]:
     owner = units.get(component)
     if owner is not None and last in (TIP_SAG, ROW_BEND) and "row_centre" in owner.variables:
         return ("m", 1) if last == TIP_SAG else ("rad", owner.variables["row_centre"].shape[0])
-    known = {f"{n}.{v.name}": v for n, u in units.items() for v in u.variables.values()}
+    known = {
+        f"{n}.{v.name}": v
+        for n, u in units.items()
+        for v in u.variables.values()
+        if v.causality in (Causality.OUTPUT, Causality.LOCAL) and v.recorded
+    }
     if quantity not in known:
-        found = sorted(n for n, v in known.items() if v.causality is Causality.OUTPUT)
-        hint = did_you_mean(quantity, known)
+        derived = [f"{n}.{q}" for n, u in units.items() if "row_centre" in u.variables for q in (ROW_BEND, TIP_SAG)]
+        outputs = (n for n, v in known.items() if v.causality is Causality.OUTPUT)
+        found = [*sorted([*outputs, *derived]), ENERGY]
+        hint = did_you_mean(quantity, [*known, *derived, ENERGY])
         there = f"{hint} There are" if hint else "; there are"
-        raise ValueError(f"no run of this scenario has a quantity `{quantity}`{there}: {', '.join([*found, ENERGY])}")
+        raise ValueError(f"no run of this scenario has a quantity `{quantity}`{there}: {', '.join(found)}")
     variable = known[quantity]
     return variable.unit, int(np.prod(variable.shape, dtype=int))

@@ -57,6 +57,7 @@ EFFECTS = {
     "resistance": (("actuator.parameters.resistance_temperature_coefficient", "0.0011 1/K"),),
     "contact": (("circuit.string_resistance", "0.15 ohm"),),
     "thermometer": (("thermometer.bias", ["0 K", "3 K"]),),
+    "drift": (("thermometer.drift", "0.02 K/s"),),
 }
 #: Setpoints [degC] from times [s] on.
 DAYS = {

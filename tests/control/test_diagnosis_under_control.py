@@ -27,9 +27,18 @@ def test_the_controller_hides_the_effect():
     assert float(voltages[1] / voltages[0]) == pytest.approx(np.sqrt(1.0 + 0.0011 * 36.0), abs=0.003)
 
 
+#: Concealed effect to verdict, what its statement names, and the number that was put in.
+CONCEALED = {
+    "resistance": ("missing physics", "temperature-dependent resistance, all coils", 0.0011),
+    "thermometer": ("measurement fault", "bias of a sensor, coil[2,1].temperature", 3.0),
+    "drift": ("measurement fault", "drift of a sensor, every temperature", 0.02),
+}
+
+
 @pytest.mark.slow
-def test_a_resistance_that_rises_is_found_behind_a_controller(tmp_path):
-    scenario = rig(tmp_path, "resistance")
+@pytest.mark.parametrize(("effect", "verdict", "named", "true"), [(e, *w) for e, w in CONCEALED.items()], ids=CONCEALED)
+def test_what_a_controller_conceals_is_found(tmp_path, effect, verdict, named, true):
+    scenario = rig(tmp_path, effect)
     days = ["--recording", str(tmp_path / "monday"), "--recording", str(tmp_path / "tuesday")]
     days += ["--held-out", str(tmp_path / "wednesday")]
     command = [sys.executable, "-m", "cosim.cli", "diagnose", str(scenario), *days, "--brief", "--jobs", "1"]
@@ -37,7 +46,13 @@ def test_a_resistance_that_rises_is_found_behind_a_controller(tmp_path):
         [*command, "--out", str(tmp_path / "answer")], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    found = json.loads((tmp_path / "answer" / "diagnosis.json").read_text())
-    assert found["verdict"] == "missing physics"
-    assert "temperature-dependent resistance, all coils" in " ".join(found["statement"].split())
-    assert "0.0011" in done.stdout
+    _check_answer(tmp_path / "answer", verdict, named, true)
+
+
+def _check_answer(folder: Path, verdict: str, named: str, true: float) -> None:
+    found = json.loads((folder / "diagnosis.json").read_text())
+    assert found["verdict"] == verdict
+    assert named in " ".join(found["statement"].split())
+    number = found["findings"][0]["parameters"][0]
+    number = number["physical"] or number
+    assert number["lower"] < true < number["upper"]

@@ -113,9 +113,9 @@ def test_text_that_is_not_utf_8_is_refused_with_what_to_do(tmp_path: Path, encod
 @pytest.mark.parametrize(
     ("connection", "key", "what"),
     [
-        ("a.b => c.d", "connections.0", "`a.b => c.d` is no connection"),
-        ("{connect: a.b -> c.d, factr: 2.0}", "connections.0.factr", "did you mean `factor`?"),
-        ("5", "connections.0", "`5`"),
+        ("a.b => c.d", "connections[1]", "`a.b => c.d` is no connection"),
+        ("{connect: a.b -> c.d, factr: 2.0}", "connections[1].factr", "did you mean `factor`?"),
+        ("5", "connections[1]", "`5`"),
     ],
 )
 def test_a_wrong_connection_has_one_message_in_our_words(tmp_path: Path, connection: str, key: str, what: str) -> None:

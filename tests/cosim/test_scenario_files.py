@@ -81,7 +81,7 @@ WRONG = [
     (
         ("connections",),
         ["coil.stiffness = fabric.stiffness"],
-        "connections.0",
+        "connections[1]",
         "write `component.output -> component.in",
     ),
     (("algorithm",), {"kind": "jacobi", "order": ["coil"]}, "algorithm.order", "every component once"),

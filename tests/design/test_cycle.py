@@ -74,7 +74,7 @@ class ScriptedLedger(Ledger):
 def scripted(path: Path, hot) -> Search:
     task, scenario = load_task(path)
     rig = rig_of(scenario, path)
-    ledger = ScriptedLedger(with_requirements(task, rig), rig, Batches(Here()))
+    ledger = ScriptedLedger(with_requirements(task, rig, path), rig, Batches(Here()))
     ledger.hot = hot
     return Search(ledger)
 
