@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from chainmail.figures.bands import draw_band
 from chainmail.measures import band, half_way_delay, plateau
 from cosim.figure_style import (
+    DEGREES,
     SWITCH,
     WITH_MODEL,
     WITHOUT_MODEL,
@@ -44,7 +45,7 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
         for run, colour in zip(runs, colours, strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
-            label = _shortened(label_of(run).split(" (")[0], shown_labels)
+            label = _shortened(label_of(run).split(" (")[0].replace("degC", DEGREES), shown_labels)
             if "start" in shown.dims:
                 label += f": median and 5 to 95 % of {run.sizes['start']} starts"
                 draw_band(axes, shown, colour, label, "--" if colours.count(colour) > 1 else "-")
