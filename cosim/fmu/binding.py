@@ -26,7 +26,7 @@ from cosim.fmu.access import (
     TextWriter,
 )
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.library import fault_of_library
+from cosim.fmu.shared_library import fault_of_library
 from cosim.fmu.sizes import MOST_BYTES
 from cosim.fmu.types import CType
 from cosim.fmu.variables import FmuVariable

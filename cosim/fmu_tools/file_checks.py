@@ -14,7 +14,7 @@ from fmpy.validation import validate_fmu
 from cosim.actuator.interface import faults
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.gathering import fmu_variables
-from cosim.fmu.library import fault_of_name, library
+from cosim.fmu.shared_library import fault_of_name, library
 from cosim.fmu.units import UnitNames
 from cosim.fmu_tools.info import looks_like_actuator
 from cosim.fmu_tools.isolated import Skipped

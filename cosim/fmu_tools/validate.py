@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cosim.fmu.archive import FmuArchive, open_fmu
 from cosim.fmu.binding import other_interface
-from cosim.fmu.library import fault_of_library
+from cosim.fmu.shared_library import fault_of_library
 from cosim.fmu_tools import file_checks, run_checks
 from cosim.fmu_tools.isolated import Verdict, run_isolated
 
