@@ -69,7 +69,23 @@ def figure(
 def _heading(title: str, run: str, width: float) -> str:
     """Title and run; a long name of a run takes a second line."""
     lines = textwrap.wrap(run, width=round(16 * width), max_lines=2, placeholder=" ...") if run else []
-    return "\n".join(text.replace("$", r"\$").replace("degC", DEGREES) for text in (title, *lines))
+    return "\n".join(with_degrees(text.replace("$", r"\$")) for text in (title, *lines))
+
+
+def with_degrees(text: str) -> str:
+    """A text or a unit as a figure shows it: degC by its sign."""
+    return text.replace("degC", DEGREES)
+
+
+def style_beside(values: Array, drawn: Sequence[Array]) -> str:
+    """Style of a line: dashed where it lies on one that is drawn already, so that both are seen.
+
+    Args:
+        values: Of the line, shape (points,).
+        drawn: Of the lines before it on these axes.
+    """
+    is_covered = any(np.allclose(values, other, rtol=1e-9, atol=0.0, equal_nan=True) for other in drawn)
+    return "--" if is_covered else "-"
 
 
 def label_of(run: xr.Dataset) -> str:

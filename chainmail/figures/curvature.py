@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from chainmail.figures.bands import draw_band
 from chainmail.measures import band, half_way_delay, plateau
 from cosim.figure_style import (
-    DEGREES,
     SWITCH,
     WITH_MODEL,
     WITHOUT_MODEL,
@@ -21,6 +20,7 @@ from cosim.figure_style import (
     figure,
     label_of,
     mark_switches,
+    with_degrees,
 )
 
 #: How the titles of the paper's runs end.
@@ -45,7 +45,7 @@ def draw(path: Path, runs: Sequence[xr.Dataset], marks: list[float]) -> Path:
         for run, colour in zip(runs, colours, strict=False):
             begin = 0.0 if marks and marks[0] > 0.0 else float(run["time"][0])
             shown = run["fabric.max_curvature"].sel(time=slice(begin, None)) / 100.0
-            label = _shortened(label_of(run).split(" (")[0].replace("degC", DEGREES), shown_labels)
+            label = _shortened(with_degrees(label_of(run).split(" (")[0]), shown_labels)
             if "start" in shown.dims:
                 label += f": median and 5 to 95 % of {run.sizes['start']} starts"
                 draw_band(axes, shown, colour, label, "--" if colours.count(colour) > 1 else "-")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.figure_style import DEGREES, figure, label_of, mark_switches
+from cosim.figure_style import DEGREES, figure, label_of, mark_switches, style_beside
 from cosim.unit.protocol import Array
 
 #: Most axes of a figure, and most lines of an axis; more cannot be told apart.
@@ -48,8 +48,7 @@ def draw(path: Path, run: xr.Dataset, marks: list[float]) -> Path:
             drawn: list[Array] = []
             for name, values in list(lines.items())[:MOST_LINES]:
                 label = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 4]} ..."
-                is_covered = any(np.array_equal(values, other, equal_nan=True) for other in drawn)
-                style = "--" if is_covered else "-"  # dashed over a line of the same values: both are seen
+                style = style_beside(values, drawn)
                 axes.plot(run["time"], values, lw=1.1, ls=style, label=label.replace("$", r"\$").lstrip("_"))
                 drawn.append(values)
             axes.set_ylabel("[1]" if unit == "1" else f"[{unit}]".replace("$", r"\$"))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.figure_style import DEGREES, figure, label_of
+from cosim.figure_style import figure, label_of, style_beside, with_degrees
 from cosim.sweep.axes import Points
 from cosim.sweep.sensitivity import Indices
 from cosim.unit.protocol import Array
@@ -74,8 +74,7 @@ def _lines(
             colour = f"C{number}"
             name = "" if split is None else f"{split.name} = {_point(data, split, number)}"
             middle = _percentile(rows, 50.0)
-            # A line on the same values as another is dashed, so that both are seen.
-            style = "--" if any(np.allclose(middle, other, rtol=1e-9, equal_nan=True) for other in drawn) else "-"
+            style = style_beside(middle, drawn)
             drawn.append(middle)
             mark = "o" if main.size <= 40 else ""
             place.plot(x, middle, ls=style, marker=mark, ms=3, color=colour, label=name)
@@ -148,13 +147,13 @@ def _abscissa(data: xr.Dataset, axis: Points) -> tuple[Array, str, list[str] | N
     """Places along an axis, its label, and texts of its ticks where it has no numbers."""
     column = axis.columns[0]
     if _is_numeric(data, axis) and column.numbers is not None:
-        unit = column.unit.replace("degC", DEGREES)
+        unit = with_degrees(column.unit)
         return column.numbers, f"{axis.name} [{unit}]" if unit else axis.name, None
     return np.arange(axis.size, dtype=np.float64), axis.name, [_short(t) for t in column.labels()]
 
 
 def _point(data: xr.Dataset, axis: Points, number: int) -> str:
-    return _short(str(axis.columns[0].values[number]).replace("degC", DEGREES))
+    return _short(with_degrees(str(axis.columns[0].values[number])))
 
 
 def _short(text: str) -> str:
@@ -162,7 +161,7 @@ def _short(text: str) -> str:
 
 
 def _name(values: xr.DataArray) -> str:
-    unit = str(values.attrs.get("units", "")).replace("degC", DEGREES)
+    unit = with_degrees(str(values.attrs.get("units", "")))
     return f"{values.name} [{unit}]" if unit not in ("", "1") else str(values.name)
 
 
