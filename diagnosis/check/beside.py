@@ -21,7 +21,7 @@ from diagnosis.check.feedthrough import QUIETER, quieter, settled
 from diagnosis.check.starts import runs_from_starts
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.recording import Channel, Recording
+from diagnosis.recording.recording import FEWEST_VALUES, Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
 from diagnosis.report.user_units import Units
 from diagnosis.search.free_numbers import check_stated
@@ -129,6 +129,11 @@ class Beside:
     def tolerance(self) -> float:
         """The same with the discrepancy that any model has."""
         return float(np.hypot(self.floor, DISCREPANCY * np.std(self.measured)))
+
+    @property
+    def is_comparable(self) -> bool:
+        """Whether it was simulated and has readings enough to be held against that."""
+        return self.simulated is not None and len(self.pick) >= FEWEST_VALUES
 
     @property
     def is_place(self) -> bool:

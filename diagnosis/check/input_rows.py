@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.components import ProgrammeComponent
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from diagnosis.judge.diagnosis import Adequacy
@@ -16,6 +15,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Channel, Input, Recording
 from diagnosis.search.cosim_run import predicted
 from diagnosis.search.problem import Parameter
+from diagnosis.search.switch_times import is_held
 
 #: Simulations with every change somewhere within the row before it, and the seed of their instants.
 DRAWS, SEED = 4, 33
@@ -50,15 +50,17 @@ def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) ->
         0 where no recorded input holds its values, or where compiled code does not simulate the scenario.
     """
     conditions = scenario_of(scenario, recording)
-    held = [i for i in recording.inputs if _is_held(conditions, i)]
-    if not held or not is_system(conditions):
+    if not is_system(conditions):
+        return 0.0
+    changes = [is_held(conditions, i) and bool(np.any(np.diff(i.values))) for i in recording.inputs]
+    if not any(changes):
         return 0.0
     rng, source = np.random.default_rng(SEED), recording.path / "recording.yaml"
     try:
         usual = predicted(run_quickly(conditions), channel.target, channel.times, source)
         squares = []
         for _ in range(DRAWS):
-            inputs = tuple(_moved(i, rng) if i in held else i for i in recording.inputs)
+            inputs = tuple(_moved(i, rng) if c else i for i, c in zip(recording.inputs, changes))
             results = run_quickly(scenario_of(scenario, replace(recording, inputs=inputs)))
             squares.append(np.mean((predicted(results, channel.target, channel.times, source) - usual) ** 2))
     except RunStopped:
@@ -66,13 +68,6 @@ def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) ->
     # what the fitted model answers is as large as the readings, whatever the scenario as it is answers
     size = float(np.std(usual))
     return float(np.sqrt(np.mean(squares))) * (float(np.std(channel.values)) / size if size > 0.0 else 0.0)
-
-
-def _is_held(conditions: Scenario, recorded: Input) -> bool:
-    component = conditions.components[recorded.component]
-    if not isinstance(component, ProgrammeComponent) or component.outputs[recorded.output].interpolation == "linear":
-        return False
-    return len(recorded.times) > 1 and bool(np.any(np.diff(recorded.values)))
 
 
 def _moved(recorded: Input, rng: np.random.Generator) -> Input:

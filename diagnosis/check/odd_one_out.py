@@ -14,7 +14,6 @@ import numpy as np
 from diagnosis.check.beside import Compared
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.recording import FEWEST_VALUES
 
 #: Share of their variance that the scenario explains of the others, all numbers as they are.
 MET = 0.95
@@ -77,7 +76,7 @@ def _left(one: Compared) -> list[_Left]:
     """
     shares = []
     for name, beside in one.channels.items():
-        if beside.simulated is None or len(beside.pick) < FEWEST_VALUES:
+        if not beside.is_comparable:
             continue
         total = float(np.var(beside.measured))
         if total <= (TIMES * beside.floor) ** 2:

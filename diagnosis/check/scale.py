@@ -14,7 +14,6 @@ from diagnosis.check.explain import LEVEL, Basis, Fit, basis, explains, gain
 from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.recording import FEWEST_VALUES
 from diagnosis.recording.sidecar import load_sidecar
 
 #: Deviation of ln(measured range / simulated range) before anything is known: parameters of a class-room rig are off
@@ -74,7 +73,7 @@ def sign_doubts(compared: Compared) -> list[Doubt]:
 
 def _simulated(compared: Compared) -> list[Beside]:
     """Channels whose simulation changes."""
-    every = [b for b in compared.channels.values() if b.simulated is not None and len(b.pick) >= FEWEST_VALUES]
+    every = [b for b in compared.channels.values() if b.is_comparable]
     # what a fabric does within the scatter of its contacts says nothing of a size
     return [b for b in every if np.ptp(b.simulated_there) > 0.0 and (b.moves or not b.scatter)]
 

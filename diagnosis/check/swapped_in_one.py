@@ -15,7 +15,6 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.recording import FEWEST_VALUES
 
 #: Share of the squares of both channels that is left once they are exchanged, at most; and how many times their noise
 #: they are off as they are.
@@ -75,7 +74,7 @@ def _pairs_by(one: Compared, other: Compared) -> list[tuple[float, str, str, str
 
 
 def _is_read(beside: Beside) -> bool:
-    return beside.simulated is not None and len(beside.pick) >= FEWEST_VALUES and beside.floor > 0.0
+    return beside.is_comparable and beside.floor > 0.0
 
 
 def _line(name: str, other: Compared) -> Array | None:

@@ -12,30 +12,31 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cosim.unit.quantity import conversion
+from diagnosis.check import scale
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.scale import units_stated
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.recording import FEWEST_VALUES
 
-#: Units in which tables of laboratories are written, by the SI unit of their quantity.
-UNITS = {
-    "K": ("degC", "degF"),
-    "A": ("A", "mA", "uA"),
-    "V": ("V", "mV"),
-    "W": ("W", "mW", "kW", "hp", "Btu/h"),
+#: Quantities by SI unit that are asked, with units of laboratories beside those of `diagnosis.check.scale`.
+_MORE: dict[str, tuple[str, ...]] = {
+    "K": (),
+    "A": (),
+    "V": (),
+    "W": ("hp", "Btu/h"),
     "J": ("J", "kJ", "cal", "Btu", "W*h"),
     "kg": ("kg", "g", "lb"),
     "kg/s": ("kg/s", "kg/min", "kg/h", "lb/min"),
-    "m": ("m", "cm", "mm", "um", "inch", "ft"),
-    "m/s": ("m/s", "mm/s", "km/h", "mph", "ft/s", "knot"),
-    "m^3/s": ("m^3/s", "l/s", "l/min", "m^3/h", "gallon/min"),
+    "m": ("inch", "ft"),
+    "m/s": ("mph", "ft/s", "knot"),
+    "m^3/s": ("gallon/min",),
     "m^3": ("m^3", "l", "ml", "gallon"),
-    "rad": ("rad", "deg", "turn"),
-    "rad/s": ("rad/s", "deg/s", "rpm"),
-    "N": ("N", "mN", "kN", "lbf", "kgf"),
-    "N*m": ("N*m", "N*mm", "lbf*ft", "lbf*inch"),
-    "Pa": ("Pa", "mbar", "kPa", "psi", "bar", "MPa", "mmHg", "inHg", "atm"),
+    "rad": ("turn",),
+    "rad/s": (),
+    "N": ("lbf", "kgf"),
+    "N*m": ("lbf*ft", "lbf*inch"),
+    "Pa": ("mmHg", "inHg", "atm"),
 }
+#: Units in which a table may be written, by the SI unit of its quantity.
+UNITS = {base: (*scale.UNITS.get(base, ()), *more) for base, more in _MORE.items()}
 #: Share of a channel's variance that a straight line in its simulation explains, in every recording that is compared.
 FOLLOWED = 0.95
 #: How far apart the others may be, relative to their median, and how far a factor may be from one of units: where a
@@ -59,7 +60,7 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         usual = float(np.median(others))
         if usual <= 0.0 or own <= 0.0 or max(abs(o / usual - 1.0) for o in others) > ALIKE:
             continue
-        stated = units_stated(one).get(name, one.channels[name].channel.unit)
+        stated = scale.units_stated(one).get(name, one.channels[name].channel.unit)
         ratio = own / usual
         near = _units_near(ratio, stated, one.channels[name].channel.unit)
         if not near:
@@ -82,7 +83,7 @@ def _units_near(ratio: float, stated: str, base: str) -> list[str]:
 
 def _slope(beside: Beside) -> float | None:
     """Slope of the readings in the simulation, where a straight line explains them."""
-    if beside.simulated is None or len(beside.pick) < FEWEST_VALUES:
+    if not beside.is_comparable:
         return None
     simulated = beside.simulated_there - np.mean(beside.simulated_there)
     measured = beside.measured - np.mean(beside.measured)

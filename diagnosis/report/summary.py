@@ -146,8 +146,8 @@ def _finding(order: int, finding: Finding, width: int, units: Units, is_open: bo
     yield from _wrapped("         ", "; ".join(told), width, 3)
     for doubt in finding.doubts[:_STATEMENTS]:
         yield from _wrapped("  doubt  " if finding.is_accepted else "  why not ", doubt, width, 3)
-    if unit_factor(finding):
-        yield from _wrapped("  unit   ", unit_factor(finding), width, 2)
+    if question := unit_factor(finding):
+        yield from _wrapped("  unit   ", question, width, 2)
     if finding.ambiguous_with or finding.members:
         yield from _wrapped("  but    ", ambiguity(finding), width, 2)
         yield from (line for text in decisive(finding)[:2] for line in _wrapped("  decide ", text, width, 1))

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtri
 
-from cosim.components import ProgrammeComponent
+from cosim.components import ProgrammeComponent, ProgrammeOutput
 from cosim.scenario import Scenario
 from cosim.unit.quantity import conversion
 from diagnosis.faults.programme import InputChange
@@ -99,23 +99,20 @@ def are_needed(plain: Model, moved: Model, late: Sequence[Term] = (), terms: Ter
     count = len(moved.parameters) - len(plain.parameters)
     least = chdtri(count, CHANCE)
     given = terms or {}
-    costs = [fit(m, Point(np.zeros(len(m.parameters)), given)).cost for m in (plain, moved)]
-    excess = costs[0] - len(plain.layout.time)
-    if not costs[0] - costs[1] > max(least, MOST_OF_IT * excess):
+    as_recorded, free = (fit(m, Point(np.zeros(len(m.parameters)), given)) for m in (plain, moved))
+    excess = as_recorded.cost - len(plain.layout.time)
+    if not as_recorded.cost - free.cost > max(least, MOST_OF_IT * excess):
         return False
-    common = _with_late(plain, late, given)
+    common = _with_late(plain, late, as_recorded)
     if set(common.point.terms) == set(given):
         return True
     own = fit(moved, Point(np.zeros(len(moved.parameters)), common.point.terms))
-    return bool(common.cost - min(own.cost, costs[1]) > least)
+    return bool(common.cost - min(own.cost, free.cost) > least)
 
 
-def _with_late(plain: Model, late: Sequence[Term], terms: Terms) -> Fit:
-    """The model with those dead times that it gains by, one after the other."""
-    best = fit(plain, Point(np.zeros(len(plain.parameters)), terms))
-    for term in late:
-        if term in terms:
-            continue
+def _with_late(plain: Model, late: Sequence[Term], best: Fit) -> Fit:
+    """A fit of the model with those further dead times that it gains by, one after the other."""
+    for term in [t for t in late if t not in best.point.terms]:
         (number,) = term.parameters
         starts = [Point(best.point.base, {**best.point.terms, term: (s,)}) for s in number.starts]
         found = fit_best(plain, starts)
@@ -124,13 +121,22 @@ def _with_late(plain: Model, late: Sequence[Term], terms: Terms) -> Fit:
     return best
 
 
-def _switches(scenario: Scenario, recorded: Input, end: float) -> list[tuple[Switch, float]]:
-    """Changes with the time since the row before [s]; none of an input that straight lines join."""
+def is_held(scenario: Scenario, recorded: Input) -> bool:
+    """Whether an input holds each of its values until the next row, and no straight lines join them."""
+    return len(recorded.times) > 1 and _output(scenario, recorded).interpolation != "linear"
+
+
+def _output(scenario: Scenario, recorded: Input) -> ProgrammeOutput:
     component = scenario.components[recorded.component]
     assert isinstance(component, ProgrammeComponent)
-    given = component.outputs[recorded.output]
-    if given.interpolation == "linear" or len(recorded.times) < 2:
+    return component.outputs[recorded.output]
+
+
+def _switches(scenario: Scenario, recorded: Input, end: float) -> list[tuple[Switch, float]]:
+    """Changes with the time since the row before [s]; none of an input that straight lines join."""
+    if not is_held(scenario, recorded):
         return []
+    given = _output(scenario, recorded)
     factor = conversion(recorded.unit, given.unit)[0]
     steps = np.diff(recorded.values)
     start = scenario.time.start.to("s")
