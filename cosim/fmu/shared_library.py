@@ -19,9 +19,13 @@ _LOADED = 1  # PT_LOAD
 
 def library(archive: FmuArchive, identifier: str) -> Path | None:
     """File of the shared library for this platform; None: there is none."""
+    return next((file for file in _candidates(archive, identifier) if file.is_file()), None)
+
+
+def _candidates(archive: FmuArchive, identifier: str) -> list[Path]:
+    """Where FMI 3 and FMI 2 have the library for this platform."""
     name = f"{identifier}{fmpy.sharedLibraryExtension}"
-    folders = (archive.directory / "binaries" / platform for platform in (fmpy.platform_tuple, fmpy.platform))
-    return next((folder / name for folder in folders if (folder / name).is_file()), None)
+    return [archive.directory / "binaries" / platform / name for platform in (fmpy.platform_tuple, fmpy.platform)]
 
 
 def fault_of_name(archive: FmuArchive, identifier: str) -> str:
@@ -30,10 +34,10 @@ def fault_of_name(archive: FmuArchive, identifier: str) -> str:
         return f"the modelIdentifier `{identifier}` is no name of a file: letters, digits and underscores"
     if library(archive, identifier) is not None:
         return ""
-    folders = [archive.directory / "binaries" / platform for platform in (fmpy.platform_tuple, fmpy.platform)]
-    there = sorted(p.name for folder in folders if folder.is_dir() for p in folder.iterdir())
-    name = f"{identifier}{fmpy.sharedLibraryExtension}"
-    return f"no {name} for {fmpy.platform_tuple}" + (f", where it holds {', '.join(there)}" if there else "")
+    candidates = _candidates(archive, identifier)
+    there = sorted(p.name for file in candidates if file.parent.is_dir() for p in file.parent.iterdir())
+    held = f", where it holds {', '.join(there)}" if there else ""
+    return f"no {candidates[0].name} for {fmpy.platform_tuple}{held}"
 
 
 def fault_of_library(archive: FmuArchive, identifier: str) -> tuple[str, str] | None:
