@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from cosim.compute.result import Result
+from cosim.interrupt import deferred_interrupt
 from cosim.unit.errors import InputError
 
 #: First characters of a key name a folder: a folder of ten thousand files is slow on many file systems.
@@ -43,11 +44,18 @@ class Cache:
             return None
 
     def put(self, key: str, result: Result) -> None:
-        """Keep a result.
+        """Keep a result; Ctrl-C while it is written stops the program when the result is kept.
 
         Raises:
             InputError: The folder cannot be written.
+            KeyboardInterrupt: The user asked to stop in the meantime.
         """
+        # KeyboardInterrupt inside an open archive would become the ValueError of a file that cannot be closed.
+        with deferred_interrupt() as interrupt:
+            self._write(key, result)
+        interrupt.check()
+
+    def _write(self, key: str, result: Result) -> None:
         about = {
             "arrays": len(result.arrays),
             "failure": result.failure,

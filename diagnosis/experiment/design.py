@@ -69,25 +69,28 @@ class Open:
         return [float(np.log(self.chances[0] / c)) for c in np.maximum(self.chances[1:], 1e-12)]
 
 
-def open_explanations(outcome: Outcome) -> Open | None:
+def open_explanations(outcome: Outcome, totals: Sequence[tuple[Explanation, float]] = ()) -> Open | None:
     """Explanations that the recordings leave open; None where nothing is open.
 
     Args:
         outcome: Of a search.
+        totals: -2 log posterior of explanations by training and unfitted readings together; those that are not listed
+            count by training alone.
     """
+    known = {id(e): total for e, total in totals}
     if not outcome.best.terms:
         return _unearned(outcome)
     size = len(outcome.best.terms)
     laws = set(outcome.best.fit.point.lasting.terms)
     others = [e for e in outcome.rivals if len(e.terms) == size and set(e.fit.point.lasting.terms) != laws]
-    chances = probabilities([e.demerit for e in (outcome.best, *others)])
+    chances = probabilities([known.get(id(e), e.demerit) for e in (outcome.best, *others)])
     # What is printed as ambiguous is open too: odds that rest on the number of parameters alone decide nothing.
     gaps = np.array([e.fit.cost - outcome.best.fit.cost for e in others])
     is_alike = [g < UNSEPARATED and not bends_into(e, outcome.best) for g, e in zip(gaps, others)]
     near = [i for i in np.argsort(-chances[1:]) if chances[0] < ODDS * chances[i + 1] or is_alike[i]]
     near = near[: MOST - 1]
     found = (outcome.best, *(others[i] for i in near))
-    return Open(found, probabilities([e.demerit for e in found])) if near else None
+    return Open(found, probabilities([known.get(id(e), e.demerit) for e in found])) if near else None
 
 
 def _as_accepted(outcome: Outcome, accepted: Accepted) -> Outcome:
@@ -125,7 +128,8 @@ def next_experiment(
     limits: Mapping[str, float],
 ) -> NextExperiment | None:
     """What would decide about explanations that are left open, where the coil network can simulate it; see `design`."""
-    question = open_explanations(_as_accepted(outcome, accepted))
+    totals = accepted.rivals if accepted.explanation.terms else ()  # as the probability of a finding counts them
+    question = open_explanations(_as_accepted(outcome, accepted), totals)
     network = model.coil_network
     if question is None or network is None:
         return None

@@ -13,18 +13,19 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.location import Waveform
 from diagnosis.judge.next_experiment import Course, NextExperiment
 from diagnosis.report.display import clean, difference
-from diagnosis.report.figures import colour, drawn, thinned
+from diagnosis.report.figures import colour, drawn, thinned, with_clock
+from diagnosis.report.user_units import IN_SI, Units
 
 #: Courses that differ are drawn up to this many.
 _COURSES = 6
 
 
-def waveform_figure(waveform: Waveform) -> str:
+def waveform_figure(waveform: Waveform, units: Units = IN_SI) -> str:
     """Estimate with its band, and what the law of the finding gives."""
-    return drawn(lambda f: _paint_waveform(f.subplots(), waveform), 8.4, 2.8)
+    return drawn(lambda f: _paint_waveform(f.subplots(), waveform, units), 8.4, 2.8)
 
 
-def _paint_waveform(axes: Axes, waveform: Waveform) -> None:
+def _paint_waveform(axes: Axes, waveform: Waveform, units: Units) -> None:
     factor, unit = difference(waveform.unit)
     times = np.array(waveform.times)
     values, lower, upper = (factor * np.array(v) for v in (waveform.values, waveform.lower, waveform.upper))
@@ -36,9 +37,10 @@ def _paint_waveform(axes: Axes, waveform: Waveform) -> None:
     if waveform.predicted:
         law = factor * np.array(waveform.predicted)
         axes.plot(times[keep], law[keep], color="black", lw=1.0, ls="--", label="by the law that was found")
-    axes.set(xlabel="time [s]", ylabel=f"missing input [{unit}]")
+    axes.set_ylabel(f"missing input [{unit}]")
     if len(times) > 1:
         axes.set_xlim(float(times[0]), float(times[-1]))
+    with_clock(axes, units, float(times[-1]))
     axes.legend(frameon=False, fontsize=8, ncols=3, loc="upper left", bbox_to_anchor=(0.0, 1.18))
 
 

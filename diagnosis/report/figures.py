@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Rectangle
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from cosim.figure_style import COLD, HOT, RECOOLED, WITH_MODEL, WITHOUT_MODEL
@@ -130,13 +131,40 @@ def _paint_coil(axes: Axes, x: float, y: float, colours: Sequence[str]) -> None:
     axes.plot(x + turns, y + 0.09 * np.sin(turns * 10 * np.pi), color="white" if colours else _WIRE, lw=0.8, zorder=3)
 
 
-def timeline_figure(findings: Sequence[Finding], begin: float, end: float) -> str:
+class _ScaledLocator(MaxNLocator):
+    """Round ticks in a unit that is `factor` times the unit of the axis."""
+
+    def __init__(self, factor: float) -> None:
+        super().__init__(nbins=8, steps=[1, 2, 2.5, 5, 10])
+        self._factor = factor
+
+    def tick_values(self, vmin: float, vmax: float) -> list[float]:
+        """Ticks, on the axis."""
+        return [float(t) / self._factor for t in super().tick_values(self._factor * vmin, self._factor * vmax)]
+
+
+def with_clock(axes: Axes, units: Units, end: float) -> None:
+    """Axis of time in the unit in which the report names instants.
+
+    Args:
+        axes: Drawn over seconds.
+        units: That the user wrote.
+        end: Last instant [s].
+    """
+    scale = units.scale(end, "s")
+    axes.set_xlabel(labelled("time", scale.unit))
+    if scale.factor != 1.0:
+        axes.xaxis.set_major_locator(_ScaledLocator(scale.factor))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda t, _: f"{scale.factor * t:.10g}"))
+
+
+def timeline_figure(findings: Sequence[Finding], begin: float, end: float, units: Units = IN_SI) -> str:
     """Bars where each finding shows, over the recording."""
     height = 0.75 + 0.3 * len(findings)
-    return drawn(lambda f: _paint_timeline(f.subplots(), findings, begin, end), 8.4, height)
+    return drawn(lambda f: _paint_timeline(f.subplots(), findings, begin, end, units), 8.4, height)
 
 
-def _paint_timeline(axes: Axes, findings: Sequence[Finding], begin: float, end: float) -> None:
+def _paint_timeline(axes: Axes, findings: Sequence[Finding], begin: float, end: float, units: Units) -> None:
     shortest = 0.004 * (end - begin)
     for n, finding in enumerate(findings):
         axes.axhline(n, color="#e2e8f0", lw=8, zorder=0, solid_capstyle="butt")
@@ -144,7 +172,8 @@ def _paint_timeline(axes: Axes, findings: Sequence[Finding], begin: float, end: 
             axes.barh(n, max(b - a, shortest), left=a, height=0.6, color=colour(n))
     names = [_shortened(f"{n}: {clean(f.effect).replace('_', ' ')}") for n, f in enumerate(findings, start=1)]
     axes.set_yticks(range(len(findings)), names)
-    axes.set(xlim=(begin, end), ylim=(len(findings) - 0.4, -0.6), xlabel="time [s]")
+    axes.set(xlim=(begin, end), ylim=(len(findings) - 0.4, -0.6))
+    with_clock(axes, units, end)
     axes.spines["left"].set_visible(False)
     axes.tick_params(axis="y", length=0)
 
@@ -186,7 +215,8 @@ def _paint_series(
         _shade(axes, series, findings, left)
     upper.set_ylabel(labelled(clean(series.channel).rpartition(".")[2], scaled.unit))
     lower.set_ylabel(labelled("residual", of_difference))
-    lower.set(xlabel="time [s]", xlim=_limits(series.times))
+    lower.set(xlim=_limits(series.times))
+    with_clock(lower, units, float(series.times[-1]))
     figure.legend(loc="outside upper left", frameon=False, ncols=5, fontsize=8)
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis
 from diagnosis.report.display import clean, number
-from diagnosis.report.figures import STAGE_LOOKS, drawn, labelled, thinned
+from diagnosis.report.figures import STAGE_LOOKS, drawn, labelled, thinned, with_clock
 from diagnosis.report.fits import STAGES
 from diagnosis.report.series import Series
 from diagnosis.report.user_units import Units
@@ -101,6 +101,7 @@ def _paint(figure: Figure, one: Series, units: Units) -> None:
         keep = thinned(rest)
         lower.plot(one.times[keep], rest[keep], **{**look, "lw": 1.0})
     upper.set_ylabel(labelled(clean(one.channel).rpartition(".")[2], scaled.unit))
-    lower.set(xlabel="time [s]", ylabel=labelled("residual", unit))
+    lower.set_ylabel(labelled("residual", unit))
     lower.margins(x=0.01)
+    with_clock(lower, units, float(one.times[-1]))
     figure.legend(loc="outside upper left", frameon=False, ncols=2, fontsize=8)

@@ -45,7 +45,7 @@ def _line(one: Location, units: Units) -> list[str | Cell]:
     ]
 
 
-def waveform_section(waveforms: Sequence[Waveform]) -> Section | None:
+def waveform_section(waveforms: Sequence[Waveform], units: Units = IN_SI) -> Section | None:
     """Figures of the unknown inputs; None where all of them may be 0."""
     resolved = [w for w in waveforms if any(low > 0.0 or up < 0.0 for low, up in zip(w.lower, w.upper))]
     if not resolved:
@@ -53,7 +53,7 @@ def waveform_section(waveforms: Sequence[Waveform]) -> Section | None:
     return section(
         "The missing input",
         "waveforms.html.j2",
-        drawn=[(_caption(one), waveform_figure(one)) for one in resolved[:_WAVEFORMS]],
+        drawn=[(_caption(one), waveform_figure(one, units)) for one in resolved[:_WAVEFORMS]],
         unresolved=len(waveforms) - len(resolved),
     )
 

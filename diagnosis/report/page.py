@@ -93,7 +93,7 @@ def _sections(diagnosis: Diagnosis, series: Sequence[Series], network: Network) 
         yield from left
     if series:
         yield _channels(diagnosis, series)
-    if missing := waveform_section(diagnosis.waveforms):
+    if missing := waveform_section(diagnosis.waveforms, Units(diagnosis.units)):
         yield missing
     if diagnosis.next_experiment is not None:
         yield experiment_section(diagnosis.next_experiment)
@@ -190,7 +190,7 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         network=network_figure(network, diagnosis.findings) if network.strings else "",
         # What the picture cannot show: findings that concern no single element of the network.
         others=[f"{n}: {f.place}" for n, f in enumerate(diagnosis.findings, 1) if not concerned(f, network)],
-        timeline=timeline_figure(diagnosis.findings, begin, end) if end > begin else "",
+        timeline=timeline_figure(diagnosis.findings, begin, end, Units(diagnosis.units)) if end > begin else "",
         span=Units(diagnosis.units).span(begin, end),
         is_fabric=any(fit.channel.startswith(_OF_A_FABRIC) for fit in diagnosis.fit),
     )

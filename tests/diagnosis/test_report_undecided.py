@@ -22,6 +22,7 @@ from diagnosis.report.page import write_html
 from diagnosis.report.section import TEMPLATES
 from diagnosis.report.series import Series
 from diagnosis.report.summary import LINES, print_summary
+from diagnosis.report.user_units import Units
 from tests.diagnosis.report_examples import CONTACT, EXPERIMENT, LAG, diagnosis, series
 from tests.diagnosis.test_report import Page, read_page
 
@@ -159,6 +160,24 @@ def test_channels_are_chosen_by_findings_then_by_what_is_left_then_by_the_worst_
         "coil[4,4].temperature",
         "coil[2,2].temperature",
     ]
+
+
+def test_the_axis_of_time_has_the_unit_in_which_the_text_names_instants() -> None:
+    """Over 4 h: ticks at round numbers of minutes, not at round numbers of seconds."""
+    times = np.linspace(0.0, 240.0 * 60.0, 200)
+    flat = np.full(200, 300.0)
+    one = Series("vessel.temperature", "K", times, flat, flat + 1.0, flat + 0.5, flat, 0.1)
+
+    def drawn(units: Units) -> str:
+        return base64.b64decode(series_figure(one, (), (), units).partition(",")[2]).decode()
+
+    minutes, seconds = drawn(Units(("min",))), drawn(Units())
+    assert "time [min]" in minutes
+    assert "time [s]" not in minutes
+    assert all(f"<!-- {n} -->" in minutes for n in (50, 100, 150, 200))
+    assert "time [s]" in seconds
+    assert "<!-- 10000 -->" in seconds
+    assert Units(("min",)).span(0.0, 240.0 * 60.0) == "0 to 240 min"
 
 
 def test_residuals_are_scaled_by_fitted_models_where_nothing_was_added() -> None:

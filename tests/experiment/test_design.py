@@ -157,6 +157,21 @@ def test_only_explanations_with_a_chance_are_open(tmp_path: Path) -> None:
     assert open_explanations(outcome([fits[0], far], base, 0, 12.0)) is None
 
 
+def test_readings_that_were_not_fitted_count_for_what_is_open_as_they_do_for_the_finding(tmp_path: Path) -> None:
+    made = scenario(tmp_path)
+    random = np.random.default_rng(0)
+    _, fits = rivals(made, [measured(made, STRESS[0], off(made, random), random)], STRESS)
+    even = [fits[0], replace(fits[1], cost=fits[0].cost)]
+    found = outcome(even, replace(fits[0], cost=fits[0].cost + 100.0), 0, 12.0)
+    other = next(e for e in found.rivals if e.terms != found.best.terms)
+    by_training = open_explanations(found)
+    by_both = open_explanations(found, [(found.best, 0.0), (other, 2.0 * np.log(9.0))])
+    assert by_training is not None
+    assert by_both is not None
+    assert by_training.chances == pytest.approx([0.5, 0.5])
+    assert by_both.chances == pytest.approx([0.9, 0.1])
+
+
 def test_a_law_without_a_name_that_bends_into_a_named_one_is_no_rival_of_it(tmp_path: Path) -> None:
     made = scenario(tmp_path)
     random = np.random.default_rng(0)
