@@ -10,6 +10,7 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
+from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.check.clock_shift import shift_doubts
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
@@ -58,13 +59,13 @@ def check_recordings(
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = list(still_doubts(every))
-    of_one, exchanged = units_of_one(every), swapped_in_one(every)
+    of_one, exchanged, clocks = units_of_one(every), swapped_in_one(every), clocks_of_one(every)
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)
         relation = [] if known else _relation(one, [o for o in every if o is not one])
-        relation = relation or [d for d in exchanged if d.recording == one.recording.title]
+        relation = relation or [d for d in (*exchanged, *clocks) if d.recording == one.recording.title]
         units = unit_doubts(one) or size_doubts(one) or [d for d in of_one if d.recording == one.recording.title]
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
         if not any(d.is_serious for d in (*relation, *units)):  # milliseconds for seconds, say, are known as such

@@ -1,0 +1,163 @@
+"""A clock that is off in one recording alone, seen beside the other recordings.
+
+A number that is off or a law that is missing may move a response in time, but it does so in every recording. Where
+the scenario meets a channel in the other recordings and, by a straight line from its clock to that of the scenario,
+in this one too, its clock is off. A resonance that moves with its amplitude does the same to all channels of a
+recording that is driven harder than the others: none such is reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.explain import independent
+from diagnosis.check.timing import percent
+from diagnosis.judge.diagnosis import Doubt
+
+#: Share of a channel's variance that the scenario leaves at most where it meets it, all numbers as they are.
+MET = 0.05
+#: How many times more it leaves of the one whose clock is off, and by how many times that clock worsens the others.
+TIMES, WORSE = 4.0, 2.0
+#: Share of the readings that count least for a misfit, those far off left out: at a switch a reading is of one side or
+#: the other, and moves there by a hair.
+COUNTED = 0.95
+#: How far a clock may be off at either end, as a share of the readings' duration, and most offsets tried at each end.
+LONGEST, MOST_OFFSETS = 0.03, 121
+#: Other recordings that have to be met: of two, either may be the odd one.
+OTHERS = 2
+#: Range of a simulated channel in a recording, beside the largest of the others, up to which none is driven harder.
+HARDER = 1.1
+#: Standard normal quantile of 97.5 %.
+_QUANTILE = 1.959964
+
+
+@dataclass(frozen=True)
+class _Clock:
+    """Offsets of a channel's clock, positive where it shows a later time.
+
+    Args:
+        offsets: At its first and its last reading [s], shape (2,).
+        spread: 95 % of the rate are within so much of it, 1.
+        left: Share of the variance that the scenario leaves of the channel then.
+    """
+
+    offsets: Array
+    spread: float
+    left: float
+
+    def rate(self, beside: Beside) -> float:
+        """How much too fast the clock runs, 1."""
+        return float((self.offsets[1] - self.offsets[0]) / np.ptp(beside.times))
+
+
+def clocks_of_one(every: Sequence[Compared]) -> list[Doubt]:
+    """Doubts about the clock of a channel in one recording; all are serious."""
+    found = []
+    for one in every:
+        others = [o for o in every if o is not one]
+        if len(others) >= OTHERS:
+            found += list(_of_recording(one, others))
+    return found
+
+
+def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
+    own = {name: _left(b) for name, b in one.channels.items() if _is_told(b)}
+    for name, left in own.items():
+        beside = one.channels[name]
+        same = [o.channels[name] for o in others if name in o.channels and _is_told(o.channels[name])]
+        usual = [_left(b) for b in same]
+        if len(usual) < OTHERS or max(usual) > MET or left < max(TIMES * max(usual), _noise(beside)):
+            continue
+        # other channels of the rig that are met say that it is not the rig
+        is_alone = any(n != name and v <= MET for n, v in own.items())
+        largest = max(float(np.ptp(b.simulated_there)) for b in same)
+        if not is_alone and float(np.ptp(beside.simulated_there)) > HARDER * largest:
+            continue
+        clock = _clock(beside)
+        if clock is None or clock.left > MET or clock.left * TIMES > left:
+            continue
+        # what the others do not notice may be theirs too: a number that is off shows most where a run is long
+        if sum(_left(b, _moved(clock, beside, b)) for b in same) < WORSE * sum(usual):
+            continue
+        text = (
+            f"the scenario as it is explains at least {percent(1.0 - max(usual))} of the variance of {name} in "
+            f"each other recording and {percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} "
+            f"{_in_words(clock, beside)}"
+        )
+        remedy = "compare two instants that both clocks know, and correct the times of this column's table"
+        z = float(np.sqrt(left / max(clock.left, 1e-12)))
+        yield Doubt(one.recording.title, name, "clock", text, remedy, True, one.begin, one.end, z)
+
+
+def _is_told(beside: Beside) -> bool:
+    """Whether a channel moves so much more than its noise that a twentieth of its variance is no noise."""
+    return beside.is_comparable and beside.moves and float(np.var(beside.measured)) > (10.0 * beside.floor) ** 2
+
+
+def _moved(clock: _Clock, of: Beside, to: Beside) -> Array:
+    """Offsets of another recording's readings, if its clock were off as that of this one is."""
+    if _is_rate(clock, of):
+        return clock.rate(of) * _since(to)
+    return np.full(len(to.times), float(clock.offsets.mean()))
+
+
+def _since(beside: Beside) -> Array:
+    return np.asarray(beside.times - beside.times[0])
+
+
+def _left(beside: Beside, offsets: Array | None = None) -> float:
+    """Share of a channel's variance that the scenario leaves, with its clock off by so much at each reading."""
+    rest = beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets)
+    squares = np.sort(rest**2)[: int(np.ceil(COUNTED * len(rest)))]
+    return max(float(np.mean(squares)) - beside.floor**2, 0.0) / float(np.var(beside.measured))
+
+
+def _noise(beside: Beside) -> float:
+    """Share of a channel's variance that is noise."""
+    return float(beside.floor**2 / np.var(beside.measured))
+
+
+def _clock(beside: Beside) -> _Clock | None:
+    """The straight line of offsets that leaves least; None where that is at an end of what is tried."""
+    span, since = float(np.ptp(beside.times)), _since(beside)
+    speed = float(np.sqrt(np.mean((np.diff(beside.simulated_there) / np.diff(beside.times)) ** 2)))
+    longest = LONGEST * span
+    # half the time in which the channel moves by its deviation: the least is found from there
+    step = max(0.5 * float(np.std(beside.simulated_there)) / speed, 2.0 * longest / MOST_OFFSETS)
+    count = int(longest / step)
+    tried = step * np.arange(-count, count + 1) if count else np.array([-longest, 0.0, longest])
+    weights = np.column_stack([1.0 - since / span, since / span])
+
+    def misfit(ends: Array) -> Array:
+        return np.asarray(beside.measured - beside.at(beside.times - weights @ ends))
+
+    squares = [(float(np.sum(misfit(np.array([a, b])) ** 2)), a, b) for a in tried for b in tried]
+    _, *start = min(squares)
+    fitted = least_squares(misfit, start, bounds=(-longest - step, longest + step), x_scale=step)
+    if np.abs(fitted.x).max() > longest:
+        return None
+    scatter = float(np.mean(fitted.fun**2)) * len(since) / independent(fitted.fun)
+    jacobian: Array = np.asarray(fitted.jac)
+    spread = np.linalg.pinv(jacobian.T @ jacobian) * scatter
+    slope = np.array([-1.0, 1.0]) / span
+    return _Clock(fitted.x, _QUANTILE * float(np.sqrt(slope @ spread @ slope)), _left(beside, weights @ fitted.x))
+
+
+def _is_rate(clock: _Clock, beside: Beside) -> bool:
+    return abs(clock.rate(beside)) > clock.spread
+
+
+def _in_words(clock: _Clock, beside: Beside) -> str:
+    rate = clock.rate(beside)
+    if _is_rate(clock, beside):
+        low, high = sorted(100.0 * (abs(rate) + side * clock.spread) for side in (-1.0, 1.0))
+        way = "fast" if rate > 0.0 else "slow"
+        return f"with a clock that runs {100.0 * abs(rate):.2g} % too {way} ({low:.2g} to {high:.2g} %, 95 %)"
+    off = float(clock.offsets.mean())
+    return f"with a clock that is {abs(off):.3g} s {'ahead' if off > 0.0 else 'behind'}"

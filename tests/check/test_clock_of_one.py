@@ -1,0 +1,118 @@
+"""A clock that is off in one recording alone, and rigs that only seem to have one."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from cosim.scenario import load_scenario
+from diagnosis.check.beside import compare
+from diagnosis.check.check import check_recordings
+from diagnosis.check.clock_of_one import clocks_of_one
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import load_recording
+from tests.systems.rigs import COUNT, STEP, oscillator, oscillator_recordings
+
+SIZES = (0.4, 0.5, 0.45)
+
+
+def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
+    scenario = load_scenario(str(folder / "scenario.yaml"))
+    return clocks_of_one([compare(scenario, load_recording(r)) for r in recordings])
+
+
+def _own_table(recording: Path, fast: float, late: float) -> None:
+    """The channel in a table of its own, whose clock runs so much too fast and is ahead by so much [s]."""
+    about = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
+    table = pd.read_csv(recording / "data.csv")
+    (channel,) = about["channels"].values()
+    own = pd.DataFrame({"t": (1.0 + fast) * table["t"] + late, channel["column"]: table.pop(channel["column"])})
+    own.to_csv(recording / "own.csv", index=False)
+    table.to_csv(recording / "data.csv", index=False)
+    channel |= {"table": "own.csv", "time": {"column": "t", "unit": "s", "zero": 0.0}}
+    (recording / "recording.yaml").write_text(yaml.safe_dump(about, sort_keys=False), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("fast", "late", "words"),
+    [(0.02, 0.0, "fast"), (-0.015, 0.01, "slow"), (0.0, 0.05, "ahead"), (0.0, -0.05, "behind")],
+)
+def test_the_recording_whose_clock_is_off_is_named_with_how_far(
+    fast: float, late: float, words: str, tmp_path: Path
+) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], fast, late)
+    (told,) = _doubts(tmp_path, recordings)
+    assert told.recording == "run_2"
+    assert told.is_serious
+    assert words in told.statement
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = check_recordings(scenario, [load_recording(r) for r in recordings])
+    assert {d.recording for d in every if d.is_serious} == {"run_2"}
+    if fast:
+        low, high = (float(v) / 100.0 for v in re.findall(r"([\d.]+) to ([\d.]+) %", told.statement)[0])
+        assert low <= abs(fast) <= high
+        assert high - low < 0.2 * abs(fast)
+    else:
+        assert float(re.findall(r"is ([\d.]+) s", told.statement)[0]) == pytest.approx(abs(late), rel=0.05)
+
+
+def test_of_two_recordings_none_is_named_and_of_good_ones_none(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    assert _doubts(tmp_path, recordings) == []
+    _own_table(recordings[1], 0.02, 0.0)
+    assert _doubts(tmp_path, recordings[:2]) == []
+
+
+def _lightly_damped(folder: Path) -> None:
+    path = oscillator(folder)
+    text = path.read_text(encoding="utf-8").replace("cvode}", "cvode, parameters: {c: 0.3 1/s}}")
+    path.write_text(text, encoding="utf-8")
+
+
+def test_a_resonance_that_moves_with_its_amplitude_is_no_clock(tmp_path: Path) -> None:
+    """A spring that softens: the recording that is driven hardest runs 1.3 % slow, all of it, and no other."""
+    _lightly_damped(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 3.75 * v - 4.0 * x - 0.4 * x**3, (0.15, 0.2, 1.2))
+    assert _doubts(tmp_path, recordings) == []
+
+
+def test_a_number_that_is_off_in_all_recordings_is_no_clock_of_the_longest(tmp_path: Path) -> None:
+    """A frequency that is a little off: what short recordings hardly show, a long one does."""
+    _lightly_damped(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 3.75 * v - 16.0 * x, (0.4, 0.5, 0.1))
+    for short in recordings[:2]:
+        table = pd.read_csv(short / "data.csv")
+        assert len(table) == COUNT
+        table[table["t"] < 0.2 * COUNT * STEP].to_csv(short / "data.csv", index=False)
+    assert _doubts(tmp_path, recordings) == []
+
+
+def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
+    """An output that follows its input at once: two readings of one recording are of the other side of a switch."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    beside = every[1].channels["rig.position"]
+    assert beside.simulated is not None
+    steps = np.sign(np.sin(4.0 * beside.simulated.times))
+    moved = []
+    for number, one in enumerate(every):
+        own = one.channels["rig.position"]
+        assert own.simulated is not None
+        series = replace(own.simulated, values=steps)
+        values = np.sign(np.sin(4.0 * own.channel.times))
+        if number == 1:
+            values[np.flatnonzero(np.diff(values))[[0, -1]] + 1] *= -1.0
+        channel = replace(own.channel, values=values)
+        moved.append(replace(one, channels={"rig.position": replace(own, channel=channel, simulated=series)}))
+    assert clocks_of_one(moved) == []
