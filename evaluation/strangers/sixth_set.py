@@ -152,7 +152,7 @@ def _magnet(
     stop = 6.0
 
     def played() -> Steps:
-        return drawn_steps(rng, stop, 0.12, 6.5e-3, 10e-3, 2e-3)
+        return drawn_steps(rng, stop, 0.12, 5.5e-3, 10.5e-3, 2e-3)
 
     written, real = played(), played()
     parts = programme("generator", ("setpoint", "m"))
@@ -173,7 +173,7 @@ def _magnet(
         setpoint = real if is_other else played()
         t, x = integrated(rates, (y_begin, 0.0, i_begin), (setpoint,), stop, 1e-3)
         sensors = [
-            Sensor("rig.gap", "gap_mm", "mm", scaled(0, 1e3), 0.02, 4e-3, noise_stated, 0.005),
+            Sensor("rig.gap", "gap_mm", "mm", scaled(0, 1e3), 0.015, 4e-3, noise_stated, 0.005),
             Sensor("rig.current", "I_mA", "mA", scaled(2, 1e3), 12.0, 2e-3, noise_stated, 2.0),
         ]
         programmes = {} if is_other else {"generator.setpoint": (setpoint, "m")}
@@ -188,7 +188,7 @@ def magnet_null(folder: Path, rng: Rng) -> Truth:
 
 
 def magnet_iron(folder: Path, rng: Rng) -> Truth:
-    iron = rng.uniform(0.35e-3, 0.6e-3)
+    iron = rng.uniform(0.6e-3, 0.9e-3)
     _magnet(folder, rng, iron=iron)
     return Truth(
         f"the reluctance of the iron acts as a further gap of {1e3 * iron:.3f} mm: the force is C (i/(y + y_iron))^2",
@@ -373,8 +373,8 @@ def _dryer(
         factor = 2.20462 if in_pounds else 1.0
         sensors = [
             Sensor("cabinet.air", "T_air", "degC", celsius(0), 0.3, 30.0, noise_stated, 0.1),
-            Sensor("cabinet.humidity", "x_g_kg", "g/kg", scaled(2, 1e3), 0.25, 30.0, noise_stated, 0.1),
-            Sensor("cabinet.mass", "balance", "kg", scaled(3, factor), 0.008 * factor, 60.0, noise_stated, 1e-3),
+            Sensor("cabinet.humidity", "x_g_kg", "g/kg", scaled(2, 1e3), 0.1, 30.0, noise_stated, 0.1),
+            Sensor("cabinet.mass", "balance", "kg", scaled(3, factor), 0.004 * factor, 60.0, noise_stated, 1e-3),
         ]
         made = Written(
             t,
@@ -489,15 +489,15 @@ def _peltier(
         return np.asarray(s * (x[:, 1] - x[:, 0]) + r * u[:, 0])
 
     for name in FOLDERS:
-        current = drawn_steps(rng, stop, 90.0, -0.4, 2.2, 4.0)
-        load = drawn_steps(rng, stop, 170.0, 0.0, 12.0, 4.0)
-        room = Steps((0.0,), (round(rng.uniform(293.0, 297.0), 1),))
+        current = drawn_steps(rng, stop, 90.0, -0.4, 2.5, 4.0)
+        load = drawn_steps(rng, stop, 170.0, 0.0, 18.0, 4.0)
+        room = Steps((0.0,), (round(rng.uniform(286.0, 304.0), 1),))
         t, x = integrated(rates, (begin, begin), (current, load, room), stop, 1.0)
         is_swapped = is_exchanged and name == "second"
         sensors = [
-            Sensor("cell.cold", "T_cold", "degC", celsius(int(is_swapped)), 0.08, 4.0, noise_stated, 0.05),
+            Sensor("cell.cold", "T_cold", "degC", celsius(int(is_swapped)), 0.06, 4.0, noise_stated, 0.05),
             Sensor("cell.hot", "T_sink", "degF", fahrenheit(1 - int(is_swapped)), 0.3, 4.0, noise_stated, 0.1),
-            Sensor("cell.voltage", "U_V", "V", voltage, 0.02, 8.0, noise_stated, 0.01),
+            Sensor("cell.voltage", "U_V", "V", voltage, 0.012, 8.0, noise_stated, 0.01),
         ]
         made = Written(
             t,
@@ -519,7 +519,7 @@ def peltier_null(folder: Path, rng: Rng) -> Truth:
 
 
 def peltier_seebeck(folder: Path, rng: Rng) -> Truth:
-    seebeck = rng.uniform(3e-3, 4.5e-3)
+    seebeck = rng.uniform(3.5e-3, 5e-3)
     _peltier(folder, rng, seebeck=seebeck)
     return Truth(f"the Seebeck coefficient rises with the mean temperature, {seebeck:.2e} 1/K", PHYSICS)
 
@@ -798,8 +798,8 @@ def _rotor(
         load = drawn_steps(rng, stop, 3.0, 1.2, 6.0, 0.02)
         t, x = integrated(rates, (40.0, 0.0), (wind, load), stop, 0.01)
         sensors = [
-            Sensor("rotor.speed", "n_rpm", "rpm", scaled(0, 30.0 / np.pi), 8.0, 0.04, noise_stated, 1.0),
-            Sensor("generator.current", "I_A", "A", scaled(1, 1.0), 0.03, 0.02, noise_stated, 0.01),
+            Sensor("rotor.speed", "n_rpm", "rpm", scaled(0, 30.0 / np.pi), 5.0, 0.04, noise_stated, 1.0),
+            Sensor("generator.current", "I_A", "A", scaled(1, 1.0), 0.015, 0.02, noise_stated, 0.005),
         ]
         made = Written(
             t,
@@ -822,7 +822,7 @@ def rotor_null(folder: Path, rng: Rng) -> Truth:
 
 
 def rotor_bridge(folder: Path, rng: Rng) -> Truth:
-    bridge = rng.uniform(0.5, 0.9)
+    bridge = rng.uniform(0.8, 1.2)
     _rotor(folder, rng, bridge=bridge)
     return Truth(
         f"a rectifier behind the generator takes {bridge:.3f} V",
