@@ -7,6 +7,7 @@ is drawn; the deviations of the numbers are those that a parameter set states.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -24,6 +25,11 @@ from evaluation.strangers.truth import FINE, OPEN, PHYSICS, RECORDING, SENSOR, T
 
 #: Atmospheric pressure [Pa]; ratio of the molar masses of water and air; heat of evaporation [J/kg].
 PRESSURE, MOLAR_RATIO, EVAPORATION = 101325.0, 0.622, 2.45e6
+
+
+def resting(component: str, value: str) -> str:
+    """A programme of one output that is held at another value than 0."""
+    return re.sub(r"constant: 0 [^}]+", f"constant: {value}", component)
 
 
 # --- a ball on a beam with a servo and position feedback (Wellstead 1979), FMI 2 Model Exchange; mm, deg
@@ -155,7 +161,7 @@ def _magnet(
         return drawn_steps(rng, stop, 0.12, 5.5e-3, 10.5e-3, 2e-3)
 
     written, real = played(), played()
-    parts = programme("generator", ("setpoint", "m"))
+    parts = resting(programme("generator", ("setpoint", "m")), "0.008 m")
     if is_other:
         points = ", ".join(f"[{t:.10g} s, {v:.10g} m]" for t, v in zip(written.times, written.levels))
         parts = f"  generator:\n    kind: programme\n    outputs:\n      setpoint: {{unit: m, points: [{points}]}}\n"
@@ -343,7 +349,7 @@ def _dryer(
     parts = (
         programme("heater", ("power", "W"))
         + programme("flap", ("vent", "kg/s"))
-        + programme("hall", ("room", "K"))
+        + resting(programme("hall", ("room", "K")), "294.15 K")
         + with_numbers("cabinet", "dryer", integrator)
     )
     wires = "  - heater.power -> cabinet.power\n  - flap.vent -> cabinet.vent\n  - hall.room -> cabinet.room\n"
@@ -462,7 +468,7 @@ def _peltier(
     parts = (
         programme("source", ("current", "A"))
         + programme("dummy", ("load", "W"))
-        + programme("lab", ("room", "K"))
+        + resting(programme("lab", ("room", "K")), "295.15 K")
         + with_numbers("cell", "peltier", integrator)
     )
     wires = "  - source.current -> cell.current\n  - dummy.load -> cell.load\n  - lab.room -> cell.room\n"
@@ -525,7 +531,7 @@ def peltier_seebeck(folder: Path, rng: Rng) -> Truth:
 
 
 def peltier_two(folder: Path, rng: Rng) -> Truth:
-    ohmic, convection = rng.uniform(5e-3, 7e-3), rng.uniform(0.3, 0.5)
+    ohmic, convection = rng.uniform(5e-3, 7e-3), rng.uniform(0.15, 0.28)
     _peltier(folder, rng, ohmic=ohmic, convection=convection)
     return Truth(
         f"the resistance rises with the mean temperature, {ohmic:.2e} 1/K, and the sink also loses "
@@ -763,11 +769,11 @@ def _rotor(
 ) -> None:
     """Two FMUs; a rectifier may take a voltage, `bridge` V; `gust` is begin [s], end [s] and factor."""
     stop = 40.0
+    ROTOR.build(folder)
+    build3(GENERATOR, folder)
     data_sheet(folder, GENERATOR, GENERATOR_KNOWN)
     (folder / "numbers.yaml").rename(folder / "generator.yaml")
     data_sheet(folder, ROTOR, ROTOR_KNOWN)
-    ROTOR.build(folder)
-    build3(GENERATOR, folder)
     parts = (
         programme("tunnel", ("wind", "m/s"))
         + programme("decade", ("load", "ohm"))
