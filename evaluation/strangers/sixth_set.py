@@ -605,8 +605,8 @@ def _cells(
         ]
 
     for name in FOLDERS:
-        flow = drawn_steps(rng, stop, 400.0, 0.01, 0.05, grid)
-        feed = drawn_steps(rng, stop, 250.0, 0.0, 5.0, grid)
+        flow = drawn_steps(rng, stop, 500.0, 0.01, 0.05, grid)
+        feed = drawn_steps(rng, stop, 320.0, 0.0, 5.0, grid)
         begin = left if name == "second" else 0.0
         t, x = integrated(rates, [begin] * 4, (flow, feed), stop, 1.5)
         sensors = [
