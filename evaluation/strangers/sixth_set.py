@@ -285,7 +285,7 @@ def table_null(folder: Path, rng: Rng) -> Truth:
 
 
 def table_detent(folder: Path, rng: Rng) -> Truth:
-    detent = rng.uniform(0.012, 0.022)
+    detent = rng.uniform(0.018, 0.026)
     _table(folder, rng, detent=detent)
     return Truth(
         f"detent torque of the motor, {detent:.4f} N m with four periods per tooth",
@@ -380,7 +380,7 @@ def _dryer(
         sensors = [
             Sensor("cabinet.air", "T_air", "degC", celsius(0), 0.3, 30.0, noise_stated, 0.1),
             Sensor("cabinet.humidity", "x_g_kg", "g/kg", scaled(2, 1e3), 0.1, 30.0, noise_stated, 0.1),
-            Sensor("cabinet.mass", "balance", "kg", scaled(3, factor), 0.004 * factor, 60.0, noise_stated, 1e-3),
+            Sensor("cabinet.mass", "balance", "kg", scaled(3, factor), 0.003 * factor, 60.0, noise_stated, 1e-3),
         ]
         made = Written(
             t,
@@ -403,7 +403,7 @@ def dryer_null(folder: Path, rng: Rng) -> Truth:
 
 
 def dryer_falling(folder: Path, rng: Rng) -> Truth:
-    critical = rng.uniform(1.75, 1.85)
+    critical = rng.uniform(1.8, 1.9)
     _dryer(folder, rng, critical=critical)
     return Truth(
         f"falling-rate period: below {critical:.3f} kg the load dries in proportion to what it holds above 0.9 kg",
@@ -610,7 +610,7 @@ def _cells(
         begin = left if name == "second" else 0.0
         t, x = integrated(rates, [begin] * 4, (flow, feed), stop, 1.5)
         sensors = [
-            Sensor(f"rig.probe{i + 1}", f"c{i + 1}_g_l", "1", scaled(i, 1.0), 0.03, 15.0, noise_stated, 0.01)
+            Sensor(f"rig.probe{i + 1}", f"c{i + 1}_g_l", "1", scaled(i, 1.0), 0.02, 15.0, noise_stated, 0.01)
             for i in range(3)
         ]
         programmes = {"pump.flow": (flow, ""), "dosing.feed": (feed, "")}
@@ -628,7 +628,7 @@ def cells_null(folder: Path, rng: Rng) -> Truth:
 
 
 def cells_stagnant(folder: Path, rng: Rng) -> Truth:
-    stagnant = rng.uniform(0.3, 0.42)
+    stagnant = rng.uniform(0.34, 0.45)
     _cells(folder, rng, stagnant=stagnant)
     return Truth(f"{stagnant:.3f} of the second cell is stagnant and exchanges 0.004 l/s with the rest of it", PHYSICS)
 
@@ -688,15 +688,15 @@ def _surge(folder: Path, rng: Rng, throttle: float = 0.0, leak: float = 0.0, dri
             return np.asarray(6e4 * np.interp((1.0 - rate) * t, times, q))
 
         sensors = [
-            Sensor("tunnel.level", "level_cm", "cm", scaled(1, 100.0), 0.4, 0.2, 1.0, 0.1),
-            Sensor("tunnel.flow", "Q_L_min", "L/min", meter, 1.2, 0.5, 1.0, 0.1),
+            Sensor("tunnel.level", "level_cm", "cm", scaled(1, 100.0), 0.3, 0.2, 1.0, 0.1),
+            Sensor("tunnel.flow", "Q_L_min", "L/min", meter, 0.9, 0.5, 1.0, 0.1),
         ]
         made = Written(t, x, sensors, {"valve.outflow": (outflow, "L/min")}, Logger(zero=100.0))
         write(folder / name, rng, made)
 
 
 def surge_throttle(folder: Path, rng: Rng) -> Truth:
-    throttle = rng.uniform(4e4, 8e4)
+    throttle = rng.uniform(6e4, 1e5)
     _surge(folder, rng, throttle=throttle)
     return Truth(
         f"a throttle at the foot of the shaft loses {throttle:.3g} s^2/m^5 times the square of the flow into it",
@@ -705,7 +705,7 @@ def surge_throttle(folder: Path, rng: Rng) -> Truth:
 
 
 def surge_two(folder: Path, rng: Rng) -> Truth:
-    throttle, leak = rng.uniform(4e4, 8e4), rng.uniform(1.2e-5, 2.2e-5)
+    throttle, leak = rng.uniform(6e4, 1e5), rng.uniform(1.2e-5, 2.2e-5)
     _surge(folder, rng, throttle=throttle, leak=leak)
     return Truth(
         f"a throttle at the foot of the shaft loses {throttle:.3g} s^2/m^5 times the square of the flow into it, and "

@@ -59,7 +59,7 @@ def grams(column: Array) -> Array:
 RIGS = (
     (sixth_set.dryer_falling, "cabinet.humidity", "x_g_kg", grams, 0.1, 0.1),
     (sixth_set.rotor_bridge, "generator.current", "I_A", kept, 0.015, 0.005),
-    (sixth_set.cells_stagnant, "rig.probe3", "c3_g_l", kept, 0.03, 0.01),
+    (sixth_set.cells_stagnant, "rig.probe3", "c3_g_l", kept, 0.02, 0.01),
 )
 
 
