@@ -81,7 +81,7 @@ def _beam(
         t, x = integrated(rates, (0.0, 0.0, 0.0), (setpoint,), stop, 0.01)
         sensors = [
             Sensor("rig.position", "camera_mm", "mm", scaled(0, 1e3), 1.5, 0.04, noise_stated, 0.1),
-            Sensor("rig.angle", "servo_deg", "deg", scaled(2, 180.0 / np.pi), 0.15, 0.02, noise_stated, 0.05),
+            Sensor("rig.angle", "servo_deg", "deg", scaled(2, 180.0 / np.pi), 0.15, 0.04, noise_stated, 0.05),
         ]
 
         def spoil(column: str, t: Array, v: Array, name: str = name) -> Array:
