@@ -81,7 +81,8 @@ def _loop(axes: Axes, time: Array, loop: Loop, zero: float) -> None:
         lines[0].set_label(label)
     if loop.hold is not None:
         axes.axhline(loop.hold - zero, color="black", lw=0.9, ls=":", label="hold", zorder=1)
-    axes.legend(frameon=False, fontsize=8)
+    # Up to five entries: above the axes they cover no line.
+    axes.legend(frameon=False, fontsize=8, ncols=5, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
 
 
 def _range(axes: Axes, values: xr.DataArray, what: str, colour: str) -> None:
