@@ -36,7 +36,7 @@ def surroundings(run: xr.Dataset) -> list[str]:
 def draw_coils(axes: Axes, values: xr.DataArray, label: str) -> None:
     """Lines of up to eight different coils; otherwise mean, lowest and highest."""
     # Named after the component where a sensor of another size took the plain name.
-    coils = values.dims[-1]
+    coils = str(values.dims[-1])
     distinct = np.unique(values.values.round(9), axis=1, return_index=True)[1]
     if len(distinct) == 1 and values.sizes[coils] > 1:
         axes.plot(values["time"], values.values[:, 0], color=HOT, label=f"all {values.sizes[coils]} {label}s")
