@@ -1,7 +1,7 @@
 """Closed loops against their aims: one command that prints every figure of docs/control.md but those of a fabric.
 
     python -m benchmarks.closed_loops
-    python -m benchmarks.closed_loops runs/prototype_hold     # and those of a finished run of prototype_hold.yaml
+    python -m benchmarks.closed_loops runs/prototype_hold ...     # and those of finished runs of prototype_hold.yaml
 
 The systems are those of `tests/control`, which assert the bounds; here the figures themselves are printed.
 """
@@ -46,6 +46,7 @@ def main() -> None:
             f"{int((drawn > LIMIT + 1.0).sum())} above it by more than 1 K"
         )
     for folder in sys.argv[1:]:
+        print(folder)
         fabric(xr.open_dataset(Path(folder) / "results.nc"))
 
 

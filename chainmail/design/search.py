@@ -22,6 +22,7 @@ from chainmail.design.outcome import Outcome
 from chainmail.design.row_model import Chain, fitted
 from chainmail.design.sequential import SequentialTest, Verdict
 from chainmail.design.shape import COLD_BEND, HOT_BEND, fewest_rows, scheduled
+from chainmail.design.shortfall import shortfall
 from chainmail.design.task import Schedule, Shape, Span, Wanted
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
@@ -530,23 +531,7 @@ class Search:
 
     def unmet(self) -> Impossible:
         """What of the request no run met, and how near one came."""
-        entries = [e for e in self.ledger.entries if not e.failure]
-        complete = [e for e in entries if e.fidelity != "coarse"] or entries
-        if not complete:
-            reasons = "; ".join(dict.fromkeys(" ".join(e.failure.split()) for e in self.ledger.entries))
-            return Impossible(f"no run reached its end: {reasons}", "correct the scenario")
-        best = max(complete, key=lambda e: e.worst(self.counting))
-        where = range(len(best.distances)) if self.counting is None else self.counting
-        worst = min((n for n in where if not math.isnan(best.distances[n])), key=lambda n: best.distances[n])
-        unit = self.ledger.units[worst]
-        wanted = self.ledger.task.wanted[worst]
-        tried = len({e.candidate for e in self.ledger.entries})
-        most = max((e.candidate for e in entries), key=lambda c: len(c.rows))
-        hottest = f", of which one heats rows {', '.join(map(str, most.rows))}" if most.rows else ""
-        return Impossible(
-            f"{wanted.text()}: no run of {tried} designs reached it{hottest}",
-            f"the nearest was {PhysicalValue(float(f'{best.values[worst]:.4g}'), unit)} with {best.candidate.text()}",
-        )
+        return shortfall(self.ledger, self.counting)
 
     def _need(self, rows: tuple[int, ...]) -> Candidate:
         made = self.candidate(rows)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -18,10 +19,12 @@ from chainmail.figures import (
     stiffness_loops,
     temperatures,
 )
+from chainmail.figures.setpoints import loop_of
 from chainmail.figures.usual_names import with_usual_names
 from chainmail.measures import one_start, switches
 from cosim.alone import alone
 from cosim.run_folder import RunFolder, writing
+from cosim.scenario import Scenario, load_scenario
 from cosim.unit.errors import InputError
 
 
@@ -63,16 +66,27 @@ def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> lis
         InputError: A folder holds no results, or the figures cannot be written.
     """
     runs = [with_usual_names(open_run(f)) for f in folders]
+    scenario = _scenario_of(folders[0])
     target = folders[0] / "figures"
     drawn: list[Path] = []
     with alone(folders[0], "drawing"), writing(target):
         target.mkdir(parents=True, exist_ok=True)
-        for name, draw in _figures(runs, switches(runs[0])).items():
+        for name, draw in _figures(runs, switches(runs[0]), scenario).items():
             drawn += [draw(target / f"{name}.{ending}") for ending in formats]
     return drawn
 
 
-def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callable[[Path], Path]]:
+def _scenario_of(folder: Path) -> Scenario | None:
+    """The scenario of a run; None where the folder has none that this version reads."""
+    path = RunFolder(folder).scenario
+    with suppress(InputError):
+        return load_scenario(path) if path.is_file() else None
+    return None
+
+
+def _figures(
+    runs: Sequence[xr.Dataset], marks: list[float], scenario: Scenario | None
+) -> dict[str, Callable[[Path], Path]]:
     """Name to what draws it, for what the first run has recorded."""
     first, single = runs[0], one_start(runs[0])
     found: dict[str, Callable[[Path], Path]] = {}
@@ -87,7 +101,8 @@ def _figures(runs: Sequence[xr.Dataset], marks: list[float]) -> dict[str, Callab
     if "circuit.current" in first:
         found["currents"] = partial(currents.draw, run=single, marks=marks)
     for name in closed_loop.controllers(single):
-        found[f"closed_loop_{name}"] = partial(closed_loop.draw, run=single, controller=name)
+        loop = loop_of(scenario, single, name) if scenario is not None else None
+        found[f"closed_loop_{name}"] = partial(closed_loop.draw, run=single, controller=name, loop=loop)
     if not found and quantities.by_unit(single):
         found["quantities"] = partial(quantities.draw, run=single, marks=marks)
     return found

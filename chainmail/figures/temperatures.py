@@ -35,12 +35,14 @@ def surroundings(run: xr.Dataset) -> list[str]:
 
 def draw_coils(axes: Axes, values: xr.DataArray, label: str) -> None:
     """Lines of up to eight different coils; otherwise mean, lowest and highest."""
+    # Named after the component where a sensor of another size took the plain name.
+    coils = str(values.dims[-1])
     distinct = np.unique(values.values.round(9), axis=1, return_index=True)[1]
-    if len(distinct) == 1 and values.sizes["coil"] > 1:
-        axes.plot(values["time"], values.values[:, 0], color=HOT, label=f"all {values.sizes['coil']} {label}s")
+    if len(distinct) == 1 and values.sizes[coils] > 1:
+        axes.plot(values["time"], values.values[:, 0], color=HOT, label=f"all {values.sizes[coils]} {label}s")
     elif len(distinct) <= 8:
         for index in sorted(distinct):
             axes.plot(values["time"], values.values[:, index], lw=1.1, label=f"{label} {index + 1}")
     else:
-        axes.plot(values["time"], values.mean("coil"), color=HOT, label=f"mean {label}")
-        axes.fill_between(values["time"], values.min("coil"), values.max("coil"), color=HOT, alpha=0.2, label="range")
+        axes.plot(values["time"], values.mean(coils), color=HOT, label=f"mean {label}")
+        axes.fill_between(values["time"], values.min(coils), values.max(coils), color=HOT, alpha=0.2, label="range")

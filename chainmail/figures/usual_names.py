@@ -9,7 +9,9 @@ import xarray as xr
 #: Role to what tells a component that has it: names of its variables, and whether they are given for each coil.
 _ROLES: dict[str, Callable[[dict[str, xr.DataArray]], bool]] = {
     "fabric": lambda own: {"max_curvature", "link_length", "marker_position"} <= own.keys(),
-    "actuator": lambda own: {"temperature", "stiffness"} <= own.keys() and own["temperature"].dims[-1:] == ("coil",),
+    "actuator": lambda own: (
+        {"temperature", "stiffness"} <= own.keys() and str(own["temperature"].dims[-1]).endswith("coil")
+    ),
     "circuit": lambda own: {"current", "supply_current", "supply_power"} <= own.keys(),
     "supply": lambda own: "voltage" in own and "coil" not in own["voltage"].dims and "current" not in own,
 }

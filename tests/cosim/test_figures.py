@@ -242,6 +242,21 @@ def test_figures_follow_what_components_do_and_not_how_they_are_called(tmp_path)
     assert "muscles.temperature" in with_usual_names(two)  # which of the two is meant cannot be said
 
 
+def test_coils_are_drawn_where_a_sensor_of_another_size_has_their_dimension(tmp_path):
+    """Beside a camera with one element the coils of an actuator have the dimension `actuator_coil`."""
+    time = np.arange(0.0, 5.0, 0.5)
+    for name, coils in (("same", np.outer(300.0 + time, np.ones(36))), ("own", np.outer(time, np.arange(36.0)))):
+        data = {
+            "camera.reading": (("time", "coil"), np.outer(time, [1.0]), {"units": "1/m"}),
+            "actuator.temperature": (("time", "actuator_coil"), coils, {"units": "K"}),
+            "actuator.stiffness": (("time", "actuator_coil"), coils, {"units": "N/m"}),
+        }
+        folder = RunFolder(tmp_path / name)
+        folder.path.mkdir()
+        xr.Dataset(data, {"time": time}, {"title": "Two sizes"}).to_netcdf(folder.results, engine="netcdf4")
+        assert [path.name for path in draw_run(folder.path)] == ["temperatures.png", "stiffness_loops.png"]
+
+
 def test_the_side_view_says_when_and_at_which_voltage_and_claims_no_heat():
     """A fabric whose coils had reached 32 degC was labelled hot."""
     now = xr.Dataset({"supply.voltage": 6.0}, {"time": 1.5})

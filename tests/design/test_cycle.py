@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -159,6 +160,54 @@ def test_the_front_is_that_of_all_designs(tmp_path):
     assert search.ledger.count("short") <= 30
     # One programme serves two delays: its fresh starts were run once.
     assert search.ledger.count("full") == 6
+
+
+class EarlyLedger(ScriptedLedger):
+    """As scripted, but on the way to 66 degC links close 0.3 s before heating ends."""
+
+    def _made(self, candidates, starts, fidelities):
+        made = super()._made(candidates, starts, fidelities)
+        del self.entries[-len(made) :]
+        cycle, moved = self.task.cycle, []
+        for e in made:
+            values = list(e.values)
+            for n, delay in enumerate(delays(cycle)):
+                end = max((p.end for p in e.candidate.pulses), default=math.inf)
+                if _kelvin(e.candidate) > 65.0 and end - 0.3 <= delay.to("s"):
+                    values[3 + n] = self.hot(e.candidate, e.start)
+            distances = tuple(w.distance(v, u) for w, v, u in zip(self.task.wanted, values, self.units))
+            moved.append(replace(e, values=tuple(values), distances=distances))
+        self.entries += moved
+        return moved
+
+
+def test_a_design_made_for_a_longer_delay_serves_a_shorter_one_that_it_meets(tmp_path):
+    """66 degC take 1.2 s and are rigid within 1 s, but longer delays take 61 degC and run no others to their end."""
+    lines = [line for line in CYCLE.splitlines(keepends=True) if "fabric.parameters" in line]
+    path = written(tmp_path, *((line, "") for line in lines))  # nor is there a number for the optimiser
+    task, scenario = load_task(path)
+    rig = rig_of(scenario, path)
+    ledger = EarlyLedger(with_requirements(task, rig, path), rig, Batches(Here()))
+    ledger.hot = lambda c, s: 1.0 if len(c.rows) > 1 and _kelvin(c) > 60.0 else 6.0
+    search = Search(ledger)
+    outcome = search.run()
+    first = outcome.points[0]
+    assert first.delay.to("s") == 1.0
+    assert first.design is not None
+    assert first.verdict is Verdict.ACCEPTED
+    assert _kelvin(first.design) == pytest.approx(66.0)
+    assert [_kelvin(p.design) for p in outcome.points[1:]] == pytest.approx([61.0, 61.0])
+
+
+def test_a_delay_that_nothing_meets_names_its_curvature_and_the_nearest(tmp_path):
+    """Every design meets the limit of power; the curvature within 1 s is what all of them miss."""
+    search = scripted(written(tmp_path), lambda c, s: 1.0 if _kelvin(c) > 60.0 else 6.0)
+    outcome = search.run()
+    assert outcome.points[0].design is None
+    told = " ".join(outcome.points[0].notes)
+    assert "fabric.max_curvature (max from 1 s to 2 s) below 2 1/m: no run of " in told
+    assert "the nearest was 6 1/m" in told
+    assert "supply_power" not in told
 
 
 def test_where_structure_does_not_suffice_the_optimiser_finds_it(tmp_path):

@@ -221,6 +221,42 @@ def test_what_no_run_reached_is_told_with_the_nearest(tmp_path):
     assert "0.041 m with rows 3, 4" in why.nearest
 
 
+def test_of_several_limits_that_which_fewest_designs_reached_is_named(tmp_path):
+    """Each of three designs meets the limit of power or that of sag, none both: the sag is met by one, power by two."""
+    search = searched(written(tmp_path))
+    few, more, most = (search.candidate(rows) for rows in ((3,), (3, 4), (3, 4, 5)))
+    search.ledger.units = ("m", "W")
+    search.ledger.entries = [
+        _entry("fine", few, 1, 0.07, 19.0),
+        _entry("fine", more, 1, 0.041, 19.9),
+        _entry("fine", most, 1, 0.029, 20.4),
+    ]
+    why = search.unmet()
+    assert why.limit.startswith("fabric.tip_sag at 15 s below 30 mm: 1 of 3 designs reached it")
+    assert "none of them in a run that met all else" in why.limit
+    assert "missed circuit.supply_power (max) below 20 W with 20.4 W: rows 3, 4, 5" in why.nearest
+
+
+def test_distances_of_different_units_are_compared_as_shares_of_their_bounds(tmp_path):
+    """10 mm of 30 mm too much is farther than 0.5 W of 20 W, though the number in SI units is smaller."""
+    search = searched(written(tmp_path))
+    search.ledger.units = ("m", "W")
+    search.ledger.entries = [_entry("fine", search.candidate((3, 4)), 1, 0.04, 20.5)]
+    assert search.unmet().limit.startswith("fabric.tip_sag at 15 s below 30 mm: no run of 1 designs")
+
+
+def test_what_met_everything_and_was_not_accepted_is_told_as_that(tmp_path):
+    """No limit was missed by every design, so none is said to be."""
+    search = searched(written(tmp_path))
+    made = search.candidate((3, 4))
+    search.ledger.units = ("m", "W")
+    search.ledger.entries = [_entry("fine", made, 1, 0.031), _entry("full", made, 1001, 0.029)]
+    why = search.unmet()
+    assert "no run" not in why.limit
+    assert why.limit.endswith("1 of 1 designs reached it, and none was accepted")
+    assert why.nearest.startswith("1 of 2 runs of this design met all that they tell of: rows 3, 4")
+
+
 def _entry(fidelity, candidate, start, sag, power=19.0):
     return Entry(fidelity, candidate, start, (sag, power), (0.03 - sag, 20.0 - power), 1e-4, 40.0, "", 1.0)
 
