@@ -54,3 +54,14 @@ def test_bars_do_not_work_themselves_into_a_wedge_at_the_tether():
     unit.terminate()
     assert found["max_penetration"].max() < 2e-4  # 0.2 mm without them at 1.45 s
     assert found["kinetic_energy"][-1] < 1e-9
+
+
+def test_a_step_of_mujoco_takes_few_iterations_from_the_forces_of_the_one_before():
+    """Forces that were broken off at MuJoCo's default tolerance make the next step the longer: 18 iterations."""
+    unit = woven_unit(prototype(), solver=SolverSettings(2.5e-4, 200, 1e-3, engine="mujoco"))
+    counts = []
+    for index in range(60):
+        unit.do_step(index * STEP, STEP)
+        counts.append(int(unit._world._data.solver_niter[0]))
+    unit.terminate()
+    assert np.mean(counts[40:]) < 8
