@@ -7,9 +7,11 @@ LAW = Law(
     name="voltage that a contact takes whatever its current",
     role=Role.CURRENT,
     formula="-drop * tanh(i / rounding)",
-    numbers=(Number("drop", "rate", "rate of fall", (0.05, 0.3)),),
+    numbers=(
+        Number("drop", "rate", "rate of fall", (0.05, 0.3)),
+        Number("rounding", "i", "current within which it sets in", (0.01,), 0.1, 0.002),
+    ),
     source="brushes of machines: Fitzgerald, Electric Machinery, McGraw-Hill 2003, section 7.2",
-    constants={"rounding": ("i", 0.01)},
     confused_with={
         "series_resistance": "currents of different size decide",
     },

@@ -17,9 +17,9 @@ LAW = Law(
             1e3,
             1e-3,
         ),
+        Number("rounding", "w", "speed within which it sets in", (0.01,), 0.1, 0.002),
     ),
     source="Coulomb; den Hartog, Mechanical Vibrations, McGraw-Hill 1956, section 8.7",
-    constants={"rounding": ("w", 0.01)},
     confused_with={
         "dry_friction": "motion of both parts together decides",
         "coupling_damping": "motions of different sizes decide",

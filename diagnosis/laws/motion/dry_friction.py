@@ -7,9 +7,11 @@ LAW = Law(
     name="dry friction (Coulomb)",
     role=Role.VELOCITY,
     formula="-friction * tanh(v / rounding)",
-    numbers=(Number("friction", "rate", "deceleration by friction", (0.05, 0.3)),),
+    numbers=(
+        Number("friction", "rate", "deceleration by friction", (0.05, 0.3)),
+        Number("rounding", "v", "speed within which it sets in", (0.01,), 0.1, 0.002),
+    ),
     source="Coulomb; Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083",
-    constants={"rounding": ("v", 0.01)},
     confused_with={
         "viscous_damping": "motions of different sizes decide: how the loss depends on the speed",
         "stribeck_friction": "slow motion decides: there stiction adds to it",

@@ -10,9 +10,9 @@ LAW = Law(
     numbers=(
         Number("stiction", "rate", "deceleration at rest beyond the dry friction", (0.1,)),
         Number("stribeck_speed", "v", "speed at which it has fallen to 37 %", (0.1, 0.3), 3.0, 0.02),
+        Number("rounding", "v", "speed within which it sets in", (0.01,), 0.1, 0.002),
     ),
     source="Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083, equation 9",
-    constants={"rounding": ("v", 0.01)},
     confused_with={
         "dry_friction": "fast motion decides: there stiction does nothing",
     },
