@@ -25,6 +25,7 @@ from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.swapped_in_one import swapped_in_one
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
+from diagnosis.check.unit_of_all import units_of_all
 from diagnosis.check.unit_of_one import units_of_one
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import without_consequences
@@ -59,14 +60,15 @@ def check_recordings(
 def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     """Doubts about recordings that are simulated already; the order is that of `check_recordings`."""
     found: list[Doubt] = list(still_doubts(every))
-    of_one, exchanged, clocks = units_of_one(every), swapped_in_one(every), clocks_of_one(every)
+    by_unit = [*units_of_one(every), *units_of_all(every)]
+    exchanged, clocks = swapped_in_one(every), clocks_of_one(every)
     for one in every:
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)
         relation = [] if known else _relation(one, [o for o in every if o is not one])
         relation = relation or [d for d in (*exchanged, *clocks) if d.recording == one.recording.title]
-        units = unit_doubts(one) or size_doubts(one) or [d for d in of_one if d.recording == one.recording.title]
+        units = unit_doubts(one) or size_doubts(one) or [d for d in by_unit if d.recording == one.recording.title]
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
         if not any(d.is_serious for d in (*relation, *units)):  # milliseconds for seconds, say, are known as such
             found += _outside(one)

@@ -52,7 +52,7 @@ def units_of_one(every: Sequence[Compared]) -> list[Doubt]:
 
 
 def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
-    slopes = [(one, _slope(one.channels[name])) for one in every if name in one.channels]
+    slopes = [(one, slope(one.channels[name])) for one in every if name in one.channels]
     for one, own in slopes:
         others = [s for other, s in slopes if other is not one and s is not None]
         if own is None or len(others) < OTHERS or len(others) < len(slopes) - 1:
@@ -62,7 +62,7 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
             continue
         stated = scale.units_stated(one).get(name, one.channels[name].channel.unit)
         ratio = own / usual
-        near = _units_near(ratio, stated, one.channels[name].channel.unit)
+        near = units_near(ratio, stated, one.channels[name].channel.unit)
         if not near:
             continue
         text = (
@@ -74,14 +74,21 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
 
 
-def _units_near(ratio: float, stated: str, base: str) -> list[str]:
-    """Units of a quantity in which numbers are about so many times those in the stated one."""
+def units_near(ratio: float, stated: str, base: str, near: float = NEAR) -> list[str]:
+    """Units of a quantity in which numbers are about so many times those in the stated one.
+
+    Args:
+        ratio: Of numbers, that in the unit that is looked for to that in the stated one.
+        stated: Unit that a recording states.
+        base: SI unit of the quantity.
+        near: How far the logarithms may be apart.
+    """
     own = conversion(stated, base)[0]
     factors = {u: own / conversion(u, base)[0] for u in UNITS.get(base, ()) if u != stated}
-    return [u for u, f in factors.items() if abs(np.log(f)) > LEAST and abs(np.log(ratio / f)) < NEAR]
+    return [u for u, f in factors.items() if abs(np.log(f)) > LEAST and abs(np.log(ratio / f)) < near]
 
 
-def _slope(beside: Beside) -> float | None:
+def slope(beside: Beside) -> float | None:
     """Slope of the readings in the simulation, where a straight line explains them."""
     if not beside.is_comparable:
         return None

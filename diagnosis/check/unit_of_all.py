@@ -1,0 +1,83 @@
+"""A channel that all recordings state in another unit than it was written in, by its size before anything moves.
+
+A drive that is stronger, or a number that is off, changes how far a channel moves. How large it is at the start, where
+that is stated and is not zero, it does not change. Where the readings are as many times the simulation in both, and
+that is the factor to another unit of the quantity, it is asked whether the unit is right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diagnosis.check import scale
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.unit_of_one import slope, units_near
+from diagnosis.judge.diagnosis import Doubt
+
+#: Largest deviation of ln(first reading / simulated start) from that of the factor: a start is stated as the scale
+#: showed it.
+LEVEL = 0.03
+#: Deviations of its noise by which a start is away from zero, and that a channel moves by.
+SEEN = 30.0
+#: Recordings that have to say the same: one start may be stated wrongly.
+RECORDINGS = 2
+#: Quantities of which zero is a matter of the unit: a level says nothing there.
+_WITHOUT_ZERO = ("K",)
+
+
+def units_of_all(every: Sequence[Compared]) -> list[Doubt]:
+    """Doubts about the unit of a channel in all recordings, one for each recording; all are serious."""
+    found: list[Doubt] = []
+    for name in dict.fromkeys(n for one in every for n in one.channels):
+        having = [one for one in every if name in one.channels]
+        units = [_units(one, name) for one in having]
+        common = [u for u in units[0] if all(u in more for more in units[1:])]
+        if common and len(having) >= RECORDINGS:
+            found += [_doubt(one, name, common) for one in having]
+    return found
+
+
+def _units(one: Compared, name: str) -> list[str]:
+    """Units in which the readings are what is simulated, in how far they move and in where they start."""
+    beside = one.channels[name]
+    base = beside.channel.unit
+    moved = slope(beside)
+    if base in _WITHOUT_ZERO or moved is None or not moved > 0.0 or np.ptp(beside.measured) < SEEN * beside.floor:
+        return []
+    level = _level(beside)
+    if level is None:
+        return []
+    stated = _stated(one, name)
+    by_level = units_near(level, stated, base, LEVEL)
+    return [u for u in units_near(moved, stated, base) if u in by_level]
+
+
+def _level(beside: Beside) -> float | None:
+    """How many times the simulated start the first readings are; None where one of them is nearly zero."""
+    readings, _ = scale.first(beside)
+    simulated = float(np.median(beside.at(beside.channel.times[: len(readings)])))
+    measured = float(np.median(readings))
+    if min(abs(measured), abs(simulated)) < SEEN * beside.floor or measured * simulated < 0.0:
+        return None
+    return measured / simulated
+
+
+def _stated(one: Compared, name: str) -> str:
+    return scale.units_stated(one).get(name, one.channels[name].channel.unit)
+
+
+def _doubt(one: Compared, name: str, units: Sequence[str]) -> Doubt:
+    beside = one.channels[name]
+    level, moved = _level(beside), slope(beside)
+    assert level is not None
+    assert moved is not None
+    text = (
+        f"its first readings are {level:.3g} times what is simulated there and its changes {moved:.3g} times the simulated "
+        f"ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
+        f"{_stated(one, name)}"
+    )
+    remedy = f"is `channels.{name}.unit` right, and is the start?"
+    z = abs(float(np.log(level))) / LEVEL
+    return Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
