@@ -86,9 +86,9 @@ def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
         if sum(_left(b, _moved(clock, beside, b)) for b in same) < WORSE * sum(usual):
             continue
         text = (
-            f"the scenario as it is explains at least {percent(1.0 - max(usual))} of the variance of {name} in "
-            f"each other recording and {percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} "
-            f"{_in_words(clock, beside)}"
+            f"of the {100.0 * COUNTED:.0f} % of its readings that the scenario as it is misses least, it explains at "
+            f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording and "
+            f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {_in_words(clock, beside)}"
         )
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"
         z = float(np.sqrt(left / max(clock.left, 1e-12)))

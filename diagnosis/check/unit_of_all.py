@@ -74,8 +74,8 @@ def _doubt(one: Compared, name: str, units: Sequence[str]) -> Doubt:
     assert level is not None
     assert moved is not None
     text = (
-        f"its first readings are {level:.3g} times what is simulated there and its changes {moved:.3g} times the simulated "
-        f"ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
+        f"its first readings are {level:.3g} times what is simulated there and its changes {moved:.3g} times the "
+        f"simulated ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
         f"{_stated(one, name)}"
     )
     remedy = f"is `channels.{name}.unit` right, and is the start?"
