@@ -7,7 +7,7 @@ made least; the points together are the front (Haimes, Lasdon and Wismer, IEEE T
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from chainmail.design.cycle import check_cooling, counting, delays
@@ -92,7 +92,31 @@ class Front:
             )
         if not any(p.design for p in self.outcome.points):
             raise reasons[0]
+        self._share()
         return self._best()
+
+    def _share(self) -> None:
+        """Check designs that a shorter delay accepted for longer ones that have none: they are rigid in time for these.
+
+        The search of a longer delay comes first and knows nothing of them. Fresh starts are run once for all delays.
+        """
+        points = self.outcome.points
+        for number, point in enumerate(points):
+            shorter = [p.design for p in points[:number] if p.verdict is Verdict.ACCEPTED and p.design is not None]
+            if point.verdict is Verdict.ACCEPTED or not shorter:
+                continue
+            self.search.at_delay(point.delay, point.counting)
+            part = Outcome()
+            self.search.last_check(sorted(set(shorter), key=lambda c: c.energy(self.search.ledger.rig)), part)
+            if part.verdict is Verdict.ACCEPTED:
+                note = f"the design is that of a shorter delay: {part.winner.text()}" if part.winner else ""
+                points[number] = replace(
+                    point,
+                    design=part.winner,
+                    checks=tuple(part.checks),
+                    verdict=part.verdict,
+                    notes=(*point.notes, *part.notes, note),
+                )
 
     def _best(self) -> Outcome:
         """The accepted point of least energy; of equal ones that of the shortest delay."""

@@ -19,7 +19,7 @@ from chainmail.design.keys import value_of
 from chainmail.design.ledger import Entry, Ledger
 from chainmail.design.optimiser import minimised
 from chainmail.design.report import delay_front, report
-from chainmail.design.search import Search
+from chainmail.design.search import FRESH, Search
 from chainmail.design.sequential import Verdict
 from chainmail.design.shape import with_requirements
 from chainmail.design.task import load_task
@@ -139,7 +139,7 @@ def test_the_front_is_that_of_all_designs(tmp_path):
         need = 55.0 if _number(candidate, BAR) > 8.5 else 60.0
         return 1.0 if len(candidate.rows) > 1 and _kelvin(candidate) > need else 6.0
 
-    search = scripted(written(tmp_path), hot)
+    search = scripted(written(tmp_path, ("coarse: 60", "coarse: 20")), hot)
     outcome = search.run()
     assert [p.delay.to("s") for p in outcome.points] == [1.0, 1.2, 1.5]
     assert [p.design is not None for p in outcome.points] == [False, True, True]
@@ -199,6 +199,23 @@ def test_a_design_made_for_a_longer_delay_serves_a_shorter_one_that_it_meets(tmp
     assert [_kelvin(p.design) for p in outcome.points[1:]] == pytest.approx([61.0, 61.0])
 
 
+def test_a_design_of_a_shorter_delay_serves_a_longer_one_whose_own_fresh_starts_rejected(tmp_path):
+    """61 degC do from the starts of the search and from no other; 66 degC, found for 1 s, do from all."""
+    lines = [line for line in CYCLE.splitlines(keepends=True) if "fabric.parameters" in line]
+    path = written(tmp_path, *((line, "") for line in lines))
+    task, scenario = load_task(path)
+    rig = rig_of(scenario, path)
+    ledger = EarlyLedger(with_requirements(task, rig, path), rig, Batches(Here()))
+    least = {True: 65.0, False: 60.0}
+    ledger.hot = lambda c, s: 1.0 if len(c.rows) > 1 and _kelvin(c) > least[s >= FRESH] else 6.0
+    outcome = Search(ledger).run()
+    assert [p.verdict for p in outcome.points] == [Verdict.ACCEPTED] * 3
+    assert [_kelvin(p.design) for p in outcome.points] == pytest.approx([66.0, 66.0, 66.0])
+    longest = outcome.points[-1].notes
+    assert any("fresh starts rejected" in n for n in longest)
+    assert any("the design is that of a shorter delay" in n for n in longest)
+
+
 def test_a_delay_that_nothing_meets_names_its_curvature_and_the_nearest(tmp_path):
     """Every design meets the limit of power; the curvature within 1 s is what all of them miss."""
     search = scripted(written(tmp_path), lambda c, s: 1.0 if _kelvin(c) > 60.0 else 6.0)
@@ -217,7 +234,7 @@ def test_where_structure_does_not_suffice_the_optimiser_finds_it(tmp_path):
         play, length = _number(candidate, PLAY), _number(candidate, HOT)
         return 1.0 + 3.0 * abs(play - 1.6) + 4.0 * abs(length - 31.2)
 
-    changes = (("[1 s, 1.2 s, 1.5 s]", "2 s"), ("coarse: 20", "coarse: 200"))
+    changes = (("[1 s, 1.2 s, 1.5 s]", "2 s"), ("coarse: 60", "coarse: 200"))
     search = scripted(written(tmp_path, *changes), hot)
     outcome = search.run()
     assert outcome.winner is not None
