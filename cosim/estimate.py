@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 #: Processor time of one micro-step [s] for each free link of a fabric with 12 of them, Bullet with 200 iterations, and
 #: the power of the number of free links with which it grows: contacts of Bullet cost the same in every fabric, MuJoCo
 #: solves for all of them together. Source: benchmarks/results/fabric_size.md.
-PER_FREE_LINK, GROWTH, OF = {"bullet": 2.5e-4, "mujoco": 5e-5}, {"bullet": 0.2, "mujoco": 1.1}, 12
+PER_FREE_LINK, GROWTH, OF = {"bullet": 2.5e-4, "mujoco": 2.7e-5}, {"bullet": 0.2, "mujoco": 1.2}, 12
 #: Share of Bullet's time that iterations of its contact solver take, at 200 of them (decision 0015), and share of its
 #: time that it needs with the friction pyramid (docs/engines.md).
 SOLVER, ITERATIONS, PYRAMID = 0.83, 200, 0.6
