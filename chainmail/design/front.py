@@ -7,7 +7,7 @@ made least; the points together are the front (Haimes, Lasdon and Wismer, IEEE T
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from chainmail.design.cycle import check_cooling, counting, delays
@@ -79,17 +79,7 @@ class Front:
             elif search.ledger.entries:
                 reasons.append(search.unmet())
                 notes.append(str(reasons[-1]))
-            self.outcome.points.insert(
-                0,
-                Point(
-                    delay,
-                    part.winner or part.checked,
-                    tuple(part.checks),
-                    part.verdict,
-                    search.counting or (),
-                    (*notes, *part.notes),
-                ),
-            )
+            self.outcome.points.insert(0, self._point(delay, part, notes))
         if not any(p.design for p in self.outcome.points):
             raise reasons[0]
         self._share()
@@ -108,15 +98,20 @@ class Front:
             self.search.at_delay(point.delay, point.counting)
             part = Outcome()
             self.search.last_check(sorted(set(shorter), key=lambda c: c.energy(self.search.ledger.rig)), part)
-            if part.verdict is Verdict.ACCEPTED:
-                note = f"the design is that of a shorter delay: {part.winner.text()}" if part.winner else ""
-                points[number] = replace(
-                    point,
-                    design=part.winner,
-                    checks=tuple(part.checks),
-                    verdict=part.verdict,
-                    notes=(*point.notes, *part.notes, note),
-                )
+            if part.winner is not None:
+                part.notes.append(f"the design is that of a shorter delay: {part.winner.text()}")
+                points[number] = self._point(point.delay, part, point.notes)
+
+    def _point(self, delay: PhysicalValue, part: Outcome, notes: Iterable[str]) -> Point:
+        """What was found for the delay that the search looks at."""
+        return Point(
+            delay,
+            part.winner or part.checked,
+            tuple(part.checks),
+            part.verdict,
+            self.search.counting or (),
+            (*notes, *part.notes),
+        )
 
     def _best(self) -> Outcome:
         """The accepted point of least energy; of equal ones that of the shortest delay."""

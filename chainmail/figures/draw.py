@@ -66,7 +66,7 @@ def draw_runs(folders: Sequence[Path], formats: Sequence[str] = ("png",)) -> lis
         InputError: A folder holds no results, or the figures cannot be written.
     """
     runs = [with_usual_names(open_run(f)) for f in folders]
-    scenario = _scenario_of(folders[0])
+    scenario = _scenario_of(folders[0]) if closed_loop.controllers(runs[0]) else None
     target = folders[0] / "figures"
     drawn: list[Path] = []
     with alone(folders[0], "drawing"), writing(target):

@@ -10,7 +10,7 @@ import xarray as xr
 from cosim.components import ControllerComponent, HoldLaw
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue
+from cosim.unit.quantity import conversion
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def _fed(scenario: Scenario, run: xr.Dataset, target: str, unit: str) -> tuple[b
         values = run[source].values.reshape(run.sizes["time"], -1)
         own = str(run[source].attrs.get("units", unit))
         if isinstance(given, str) or given.convert_units:
-            zero, one = (PhysicalValue(number, own).to(unit) for number in (0.0, 1.0))
-            values = zero + (one - zero) * values
+            factor, offset = conversion(own, unit)
+            values = factor * values + offset
         return True, values if isinstance(given, str) else given.factor * values + given.offset
     return is_fed, None

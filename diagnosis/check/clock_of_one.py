@@ -39,21 +39,38 @@ _QUANTILE = 1.959964
 
 @dataclass(frozen=True)
 class _Clock:
-    """Offsets of a channel's clock, positive where it shows a later time.
+    """A channel's clock, positive where it shows a later time.
 
     Args:
-        offsets: At its first and its last reading [s], shape (2,).
+        offset: In the middle of its readings [s].
+        rate: How much too fast it runs, 1.
         spread: 95 % of the rate are within so much of it, 1.
         left: Share of the variance that the scenario leaves of the channel then.
     """
 
-    offsets: Array
+    offset: float
+    rate: float
     spread: float
     left: float
 
-    def rate(self, beside: Beside) -> float:
-        """How much too fast the clock runs, 1."""
-        return float((self.offsets[1] - self.offsets[0]) / np.ptp(beside.times))
+    @property
+    def is_rate(self) -> bool:
+        """Whether it runs wrong, and is not only ahead or behind."""
+        return abs(self.rate) > self.spread
+
+    def moves(self, beside: Beside) -> Array:
+        """Offsets of the readings of any recording, if its clock were off like this one [s]."""
+        if self.is_rate:
+            return self.rate * _since(beside)
+        return np.full(len(beside.times), self.offset)
+
+    def in_words(self) -> str:
+        """What is off."""
+        if self.is_rate:
+            low, high = sorted(100.0 * (abs(self.rate) + side * self.spread) for side in (-1.0, 1.0))
+            way = "fast" if self.rate > 0.0 else "slow"
+            return f"with a clock that runs {100.0 * abs(self.rate):.2g} % too {way} ({low:.2g} to {high:.2g} %, 95 %)"
+        return f"with a clock that is {abs(self.offset):.3g} s {'ahead' if self.offset > 0.0 else 'behind'}"
 
 
 def clocks_of_one(every: Sequence[Compared]) -> list[Doubt]:
@@ -83,12 +100,12 @@ def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
         if clock is None or clock.left > MET or clock.left * TIMES > left:
             continue
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
-        if sum(_left(b, _moved(clock, beside, b)) for b in same) < WORSE * sum(usual):
+        if sum(_left(b, clock.moves(b)) for b in same) < WORSE * sum(usual):
             continue
         text = (
             f"of the {100.0 * COUNTED:.0f} % of its readings that the scenario as it is misses least, it explains at "
             f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording and "
-            f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {_in_words(clock, beside)}"
+            f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {clock.in_words()}"
         )
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"
         z = float(np.sqrt(left / max(clock.left, 1e-12)))
@@ -98,13 +115,6 @@ def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
 def _is_told(beside: Beside) -> bool:
     """Whether a channel moves so much more than its noise that a twentieth of its variance is no noise."""
     return beside.is_comparable and beside.moves and float(np.var(beside.measured)) > (10.0 * beside.floor) ** 2
-
-
-def _moved(clock: _Clock, of: Beside, to: Beside) -> Array:
-    """Offsets of another recording's readings, if its clock were off as that of this one is."""
-    if _is_rate(clock, of):
-        return clock.rate(of) * _since(to)
-    return np.full(len(to.times), float(clock.offsets.mean()))
 
 
 def _since(beside: Beside) -> Array:
@@ -146,18 +156,6 @@ def _clock(beside: Beside) -> _Clock | None:
     jacobian: Array = np.asarray(fitted.jac)
     spread = np.linalg.pinv(jacobian.T @ jacobian) * scatter
     slope = np.array([-1.0, 1.0]) / span
-    return _Clock(fitted.x, _QUANTILE * float(np.sqrt(slope @ spread @ slope)), _left(beside, weights @ fitted.x))
-
-
-def _is_rate(clock: _Clock, beside: Beside) -> bool:
-    return abs(clock.rate(beside)) > clock.spread
-
-
-def _in_words(clock: _Clock, beside: Beside) -> str:
-    rate = clock.rate(beside)
-    if _is_rate(clock, beside):
-        low, high = sorted(100.0 * (abs(rate) + side * clock.spread) for side in (-1.0, 1.0))
-        way = "fast" if rate > 0.0 else "slow"
-        return f"with a clock that runs {100.0 * abs(rate):.2g} % too {way} ({low:.2g} to {high:.2g} %, 95 %)"
-    off = float(clock.offsets.mean())
-    return f"with a clock that is {abs(off):.3g} s {'ahead' if off > 0.0 else 'behind'}"
+    deviation = float(np.sqrt(slope @ spread @ slope))
+    left = _left(beside, weights @ fitted.x)
+    return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left)

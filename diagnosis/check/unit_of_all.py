@@ -8,12 +8,13 @@ that is the factor to another unit of the quantity, it is asked whether the unit
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from diagnosis.check import scale
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.unit_of_one import slope, units_near
+from diagnosis.check.unit_of_one import slope, stated_unit, units_near
 from diagnosis.judge.diagnosis import Doubt
 
 #: Largest deviation of ln(first reading / simulated start) from that of the factor: a start is stated as the scale
@@ -27,31 +28,50 @@ RECORDINGS = 2
 _WITHOUT_ZERO = ("K",)
 
 
+@dataclass(frozen=True)
+class _Size:
+    """How large a channel is beside its simulation.
+
+    Args:
+        level: First readings over what is simulated there.
+        moved: Slope of the readings in the simulation.
+        stated: Unit that the recording states.
+        units: Those in which both would be about 1.
+    """
+
+    level: float
+    moved: float
+    stated: str
+    units: tuple[str, ...]
+
+
 def units_of_all(every: Sequence[Compared]) -> list[Doubt]:
     """Doubts about the unit of a channel in all recordings, one for each recording; all are serious."""
     found: list[Doubt] = []
     for name in dict.fromkeys(n for one in every for n in one.channels):
         having = [one for one in every if name in one.channels]
-        units = [_units(one, name) for one in having]
-        common = [u for u in units[0] if all(u in more for more in units[1:])]
-        if common and len(having) >= RECORDINGS:
-            found += [_doubt(one, name, common) for one in having]
+        sizes = [s for one in having if (s := _size(one, name)) is not None]
+        if len(having) < RECORDINGS or len(sizes) < len(having):
+            continue
+        common = [u for u in sizes[0].units if all(u in size.units for size in sizes)]
+        if common:
+            found += [_doubt(one, name, size, common) for one, size in zip(having, sizes)]
     return found
 
 
-def _units(one: Compared, name: str) -> list[str]:
-    """Units in which the readings are what is simulated, in how far they move and in where they start."""
+def _size(one: Compared, name: str) -> _Size | None:
+    """How far a channel moves and where it starts; None where either says nothing."""
     beside = one.channels[name]
     base = beside.channel.unit
     moved = slope(beside)
     if base in _WITHOUT_ZERO or moved is None or not moved > 0.0 or np.ptp(beside.measured) < SEEN * beside.floor:
-        return []
+        return None
     level = _level(beside)
     if level is None:
-        return []
-    stated = _stated(one, name)
+        return None
+    stated = stated_unit(one, name)
     by_level = units_near(level, stated, base, LEVEL)
-    return [u for u in units_near(moved, stated, base) if u in by_level]
+    return _Size(level, moved, stated, tuple(u for u in units_near(moved, stated, base) if u in by_level))
 
 
 def _level(beside: Beside) -> float | None:
@@ -64,20 +84,12 @@ def _level(beside: Beside) -> float | None:
     return measured / simulated
 
 
-def _stated(one: Compared, name: str) -> str:
-    return scale.units_stated(one).get(name, one.channels[name].channel.unit)
-
-
-def _doubt(one: Compared, name: str, units: Sequence[str]) -> Doubt:
-    beside = one.channels[name]
-    level, moved = _level(beside), slope(beside)
-    assert level is not None
-    assert moved is not None
+def _doubt(one: Compared, name: str, size: _Size, units: Sequence[str]) -> Doubt:
     text = (
-        f"its first readings are {level:.3g} times what is simulated there and its changes {moved:.3g} times the "
-        f"simulated ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
-        f"{_stated(one, name)}"
+        f"its first readings are {size.level:.3g} times what is simulated there and its changes {size.moved:.3g} times "
+        f"the simulated ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
+        f"{size.stated}"
     )
     remedy = f"is `channels.{name}.unit` right, and is the start?"
-    z = abs(float(np.log(level))) / LEVEL
+    z = abs(float(np.log(size.level))) / LEVEL
     return Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)

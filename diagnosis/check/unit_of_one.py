@@ -60,7 +60,7 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         usual = float(np.median(others))
         if usual <= 0.0 or own <= 0.0 or max(abs(o / usual - 1.0) for o in others) > ALIKE:
             continue
-        stated = scale.units_stated(one).get(name, one.channels[name].channel.unit)
+        stated = stated_unit(one, name)
         ratio = own / usual
         near = units_near(ratio, stated, one.channels[name].channel.unit)
         if not near:
@@ -72,6 +72,11 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         remedy = f"is `channels.{name}.unit` of this recording right?"
         z = abs(float(np.log(ratio))) / NEAR
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+
+
+def stated_unit(one: Compared, name: str) -> str:
+    """Unit of a channel's column; its SI unit where the recording is not from a file."""
+    return scale.units_stated(one).get(name, one.channels[name].channel.unit)
 
 
 def units_near(ratio: float, stated: str, base: str, near: float = NEAR) -> list[str]:

@@ -67,6 +67,16 @@ class Number:
     origin: str = ""
 
 
+def sets_in(of: str, what: str) -> Number:
+    """What `tanh(of / rounding)` rounds a step at zero over: a rig's own is not known, so it is fitted.
+
+    Args:
+        of: Symbol of the speed or current.
+        what: The same in words.
+    """
+    return Number("rounding", of, f"{what} within which it sets in", (0.01,), 0.1, 0.002)
+
+
 @dataclass(frozen=True)
 class OwnState:
     """A state that a law adds.

@@ -1,6 +1,6 @@
 """Voltage that a contact takes whatever its current."""
 
-from diagnosis.laws.law import Law, Number, Role
+from diagnosis.laws.law import Law, Number, Role, sets_in
 
 LAW = Law(
     identifier="contact_drop",
@@ -9,7 +9,7 @@ LAW = Law(
     formula="-drop * tanh(i / rounding)",
     numbers=(
         Number("drop", "rate", "rate of fall", (0.05, 0.3)),
-        Number("rounding", "i", "current within which it sets in", (0.01,), 0.1, 0.002),
+        sets_in("i", "current"),
     ),
     source="brushes of machines: Fitzgerald, Electric Machinery, McGraw-Hill 2003, section 7.2",
     confused_with={

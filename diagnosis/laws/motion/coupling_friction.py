@@ -1,6 +1,6 @@
 """Dry friction between two parts."""
 
-from diagnosis.laws.law import Law, Number, Role
+from diagnosis.laws.law import Law, Number, Role, sets_in
 
 LAW = Law(
     identifier="coupling_friction",
@@ -17,7 +17,7 @@ LAW = Law(
             1e3,
             1e-3,
         ),
-        Number("rounding", "w", "speed within which it sets in", (0.01,), 0.1, 0.002),
+        sets_in("w", "speed"),
     ),
     source="Coulomb; den Hartog, Mechanical Vibrations, McGraw-Hill 1956, section 8.7",
     confused_with={

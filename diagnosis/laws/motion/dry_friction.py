@@ -1,6 +1,6 @@
 """Dry friction (Coulomb)."""
 
-from diagnosis.laws.law import Law, Number, Role
+from diagnosis.laws.law import Law, Number, Role, sets_in
 
 LAW = Law(
     identifier="dry_friction",
@@ -9,7 +9,7 @@ LAW = Law(
     formula="-friction * tanh(v / rounding)",
     numbers=(
         Number("friction", "rate", "deceleration by friction", (0.05, 0.3)),
-        Number("rounding", "v", "speed within which it sets in", (0.01,), 0.1, 0.002),
+        sets_in("v", "speed"),
     ),
     source="Coulomb; Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083",
     confused_with={

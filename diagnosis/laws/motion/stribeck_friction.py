@@ -1,6 +1,6 @@
 """Stiction that falls with speed (Stribeck)."""
 
-from diagnosis.laws.law import Law, Number, Role
+from diagnosis.laws.law import Law, Number, Role, sets_in
 
 LAW = Law(
     identifier="stribeck_friction",
@@ -10,7 +10,7 @@ LAW = Law(
     numbers=(
         Number("stiction", "rate", "deceleration at rest beyond the dry friction", (0.1,)),
         Number("stribeck_speed", "v", "speed at which it has fallen to 37 %", (0.1, 0.3), 3.0, 0.02),
-        Number("rounding", "v", "speed within which it sets in", (0.01,), 0.1, 0.002),
+        sets_in("v", "speed"),
     ),
     source="Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083, equation 9",
     confused_with={
