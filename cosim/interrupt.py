@@ -1,13 +1,17 @@
-"""Ctrl-C that stops a run between two macro-steps, not inside ngspice, an FMU or Bullet."""
+"""Ctrl-C that stops a run between two macro-steps, not inside ngspice, an FMU or Bullet, and is never lost."""
 
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FrameType
+
+#: Time after which a Ctrl-C that was swallowed is sent again: the callback has ended by then [s].
+AGAIN = 0.05
 
 
 @dataclass
@@ -45,3 +49,24 @@ def deferred_interrupt() -> Iterator[Interrupt]:
         yield interrupt
     finally:
         signal.signal(signal.SIGINT, previous)
+
+
+def keep_swallowed_interrupts() -> None:
+    """Send a Ctrl-C again that Python could not raise: from now on, in this process.
+
+    Python raises KeyboardInterrupt wherever its main thread is. In a callback from C (ngspice's messages, an FMU's
+    logger) or a finaliser it prints the exception, ignores it, and the command would go on to its end. Other ignored
+    exceptions are printed as before.
+    """
+    print_ignored = sys.unraisablehook
+
+    def send_again(ignored: sys.UnraisableHookArgs) -> None:
+        if ignored.exc_type is not None and issubclass(ignored.exc_type, KeyboardInterrupt):
+            main = threading.main_thread().ident or 0
+            timer = threading.Timer(AGAIN, signal.pthread_kill, (main, signal.SIGINT))
+            timer.daemon = True  # a command that has ended meanwhile does not wait for it
+            timer.start()
+        else:
+            print_ignored(ignored)
+
+    sys.unraisablehook = send_again
