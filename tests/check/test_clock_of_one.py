@@ -96,6 +96,24 @@ def test_a_number_that_is_off_in_all_recordings_is_no_clock_of_the_longest(tmp_p
     assert _doubts(tmp_path, recordings) == []
 
 
+def test_a_recording_that_is_driven_harder_is_named_only_where_another_of_its_channels_is_met(tmp_path: Path) -> None:
+    """A resonance that moves with its amplitude would move the other channel too."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, (0.4, 0.5, 1.2))
+    _own_table(recordings[2], 0.02, 0.0)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    assert clocks_of_one(every) == []
+    hard = every[2].channels["rig.position"]
+    met = replace(hard, channel=replace(hard.channel, values=hard.at(hard.channel.times)))
+    every[2] = replace(every[2], channels={**every[2].channels, "rig.other": met})
+    (told,) = clocks_of_one(every)
+    assert (told.recording, told.subject) == ("run_3", "rig.position")
+    late = replace(hard, channel=replace(hard.channel, values=hard.at(1.02 * hard.channel.times)))
+    every[2] = replace(every[2], channels={**every[2].channels, "rig.other": late})
+    assert clocks_of_one(every) == []  # both are off: it may be the rig
+
+
 def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
     """An output that follows its input at once: two readings of one recording are of the other side of a switch."""
     oscillator(tmp_path)

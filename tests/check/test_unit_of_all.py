@@ -78,6 +78,15 @@ def test_what_may_be_the_rig_is_no_unit(about: dict[str, Any], tmp_path: Path) -
     assert _doubts(tmp_path, _recordings(tmp_path, **about)) == []
 
 
+def test_a_start_near_zero_beside_the_noise_says_nothing_of_the_unit(tmp_path: Path) -> None:
+    """A pump 3.3 times as strong, and 16 mm where the scenario says 5 mm: two that are off, and no feet."""
+    recordings = _recordings(tmp_path, 1.0, start=0.005 * FEET, pump=3.3, seeds=(0, 0))
+    path = tmp_path / "scenario.yaml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("cvode}", "cvode, parameters: {h_0: 5 mm}}"), encoding="utf-8")
+    assert _doubts(tmp_path, recordings) == []
+
+
 def test_one_recording_in_feet_is_asked_about_alone(tmp_path: Path) -> None:
     recordings = _recordings(tmp_path, 1.0, seeds=(0, 1, 2))
     table = pd.read_csv(recordings[1] / "data.csv")
