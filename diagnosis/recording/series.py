@@ -37,7 +37,7 @@ _DERIVED = frozenset({("supply", "power"), ("string", "voltage")})
 #: Largest size of a value [SI] that is compared; its square, summed over any recording, is still a number.
 MOST = 1e100
 #: Most instants whose weights are kept for the next channel.
-READ_AGAIN = 2000
+READ_AGAIN = 10_000
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
