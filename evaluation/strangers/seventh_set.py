@@ -256,8 +256,8 @@ def _syringe(
         flow = drawn_steps(rng, stop, 5.0, 0.0, 24.0, grid)
         t, x = integrated(rates, (0.0, 0.0), (flow,), stop, 0.05)
         sensors = [
-            Sensor("line.pressure", "p_mbar", "mbar", scaled(0, factor), 1.5, 0.2, noise_stated, 0.1),
-            Sensor("line.delivery", "q_mL_min", "mL/min", scaled(1, 6e7 / r2), 0.15, 0.2, noise_stated, 0.01),
+            Sensor("line.pressure", "p_mbar", "mbar", scaled(0, factor), 1.0, 0.2, noise_stated, 0.1),
+            Sensor("line.delivery", "q_mL_min", "mL/min", scaled(1, 6e7 / r2), 0.1, 0.2, noise_stated, 0.01),
         ]
         made = Written(
             t,
@@ -281,7 +281,7 @@ def syringe_null(folder: Path, rng: Rng) -> Truth:
 
 
 def syringe_tubing(folder: Path, rng: Rng) -> Truth:
-    stiffening = rng.uniform(2.5e-5, 4.5e-5)
+    stiffening = rng.uniform(6e-5, 1e-4)
     _syringe(folder, rng, stiffening=stiffening)
     return Truth(f"the tube becomes stiffer with its pressure: C2/(1 + {stiffening:.3e} 1/Pa p2)", PHYSICS)
 
@@ -357,12 +357,12 @@ def _rooms(
         ]
 
     for name in FOLDERS:
-        power = drawn_steps(rng, stop, 5400.0, 0.0, 1500.0, 60.0)
+        power = drawn_steps(rng, stop, 5400.0, 0.0, 1200.0, 60.0)
         outdoors = drawn_steps(rng, stop, 9000.0, 271.0, 285.0, 60.0)
         t, x = integrated(rates, [begin] * 4, (power, outdoors), stop, 30.0)
         one, two = (2, 1) if is_exchanged and name == "second" else (1, 2)
         sensors = [
-            Sensor("house.radiator", "T_radiator", "degC", celsius(0), 0.4, 60.0, noise_stated, 0.1),
+            Sensor("house.radiator", "T_radiator", "degC", celsius(0), 0.3, 60.0, noise_stated, 0.1),
             Sensor("house.living", "T_living", "degC", celsius(one), 0.15, 60.0, noise_stated, 0.1),
             Sensor("house.bed", "T_bed", "degC", celsius(two), 0.15, 60.0, noise_stated, 0.1),
         ]
@@ -679,16 +679,16 @@ def _jacket(
         ]
 
     for name in FOUR:
-        power = drawn_steps(rng, stop, 600.0, 0.0, 2800.0, 4.0)
-        coolant = drawn_steps(rng, stop, 900.0, 0.0, 0.9, 4.0)
+        power = drawn_steps(rng, stop, 600.0, 0.0, 2400.0, 4.0)
+        coolant = drawn_steps(rng, stop, 900.0, 0.15, 0.9, 4.0)
         t, x = integrated(rates, (begin, begin), (power, coolant), stop, 4.0)
         is_other = in_fahrenheit or (is_misread and name == "second")
         reading, unit, factor = fahrenheit(0) if is_other else celsius(0), "degC", 1.0
         if in_fahrenheit:
             unit, factor = "degF", 1.8
         sensors = [
-            Sensor("vessel.jacket", "T_jacket", unit, reading, 0.25 * factor, 12.0, noise_stated, 0.1),
-            Sensor("vessel.vessel", "T_content", "degC", celsius(1), 0.15, 12.0, noise_stated, 0.1),
+            Sensor("vessel.jacket", "T_jacket", unit, reading, 0.15 * factor, 12.0, noise_stated, 0.1),
+            Sensor("vessel.vessel", "T_content", "degC", celsius(1), 0.1, 12.0, noise_stated, 0.05),
         ]
         made = Written(
             t,
@@ -712,7 +712,7 @@ def jacket_null(folder: Path, rng: Rng) -> Truth:
 
 
 def jacket_viscous(folder: Path, rng: Rng) -> Truth:
-    viscous = rng.uniform(8e-3, 0.014)
+    viscous = rng.uniform(0.016, 0.026)
     _jacket(folder, rng, viscous=viscous)
     return Truth(
         f"heat transfer improves as the content thins: UA (1 + {viscous:.5f} 1/K (T - 294.15 K))", PHYSICS, **FOUR_SPLIT
