@@ -517,7 +517,7 @@ def arm_two(folder: Path, rng: Rng) -> Truth:
 
 
 def arm_stronger(folder: Path, rng: Rng) -> Truth:
-    begin, factor = 0.2 * round(rng.uniform(15.0, 35.0)), rng.uniform(1.06, 1.12)
+    begin, factor = 0.2 * round(rng.uniform(15.0, 35.0)), rng.uniform(1.08, 1.15)
     _arm(folder, rng, stronger=(begin, begin + 3.0, factor))
     return Truth(
         f"the voltage was {factor:.3f} times what is stated, {begin:g} s to {begin + 3.0:g} s of the second recording",
@@ -620,7 +620,7 @@ JACKET = OdeModel(
     {
         "C_j": (1.2e4, "J/K"),
         "C": (2.5e4, "J/K"),
-        "UA": (60.0, "W/K"),
+        "UA": (45.0, "W/K"),
         "U_j": (7.0, "W/K"),
         "U": (2.5, "W/K"),
         "cp": (WATER, "J/(kg*K)"),
@@ -712,7 +712,7 @@ def jacket_null(folder: Path, rng: Rng) -> Truth:
 
 
 def jacket_viscous(folder: Path, rng: Rng) -> Truth:
-    viscous = rng.uniform(0.016, 0.026)
+    viscous = rng.uniform(0.018, 0.028)
     _jacket(folder, rng, viscous=viscous)
     return Truth(
         f"heat transfer improves as the content thins: UA (1 + {viscous:.5f} 1/K (T - 294.15 K))", PHYSICS, **FOUR_SPLIT
