@@ -746,7 +746,7 @@ SUPERCAP = OdeModel(
         "v2": ("", "v_begin", "(v1 - v2)/(R2*C2)"),
         "warm": ("", "0.0", "(R1*current*current - U_case*warm)/C_case"),
     },
-    {"voltage": ("", "v1 + R1*current"), "case": ("", "warm")},
+    {"terminals": ("", "v1 + R1*current"), "case": ("", "warm")},
     0.1,
 )
 SUPERCAP_KNOWN = {"C1": 0.04, "C2": 0.08, "R1": 0.05, "R2": 0.08, "C_case": 0.06, "U_case": 0.06}
@@ -813,7 +813,7 @@ def _supercap(
             return np.asarray(x[:, 0] + r1 * current.at(t))
 
         sensors = [
-            Sensor("cap.voltage", "U_V", "1", terminals, 6e-3, 1.0, noise_stated, 1e-3),
+            Sensor("cap.terminals", "U_V", "1", terminals, 6e-3, 1.0, noise_stated, 1e-3),
             Sensor("cap.case", "dT_K", "1", scaled(2, 1.0), 0.1, 5.0, noise_stated, 0.05),
         ]
         programmes = {} if is_other else {"cycler.current": (current, "")}
