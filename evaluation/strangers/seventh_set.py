@@ -1,5 +1,4 @@
-"""Seventh set: a propeller arm, a boost converter, a syringe pump, two rooms, a geared arm, a piezo stage, a jacketed
-vessel and a supercapacitor.
+"""Seventh set: a propeller arm, a boost converter, a syringe, two rooms, a geared arm, a piezo stage, a vessel, a cell.
 
 Written without a look at the library of laws, its proof, its tests or its thresholds; of what was reported on the
 earlier sets, the author had seen the tables of verdicts. Truths are integrated by scipy from equations that stand here.
@@ -679,7 +678,7 @@ def _jacket(
         ]
 
     for name in FOUR:
-        power = drawn_steps(rng, stop, 600.0, 0.0, 2400.0, 4.0)
+        power = drawn_steps(rng, stop, 900.0, 0.0, 3000.0, 4.0)
         coolant = drawn_steps(rng, stop, 900.0, 0.15, 0.9, 4.0)
         t, x = integrated(rates, (begin, begin), (power, coolant), stop, 4.0)
         is_other = in_fahrenheit or (is_misread and name == "second")
