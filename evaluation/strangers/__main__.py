@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from evaluation.command import run_cosim
-from evaluation.strangers import fifth_set, first_set, fourth_set, second_set, sixth_set, third_set
+from evaluation.strangers import fifth_set, first_set, fourth_set, second_set, seventh_set, sixth_set, third_set
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
 
@@ -29,6 +29,7 @@ SETS = {
     "fourth": fourth_set.CASES,
     "fifth": fifth_set.CASES,
     "sixth": sixth_set.CASES,
+    "seventh": seventh_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
