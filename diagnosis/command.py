@@ -111,7 +111,7 @@ def diagnose(
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
                 steps("writing" if brief else "writing the amended model and the report")
                 try:
-                    diagnosis = _brief(found, out) if brief else _whole(found, base, judges, out)
+                    diagnosis = _brief(found, out) if brief else _whole(found, base, training, judges, out)
                 except InputError:  # a full disk must not cost the answer
                     print_summary(found.diagnosis, Console(), "diagnosis.json")
                     raise
@@ -137,11 +137,13 @@ def _brief(found: Result, out: Path) -> Diagnosis:
     return found.diagnosis
 
 
-def _whole(found: Result, scenario: Scenario, judges: Sequence[Recording], out: Path) -> Diagnosis:
+def _whole(
+    found: Result, scenario: Scenario, training: Sequence[Recording], judges: Sequence[Recording], out: Path
+) -> Diagnosis:
     """Write everything; see `write_outputs`."""
     from diagnosis.write_outputs import write_outputs  # late: figures take a second to load
 
-    return write_outputs(found, scenario, judges, out)
+    return write_outputs(found, scenario, training, judges, out)
 
 
 def _check(recording: list[Path], held_out: list[Path], out: Path) -> None:

@@ -31,7 +31,7 @@ def findings_of(folder: Path, fabric: Fabric) -> tuple[tuple[Finding, ...], tupl
     path = folder / FILE
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
-        findings = tuple(_finding(entry, fabric) for entry in content["findings"])
+        findings = placed(content["findings"], fabric)
         verdict = str(content["verdict"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(
@@ -44,6 +44,15 @@ def findings_of(folder: Path, fabric: Fabric) -> tuple[tuple[Finding, ...], tupl
         if not f.links
     ]
     return findings, tuple(notes)
+
+
+def placed(entries: Iterable[Mapping[str, Any]], fabric: Fabric) -> tuple[Finding, ...]:
+    """Findings as diagnosis.json has them, with the links and coils that they name.
+
+    Raises:
+        KeyError: One lacks a key.
+    """
+    return tuple(_finding(entry, fabric) for entry in entries)
 
 
 def _finding(entry: Mapping[str, Any], fabric: Fabric) -> Finding:

@@ -15,6 +15,7 @@ from diagnosis.report.finding_section import finding_section
 from diagnosis.report.fit_section import TITLE, fit_section
 from diagnosis.report.lead import lead
 from diagnosis.report.location_section import location_section, remainder_section, waveform_section
+from diagnosis.report.moving_fabric import MovingFabric
 from diagnosis.report.network import Network, concerned, inferred
 from diagnosis.report.section import Section, named, rendered, section
 from diagnosis.report.sentences import (
@@ -47,7 +48,12 @@ _OF_A_FABRIC = ("marker[", "link[", "fabric.")
 
 
 def write_html(
-    diagnosis: Diagnosis, series: Sequence[Series], path: Path, network: Network | None = None, title: str = ""
+    diagnosis: Diagnosis,
+    series: Sequence[Series],
+    path: Path,
+    network: Network | None = None,
+    title: str = "",
+    moving: MovingFabric | None = None,
 ) -> None:
     """Write the report.
 
@@ -57,11 +63,18 @@ def write_html(
         path: The file.
         network: Strings of the scenario; taken from the names of channels and elements where it is not given.
         title: Of the scenario.
+        moving: The fabric in motion, where the scenario has one.
     """
-    write_atomically(path, page(diagnosis, series, network or inferred(diagnosis), title).encode())
+    write_atomically(path, page(diagnosis, series, network or inferred(diagnosis), title, moving).encode())
 
 
-def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title: str = "") -> str:
+def page(
+    diagnosis: Diagnosis,
+    series: Sequence[Series],
+    network: Network,
+    title: str = "",
+    moving: MovingFabric | None = None,
+) -> str:
     """The report as text."""
     name = f"Diagnosis of {clean(title)}" if clean(title) else "Diagnosis"
     made = rendered(
@@ -75,18 +88,23 @@ def page(diagnosis: Diagnosis, series: Sequence[Series], network: Network, title
         command=_command(diagnosis),
         judged_by=_judged_by(diagnosis),
         lead=lead(diagnosis, series),
-        sections=named(list(_sections(diagnosis, series, network))),
+        sections=named(list(_sections(diagnosis, series, network, moving))),
         effort=effort(diagnosis),
+        scripts=moving.scripts if moving is not None else (),
     )
     return str(made)  # as markup, it would escape what is put into it
 
 
-def _sections(diagnosis: Diagnosis, series: Sequence[Series], network: Network) -> Iterator[Section]:
+def _sections(
+    diagnosis: Diagnosis, series: Sequence[Series], network: Network, moving: MovingFabric | None
+) -> Iterator[Section]:
     """Sections in their order: where nothing was found, what is left is the answer and comes first."""
     units = Units(diagnosis.units)
     left = [remainder_section(diagnosis.left, units)] if diagnosis.left else []
+    moved = [section("The fabric in motion", "moving_fabric.html.j2", moving=moving)] if moving else []
     if diagnosis.findings:
         yield _place_and_time(diagnosis, series, network)
+    yield from moved
     for order, finding in enumerate(diagnosis.findings):
         yield finding_section(order, finding, units, diagnosis.verdict is Verdict.CANNOT_TELL)
     if not diagnosis.findings:

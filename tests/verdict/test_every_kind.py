@@ -319,7 +319,7 @@ def test_the_amended_scenario_of_a_diagnosis(tmp_path: Path) -> None:
     """What was found once is not found again; where its units offer no place for a law, that is said."""
     days = [load_recording(RIG.parent / name) for name in ("monday", "tuesday")]
     first = diagnose(load_scenario(str(RIG)), days[:1], days[1:], Settings(nulls=1))
-    handed = write_outputs(first, load_scenario(str(RIG)), days[1:], tmp_path / "out")
+    handed = write_outputs(first, load_scenario(str(RIG)), days[:1], days[1:], tmp_path / "out")
     assert handed.amended_model is not None
     told = diagnose(
         load_scenario(handed.amended_model), days[:1], days[1:], Settings(nulls=1), options=Options(is_brief=True)
