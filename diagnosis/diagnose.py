@@ -16,7 +16,7 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.beside import compare
 from diagnosis.check.check import doubts_of
-from diagnosis.check.input_rows import with_input_rows
+from diagnosis.check.input_rows import with_input_rows, with_instants
 from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
@@ -189,7 +189,9 @@ def diagnose(
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)
-    right = with_input_rows(right, scenario, both, model.parameters)
+    estimated = with_instants(model.parameters, titles)
+    estimated |= with_instants(() if judge is None else judge.parameters, [r.title for r in held_out])
+    right = with_input_rows(right, scenario, both, estimated)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,8 +21,18 @@ from diagnosis.search.switch_times import is_held
 DRAWS, SEED = 4, 33
 
 
+def with_instants(parameters: Sequence[Parameter], titles: Sequence[str]) -> frozenset[str]:
+    """Titles of the recordings in which a model estimates when inputs changed; one with many changes has none.
+
+    Args:
+        parameters: Of the model.
+        titles: Of its recordings.
+    """
+    return frozenset(titles[p.own.recording] for p in parameters if p.is_within_row and p.own is not None)
+
+
 def with_input_rows(
-    adequacy: Adequacy, scenario: Scenario, recordings: Sequence[Recording], parameters: Sequence[Parameter]
+    adequacy: Adequacy, scenario: Scenario, recordings: Sequence[Recording], estimated: Collection[str] = ()
 ) -> Adequacy:
     """The same with how far the worst channel is moved by instants of inputs that its recording does not say.
 
@@ -30,13 +40,13 @@ def with_input_rows(
         adequacy: How right the model is.
         scenario: As the recordings are compared with.
         recordings: Among them the one with the worst channel.
-        parameters: Of the model: where it has these instants, they are estimated.
+        estimated: Titles of recordings in which these instants are estimated.
     """
-    if any(p.is_within_row for p in parameters):
-        return adequacy
     worst = adequacy.worst
     own = next((r for r in recordings if worst is not None and r.title == worst.recording), None)
     if worst is None or own is None or not adequacy.is_rejected or worst.channel not in own.channels:
+        return adequacy
+    if own.title in estimated:
         return adequacy
     return replace(adequacy, worst=replace(worst, by_rows=moved_by_rows(scenario, own, own.channels[worst.channel])))
 

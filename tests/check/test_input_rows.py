@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from cosim.scenario import Scenario, load_scenario
-from diagnosis.check.input_rows import moved_by_rows, with_input_rows
+from diagnosis.check.input_rows import moved_by_rows, with_input_rows, with_instants
 from diagnosis.judge.diagnosis import Adequacy, Left
 from diagnosis.judge.headline import how_right
 from diagnosis.recording.recording import Recording, load_recording
-from diagnosis.search.problem import Parameter
+from diagnosis.search.problem import Own, Parameter
 from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import write_recording
 
@@ -62,11 +62,19 @@ def test_the_headline_names_rows_of_inputs_where_they_may_be_the_reason(store: t
     worst = Left(recording.title, "store.volume", "m^3", 12.0, 0.1, 14400.0, 1.2)
     chi = {"before": 15000.0, "recalibrated": 14400.0, "after": 14400.0}
     right = Adequacy("held-out recordings", True, chi, 1.2, 0.1, 0.1, worst, (1, 1), (), 0, True, True, True, False)
-    told = how_right(with_input_rows(right, scenario, [recording], ()), is_amended=False)
+    told = how_right(with_input_rows(right, scenario, [recording]), is_amended=False)
     assert "something is missing or wrong, or its inputs changed between rows of their table" in told
     small = replace(right, worst=replace(worst, rmse=1000.0))
-    assert "rows" not in how_right(with_input_rows(small, scenario, [recording], ()), is_amended=False)
-    instant = Parameter("change of pump.flow before 50 s", "s", 0.0, 5.0, False, is_within_row=True)
-    assert with_input_rows(right, scenario, [recording], [instant]) == right  # it is estimated there
+    assert "rows" not in how_right(with_input_rows(small, scenario, [recording]), is_amended=False)
+    estimated = with_input_rows(right, scenario, [recording], {recording.title})
+    assert estimated == right  # what is left is left in spite of it
+    told = how_right(with_input_rows(right, scenario, [recording], {"another"}), is_amended=False)
+    assert "its inputs changed between rows" in told  # this one has more changes than a model estimates
     met = replace(right, is_rejected=False)
-    assert with_input_rows(met, scenario, [recording], ()) == met
+    assert with_input_rows(met, scenario, [recording]) == met
+
+
+def test_instants_belong_to_the_recordings_that_have_them() -> None:
+    own = Own("change of pump.flow before 50 s", 1)
+    instant = Parameter("change of pump.flow before 50 s", "s", 0.0, 5.0, False, own=own, is_within_row=True)
+    assert with_instants([instant, Parameter("area", "m^2", 0.0, 1.0, False)], ["first", "second"]) == {"second"}
