@@ -24,8 +24,10 @@ _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     STUCK.identifier: Readings.with_held,
 }
 _LAWS = {law.identifier: law for law in (OFFSET, STUCK, *OF_INPUTS)}
-#: Samples by which begin and end are moved to look for a better interval near the one found.
-_MOVES = (-8, -5, -3, -2, -1, 1, 2, 3, 5, 8)
+#: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
+#: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
+_FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
+_MOVES = (*(-m for m in reversed(_FAR)), *_FAR)
 #: Pieces of a recording in which a change of an input is simulated: by the coil network, and where a run takes seconds.
 PIECES, FEW_PIECES = 16, 12
 
@@ -185,10 +187,12 @@ class FaultyModel(WrappedModel):
             strength, begin, end = values
             edges = self._edges(term)
             places = [int(np.argmin(np.abs(edges - v))) for v in (begin, end)]
+            known = {tuple(places)}
             for move in _MOVES:
                 for first, last in ((move, 0), (0, move), (move, move)):
                     a, b = (min(max(p + m, 0), len(edges) - 1) for p, m in zip(places, (first, last)))
-                    if a < b:
+                    if a < b and (a, b) not in known:
+                        known.add((a, b))
                         yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
 
     def _edges(self, term: Term) -> Array:

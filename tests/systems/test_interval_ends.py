@@ -1,0 +1,61 @@
+"""A fault of an input that ends beyond a stretch in which the input is nearly zero, and tells nothing of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.scenario import load_scenario
+from diagnosis.candidates.registry import catalogue
+from diagnosis.faults.model import with_faults
+from diagnosis.models.build import model_of
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.fit import fit
+from diagnosis.search.problem import Point
+from tests.systems.rigs import TANK, held, write_recording
+
+SCENARIO = """\
+title: A tank
+time: {stop: 200 s, macro_step: 500 ms, output_step: 500 ms}
+components:
+  pump: {kind: programme, outputs: {inflow: {unit: m^3/s, constant: 0.01 m^3/s}}}
+  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
+connections:
+  - pump.inflow -> tank.inflow
+"""
+STEP, COUNT = 0.5, 400
+#: Samples between which the pump of the second recording gives 15 % more, and those between which it hardly runs.
+WRONG, IDLE = (100, 241), (150, 237)
+
+
+def _recording(folder: Path, number: int, wrong: tuple[int, int] | None) -> Path:
+    rng = np.random.default_rng(10 + number)
+    stated = np.repeat(rng.uniform(0.01, 0.03, COUNT // 10), 10)
+    if wrong:
+        stated[slice(*IDLE)] = 1e-5
+    given = stated.copy()
+    if wrong:
+        given[slice(*wrong)] *= 1.15
+    level = held(lambda h, q: (q - 0.0203 * h) / 0.495, np.array([0.4]), given, STEP)[:, 0]
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level + 1e-3 * rng.standard_normal(COUNT)}
+    return write_recording(
+        folder / f"run_{number}", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    )
+
+
+def test_ends_are_tried_where_the_input_runs_again(tmp_path: Path) -> None:
+    TANK.build(tmp_path)
+    (tmp_path / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    recordings = [load_recording(_recording(tmp_path, n, WRONG if n == 1 else None)) for n in range(2)]
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), recordings, catalogue()))
+    (term,) = [t for t in model.faults() if str(t) == "input_gain_in_interval at pump.inflow (run_1)"]
+    begin, idle = STEP * WRONG[0], STEP * (IDLE[0] + 10)
+    point = Point(np.zeros(len(model.parameters)), {term: (0.15, begin, idle)})
+    near = [p.terms[term] for p in model.near_intervals(point)]
+    assert len(set(near)) == len(near)
+    assert all(b < e for _, b, e in near)
+    assert any(b == pytest.approx(begin, abs=STEP) and e > STEP * IDLE[1] for _, b, e in near)
+    costs = fit(model, point, 0).cost, min(fit(model, Point(point.base, {term: n}), 0).cost for n in near)
+    assert costs[1] < costs[0] - 100.0
