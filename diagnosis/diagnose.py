@@ -14,9 +14,10 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
-from diagnosis.check.beside import compare
+from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import doubts_of
 from diagnosis.check.input_rows import with_input_rows, with_instants
+from diagnosis.clocks import clocks_once_recalibrated
 from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
@@ -148,7 +149,7 @@ def diagnose(
     if not options.batches.place.is_local and not uses_batches(model):
         what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
         raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
-    doubts = doubts_of(compared)
+    doubts = _doubts(compared, model, judge, options)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
@@ -234,6 +235,16 @@ def diagnose(
         units=units.written,
     )
     return Result(diagnosis, model, judge, points, carried)
+
+
+def _doubts(
+    compared: Sequence[Compared], model: DiagnosisModel, judge: DiagnosisModel | None, options: Options
+) -> tuple[Doubt, ...]:
+    """Doubts about the recordings: beside the scenario as it is, and about clocks beside it once recalibrated."""
+    found = doubts_of(compared)
+    if not options.is_checked or of_another_experiment(found):
+        return found
+    return (*clocks_once_recalibrated(model, judge, compared), *found)
 
 
 def _unsearched(

@@ -33,6 +33,8 @@ LONGEST, MOST_OFFSETS = 0.03, 121
 OTHERS = 2
 #: Range of a simulated channel in a recording, beside the largest of the others, up to which none is driven harder.
 HARDER = 1.1
+#: What recordings are compared with.
+AS_IT_IS, RECALIBRATED = "the scenario as it is", "the scenario with its numbers fitted"
 #: Standard normal quantile of 97.5 %.
 _QUANTILE = 1.959964
 
@@ -73,17 +75,22 @@ class _Clock:
         return f"with a clock that is {abs(self.offset):.3g} s {'ahead' if self.offset > 0.0 else 'behind'}"
 
 
-def clocks_of_one(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about the clock of a channel in one recording; all are serious."""
+def clocks_of_one(every: Sequence[Compared], simulated: str = AS_IT_IS) -> list[Doubt]:
+    """Doubts about the clock of a channel in one recording; all are serious.
+
+    Args:
+        every: Recordings beside their simulations.
+        simulated: What was simulated, for people.
+    """
     found = []
     for one in every:
         others = [o for o in every if o is not one]
         if len(others) >= OTHERS:
-            found += list(_of_recording(one, others))
+            found += list(_of_recording(one, others, simulated))
     return found
 
 
-def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
+def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> Iterator[Doubt]:
     own = {name: _left(b) for name, b in one.channels.items() if _is_told(b)}
     for name, left in own.items():
         beside = one.channels[name]
@@ -103,12 +110,12 @@ def _of_recording(one: Compared, others: Sequence[Compared]) -> Iterator[Doubt]:
         if sum(_left(b, clock.moves(b)) for b in same) < WORSE * sum(usual):
             continue
         text = (
-            f"of the {100.0 * COUNTED:.0f} % of its readings that the scenario as it is misses least, it explains at "
+            f"of the {100.0 * COUNTED:.0f} % of its readings that {simulated} misses least, it explains at "
             f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording and "
             f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {clock.in_words()}"
         )
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"
-        z = float(np.sqrt(left / max(clock.left, 1e-12)))
+        z = float(np.sqrt(left / max(clock.left, _noise(beside))))
         yield Doubt(one.recording.title, name, "clock", text, remedy, True, one.begin, one.end, z)
 
 

@@ -1,0 +1,54 @@
+"""Clocks that are off in one recording alone, seen beside the recalibrated scenario.
+
+Numbers that are off may hide a clock that runs half a per cent fast: the scenario as it is (`diagnosis.check`) misses
+every recording by more. Its numbers are fitted first, to the recordings that are fitted anyway.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from diagnosis.check.beside import Compared
+from diagnosis.check.clock_of_one import OTHERS, RECALIBRATED, clocks_of_one
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.held_out import carried_over
+from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.recording.series import Series
+from diagnosis.search.problem import Point
+from diagnosis.search.search import recalibrate
+
+
+def clocks_once_recalibrated(
+    model: DiagnosisModel, judge: DiagnosisModel | None, compared: Sequence[Compared]
+) -> list[Doubt]:
+    """Doubts about the clock of a channel in one recording; all are serious.
+
+    Args:
+        model: Of the training recordings, without laws.
+        judge: Of those held out, or None.
+        compared: Recordings beside the scenario as it is: those of the training, then those held out.
+
+    Returns:
+        None where there are fewer than three recordings, or where a fit takes minutes.
+    """
+    if len(compared) <= OTHERS or not model.can_be_searched_again or not model.parameters:
+        return []
+    point = recalibrate(model).point
+    every = [_beside(one, model, point, n) for n, one in enumerate(compared[: len(model.runs)])]
+    if judge is not None:
+        there = carried_over(point, model, judge)
+        every += [_beside(one, judge, there, n) for n, one in enumerate(compared[len(model.runs) :])]
+    return clocks_of_one(every, RECALIBRATED)
+
+
+def _beside(one: Compared, model: DiagnosisModel, point: Point, number: int) -> Compared:
+    """The recording beside what the model predicts of it, at the times of the readings."""
+    channels = {}
+    for series, values in zip(model.runs[number].series, model.predict(point, number)):
+        name = series.channel.name
+        beside = one.channels.get(name)
+        if beside is not None and beside.simulated is not None:
+            course = Series(series.channel.times[series.samples], values, False, beside.simulated.unit)
+            channels[name] = replace(beside, simulated=course)
+    return replace(one, channels=channels)
