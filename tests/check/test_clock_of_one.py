@@ -12,10 +12,13 @@ import pytest
 import yaml
 
 from cosim.scenario import load_scenario
+from diagnosis.candidates.registry import catalogue
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.clock_of_one import clocks_of_one
+from diagnosis.clocks import clocks_once_recalibrated
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
 from tests.systems.rigs import COUNT, STEP, oscillator, oscillator_recordings
 
@@ -134,3 +137,39 @@ def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
         channel = replace(own.channel, values=values)
         moved.append(replace(one, channels={"rig.position": replace(own, channel=channel, simulated=series)}))
     assert clocks_of_one(moved) == []
+
+
+def _once_recalibrated(folder: Path, recordings: list[Path], held_out: int = 1) -> list[Doubt]:
+    scenario = load_scenario(str(folder / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    read = [one.recording for one in every]
+    model, judge = models_of(scenario, read[:-held_out], read[-held_out:], catalogue())
+    return clocks_once_recalibrated(model, judge, every)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (0, 2, 1)], ids=["fitted", "held out"])
+def test_numbers_that_are_off_hide_no_clock(order: tuple[int, ...], tmp_path: Path) -> None:
+    """A spring 6 % stiffer than stated moves every recording by more than a clock that runs 0.6 % fast."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -24.0 * x, SIZES)
+    _own_table(recordings[1], 0.006, 0.0)
+    assert _doubts(tmp_path, recordings) == []
+    (told,) = _once_recalibrated(tmp_path, [recordings[n] for n in order])
+    assert told.recording == "run_2"
+    assert "the scenario with its numbers fitted" in told.statement
+    low, high = (float(v) for v in re.findall(r"([\d.]+) to ([\d.]+) %", told.statement)[0])
+    assert low <= 0.6 <= high
+
+
+def test_once_recalibrated_good_recordings_have_good_clocks_and_two_are_not_asked(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -24.0 * x, SIZES)
+    assert _once_recalibrated(tmp_path, recordings) == []
+    _own_table(recordings[1], 0.02, 0.0)
+    assert _once_recalibrated(tmp_path, recordings[:2]) == []
+
+
+def test_a_law_that_shows_in_the_recording_that_is_driven_hardest_is_no_clock(tmp_path: Path) -> None:
+    _lightly_damped(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 3.75 * v - 4.0 * x - 0.4 * x**3, (0.15, 0.2, 1.2))
+    assert _once_recalibrated(tmp_path, recordings) == []
