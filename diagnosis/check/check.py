@@ -25,6 +25,7 @@ from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.swapped_in_one import swapped_in_one
 from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
+from diagnosis.check.unfollowed import unfollowed
 from diagnosis.check.unit_of_all import units_of_all
 from diagnosis.check.unit_of_one import units_of_one
 from diagnosis.judge.diagnosis import Doubt
@@ -76,6 +77,8 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += start_doubts(one)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
     found += [replace(d, is_serious=d.is_serious and d.recording not in told) for d in odd_ones(every)]
+    if not told:  # else why it is not followed is known
+        found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
 
 

@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import independent
-from diagnosis.check.timing import percent
+from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
 
 #: Share of a channel's variance that the scenario leaves at most where it meets it, all numbers as they are.
@@ -106,6 +106,8 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         clock = _clock(beside)
         if clock is None or clock.left > MET or clock.left * TIMES > left:
             continue
+        if float(np.abs(clock.moves(beside)).max()) <= resolution(one, beside.channel) + _row(one):
+            continue
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
         if sum(_left(b, clock.moves(b)) for b in same) < WORSE * sum(usual):
             continue
@@ -117,6 +119,12 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"
         z = float(np.sqrt(left / max(clock.left, _noise(beside))))
         yield Doubt(one.recording.title, name, "clock", text, remedy, True, one.begin, one.end, z)
+
+
+def _row(one: Compared) -> float:
+    """Longest time between two rows of an input that holds its values [s]: it changed somewhere within it."""
+    rows = [c.times for c in one.courses if c.is_recorded and not c.is_linear and len(c.times) > 1]
+    return max((float(np.median(np.diff(times))) for times in rows), default=0.0)
 
 
 def _is_told(beside: Beside) -> bool:

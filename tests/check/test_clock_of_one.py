@@ -117,6 +117,22 @@ def test_a_recording_that_is_driven_harder_is_named_only_where_another_of_its_ch
     assert clocks_of_one(every) == []  # both are off: it may be the rig
 
 
+def test_a_shift_within_a_row_of_an_input_is_no_clock(tmp_path: Path) -> None:
+    """An input is logged each 0.1 s and held: it changed within the row before, so 0.05 s say nothing."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], 0.0, 0.05)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    assert [d.recording for d in clocks_of_one(every)] == ["run_2"]
+    (course,) = every[1].courses
+    assert course.is_recorded
+    coarse = replace(course, times=course.times[::20], values=course.values[::20])
+    assert clocks_of_one([every[0], replace(every[1], courses=(coarse,)), every[2]]) == []
+    joined = replace(coarse, is_linear=True)  # straight lines join its rows: they say when it changed
+    assert len(clocks_of_one([every[0], replace(every[1], courses=(joined,)), every[2]])) == 1
+
+
 def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
     """An output that follows its input at once: two readings of one recording are of the other side of a switch."""
     oscillator(tmp_path)
