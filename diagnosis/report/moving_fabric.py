@@ -65,7 +65,8 @@ class MovingFabric:
 def moving_fabric(diagnosis: Diagnosis, scenario: Scenario, recording: Recording) -> MovingFabric | None:
     """Run the amended model and the scenario under the inputs of a recording, by the whole co-simulation.
 
-    What was fitted for one recording alone is not in the amended model, and so not in the picture.
+    What was fitted for one recording alone is not in the amended model, and so not in the picture. Ctrl-C ends the
+    picture and costs nothing else.
 
     Args:
         diagnosis: With the path of its amended model, where it has one.
@@ -74,9 +75,6 @@ def moving_fabric(diagnosis: Diagnosis, scenario: Scenario, recording: Recording
 
     Returns:
         None where the scenario has no fabric.
-
-    Raises:
-        KeyboardInterrupt: The user stopped it.
     """
     if not any(isinstance(c, FabricComponent) for c in scenario.components.values()):
         return None
@@ -89,9 +87,9 @@ def moving_fabric(diagnosis: Diagnosis, scenario: Scenario, recording: Recording
             results = run(scenario_of(model, recording))
             fabrics.append(replace(fabric_of(results, title), title=title))
         except RunStopped as error:
-            if error.is_interrupt:
-                raise KeyboardInterrupt from error
             stopped.append(f"{title}: the run stopped: {error.reason}")
+            if error.is_interrupt:  # the answer is there already: what is interrupted is its picture
+                break
         except InputError as error:
             stopped.append(f"{title}: {error.problem}")
     shown = tuple(f.title for f in fabrics)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import yaml
 
+from cosim.run import RunStopped, run
 from cosim.scenario import load_scenario, scenario_folder
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.recording.recording import load_recording
@@ -88,6 +89,24 @@ def test_where_every_run_stops_there_is_no_picture_and_no_script(folder, tmp_pat
     assert "Not shown: scenario as it was: the run stopped" in text
     assert "<iframe" not in text
     assert "script-src" not in text
+
+
+def test_ctrl_c_ends_the_picture_and_not_the_answer(folder, tmp_path, monkeypatch):
+    made = []
+
+    def first_alone(scenario):
+        if made:
+            raise RunStopped("interrupted at t = 0.1 s", None, is_interrupt=True)
+        made.append(run(scenario))
+        return made[0]
+
+    monkeypatch.setattr("diagnosis.report.moving_fabric.run", first_alone)
+    moving = shown(folder, "scenario", "amended")
+    assert moving is not None
+    assert moving.shown == ("amended model",)
+    assert moving.stopped == ("scenario as it was: the run stopped: interrupted at t = 0.1 s",)
+    write_html(found(folder), [], tmp_path / "report.html", moving=moving)
+    assert "Not shown: scenario as it was: the run stopped: interrupted" in (tmp_path / "report.html").read_text()
 
 
 def test_a_scenario_without_a_fabric_has_no_picture(folder):
