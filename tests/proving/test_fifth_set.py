@@ -1,4 +1,4 @@
-"""The fifth set of foreign rigs: what is drawn, by which seed, and that nothing but the concealed is missing."""
+"""Courses and readings of the fifth set of foreign rigs; what all sets have in common: `test_foreign_sets`."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from cosim.run import run
 from cosim.scenario import load_scenario
 from evaluation.fmus.model import OdeModel
 from evaluation.strangers import fifth_set
-from evaluation.strangers.__main__ import SETS, make
 from evaluation.strangers.lab import Steps
-from evaluation.strangers.truth import FINE
 
 
 def test_courses_of_a_first_order_lag_are_the_closed_form() -> None:
@@ -25,24 +23,6 @@ def test_courses_of_a_first_order_lag_are_the_closed_form() -> None:
     early = 1.0 - np.exp(-times / 0.2)
     late = 3.0 + (1.0 - np.exp(-0.33 / 0.2) - 3.0) * np.exp(-(times - 0.33) / 0.2)
     np.testing.assert_allclose(states[:, 0], np.where(times < 0.33, early, late), rtol=1e-6)
-
-
-def test_set_has_nulls_effects_and_faults_under_names_of_their_own() -> None:
-    names = [case.__name__ for case in SETS["fifth"]]
-    assert len(set(names)) == len(names) == 27
-    assert sum(name.endswith("_null") for name in names) == 7
-    assert sum(name.endswith("_two") for name in names) == 3
-
-
-def test_draw_is_that_of_its_seed(tmp_path: Path) -> None:
-    for folder, seed in (("a", 5), ("b", 5), ("c", 6)):
-        make(fifth_set.pan_steam, tmp_path / folder, seed)
-    first, again, other = ((tmp_path / n / "task" / "first" / "data.csv").read_bytes() for n in ("a", "b", "c"))
-    assert first == again
-    assert first != other
-    concealed = [yaml.safe_load((tmp_path / n / "answer.json").read_text(encoding="utf-8")) for n in ("a", "c")]
-    assert concealed[0]["concealed"] != concealed[1]["concealed"]
-    assert not set(concealed[0]["right"]) & set(FINE)
 
 
 def test_readings_of_a_rig_with_the_stated_numbers_are_the_fmu_and_noise(
