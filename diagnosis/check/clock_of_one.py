@@ -113,7 +113,7 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
             continue
         text = (
             f"of the {100.0 * COUNTED:.0f} % of its readings that {simulated} misses least, it explains at "
-            f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording and "
+            f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording that shows it and "
             f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {clock.in_words()}"
         )
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"

@@ -44,7 +44,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
         others = [v for i, v in enumerate(left) if i != number and v is not None]
         if own is None or len(others) < OTHERS or max(others) > 1.0 - MET or own < TIMES * max(others):
             continue
-        told = f"at least {percent(1.0 - max(others))} of the variance of each other recording"
+        told = f"at least {percent(1.0 - max(others))} of the variance of each other recording that can be compared"
         text = f"the scenario as it is explains {told} and {percent(max(1.0 - own, 0.0))} of this one's"
         worst = max(channels[number], key=lambda c: c.scaled)
         if worst.scaled >= HALF:

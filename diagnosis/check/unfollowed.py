@@ -34,8 +34,8 @@ def _told(every: Sequence[Compared]) -> Iterator[Doubt]:
             continue
         largest = max(s for s in shares if s is not None)
         text = (
-            f"in this and in every other recording the scenario as it is explains at most {percent(largest)} of the "
-            f"variance of {name}, however it is scaled and offset"
+            f"in this and in every other recording that has it the scenario as it is explains at most "
+            f"{percent(largest)} of the variance of {name}, however it is scaled and offset"
         )
         remedy = "are the inputs of scenario and recordings the ones that acted?"
         one = having[0]

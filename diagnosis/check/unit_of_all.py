@@ -87,8 +87,8 @@ def _level(beside: Beside) -> float | None:
 def _doubt(one: Compared, name: str, size: _Size, units: Sequence[str]) -> Doubt:
     text = (
         f"its first readings are {size.level:.3g} times what is simulated there and its changes {size.moved:.3g} times "
-        f"the simulated ones, in this and in every other recording, as if it were in {' or '.join(units)} and not in "
-        f"{size.stated}"
+        f"the simulated ones, as if it were in {' or '.join(units)} and not in {size.stated}; so it is in every other "
+        "recording that has it"
     )
     remedy = f"is `channels.{name}.unit` right, and is the start?"
     z = abs(float(np.log(size.level))) / LEVEL

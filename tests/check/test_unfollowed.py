@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,9 @@ import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
+from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
+from diagnosis.check.unfollowed import unfollowed
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
 from tests.systems.rigs import oscillator, oscillator_recordings
@@ -72,3 +75,14 @@ def test_where_something_serious_is_told_it_is_the_reason(tmp_path: Path) -> Non
     scenario = load_scenario(str(tmp_path / "scenario.yaml"))
     assert any(d.is_serious for d in check_recordings(scenario, [load_recording(r) for r in recordings]))
     assert _questions(tmp_path, recordings) == []
+
+
+def test_a_recording_without_the_channel_is_not_spoken_of(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _exchange_inputs(recordings)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    (told,) = unfollowed([every[0], replace(every[1], channels={}), every[2]])
+    assert "in every other recording that has it" in told.statement
+    assert unfollowed([every[0], replace(every[1], channels={}), replace(every[2], channels={})]) == []
