@@ -183,7 +183,7 @@ def diagnose(
         carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
-    units = written_units([r.units for r in both])
+    units = written_units(both)
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
     doubts = without_explained_starts(doubts, found)
@@ -233,6 +233,7 @@ def diagnose(
         searched=tried,
         doubts=doubts,
         units=units.written,
+        channel_units=dict(units.channels),
     )
     return Result(diagnosis, model, judge, points, carried)
 
@@ -258,6 +259,7 @@ def _unsearched(
     """The answer where recordings and scenario are not of the same experiment: nothing is fitted."""
     (model, training), (judge, held_out) = fitted, judged
     points = dict.fromkeys(("before", "recalibrated", "after"), Point(np.zeros(len(model.parameters))))
+    units = written_units((*training, *held_out))
     fits = channel_fits(model, training, points, is_held_out=False)
     carried: dict[str, Point] = {}
     if judge is not None:
@@ -283,7 +285,8 @@ def _unsearched(
         spread=spread_over_recordings(fits),
         searched=Searched(untried=("nothing was searched: the recordings come first",)),
         doubts=doubts,
-        units=written_units([r.units for r in (*training, *held_out)]).written,
+        units=units.written,
+        channel_units=dict(units.channels),
     )
     return Result(diagnosis, model, judge, points, carried)
 

@@ -23,7 +23,7 @@ from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import FEWEST_VALUES, Channel, Recording
 from diagnosis.recording.series import Series, sample, series_of
-from diagnosis.report.user_units import Units
+from diagnosis.report.user_units import Units, written_units
 from diagnosis.search.free_numbers import check_stated
 
 #: Macro-steps beyond which a simulation is no matter of seconds; a longer recording is compared with its first part.
@@ -174,12 +174,11 @@ class Compared:
     @cached_property
     def units(self) -> Units:
         """Units that the recording was written in: what is shown of it is shown in them."""
-        return Units(self.recording.units)
+        return written_units([self.recording])
 
     def units_of(self, channel: str) -> Units:
         """The same with the unit of one channel first: channels of one kind may be written in several units."""
-        own = dict(zip(self.recording.channels, self.recording.units)).get(channel)
-        return self.units if own is None else Units((own, *self.recording.units))
+        return self.units.of(channel)
 
     @cached_property
     def begin(self) -> float:

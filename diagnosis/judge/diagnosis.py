@@ -537,6 +537,7 @@ class Diagnosis:
         doubts: What the check of the recordings before the search stumbled over.
         units: Units of channels and clocks as the user wrote them: terminal and report show quantities in them. All
             numbers here are SI; each stands beside its unit.
+        channel_units: Names of channels to the unit of each, as the user wrote it.
         notes: What stands below the statement, a sentence each: further reasons, findings of which it says nothing,
             and what is taken for granted of the day.
     """
@@ -570,6 +571,7 @@ class Diagnosis:
     searched: Searched = Searched()
     doubts: tuple[Doubt, ...] = ()
     units: tuple[str, ...] = ()
+    channel_units: dict[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
     @property

@@ -294,7 +294,7 @@ def _by_rows(adequacy: Adequacy, units: Units) -> str:
     worst = adequacy.worst
     if worst is None or worst.by_rows < ROWS * worst.rmse:
         return ""
-    factor, unit = units.difference(worst.unit)
+    factor, unit = units.of(worst.channel).difference(worst.unit)
     size = f"{number(factor * worst.by_rows, 2)} {unit}".strip()
     return f", or its inputs changed between rows of their table, which alone may move it by {size}"
 
@@ -303,7 +303,7 @@ def what_stays(adequacy: Adequacy, units: Units = IN_SI) -> str:
     """What is left where most is left, in the user's unit and in multiples of the noise."""
     assert adequacy.worst is not None
     worst = adequacy.worst
-    factor, unit = units.difference(worst.unit)
+    factor, unit = units.of(worst.channel).difference(worst.unit)
     size = f"{number(factor * worst.rmse, 2)} {unit}".strip()
     times = worst.rmse / worst.noise if worst.noise > 0.0 else float("inf")
     source = "that is stated" if worst.is_noise_stated else "estimated from neighbouring readings"

@@ -391,6 +391,7 @@ def _finding(
     where = class_places(place.label, term.identifier, members)
     effect = _effect(model, fit, term)
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
+    units = units.of(term.place)
     when = since(term, fit, model, doubt, units)
     found = estimates(fit, term, doubt, model.scale_uncertainty(term))
     told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)

@@ -194,13 +194,13 @@ def _paint_series(
 ) -> None:
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     curves = series.curves
-    scaled = units.axis(series.measured, series.unit)
+    scaled = units.of(series.channel).axis(series.measured, series.unit)
     keep = thinned(series.measured)
     upper.plot(series.times[keep], scaled(series.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
     for name, values in curves.items():
         keep = thinned(values)
         upper.plot(series.times[keep], scaled(values[keep]), label=_labels(curves)[name], **STAGE_LOOKS[name])
-    factor, of_difference = units.difference(series.unit)
+    factor, of_difference = units.of(series.channel).difference(series.unit)
     noise = 2.0 * factor * np.broadcast_to(np.asarray(series.deviation, dtype=np.float64), series.times.shape)
     keep = np.array([0, -1]) if np.ndim(series.deviation) == 0 else thinned(noise)
     lower.fill_between(

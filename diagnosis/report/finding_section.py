@@ -32,7 +32,7 @@ def finding_section(order: int, finding: Finding, units: Units = IN_SI, is_open:
         "finding.html.j2",
         colour(order),
         finding=finding,
-        units=units,
+        units=units.of(finding.place),
         before=[
             ("Where", where(finding)),
             ("When", when(finding, 12, units)),

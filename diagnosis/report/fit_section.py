@@ -41,7 +41,7 @@ def fit_section(
 
 def _spread(spread: ChannelSpread, units: Units) -> list[str]:
     """Mean and range over recordings."""
-    factor, _ = units.difference(spread.unit)
+    factor, _ = units.of(spread.channel).difference(spread.unit)
     return [
         _part(spread, units),
         str(spread.recordings),
@@ -52,7 +52,7 @@ def _spread(spread: ChannelSpread, units: Units) -> list[str]:
 
 
 def _part(spread: ChannelSpread, units: Units) -> str:
-    _, unit = units.difference(spread.unit)
+    _, unit = units.of(spread.channel).difference(spread.unit)
     name = f"{spread.channel} [{unit}]" if unit else spread.channel
     return f"{name} ({'held out' if spread.is_held_out else 'training'})"
 
@@ -65,7 +65,7 @@ def _range(spread: Spread | None, factor: float) -> str:
 
 
 def _grouped(row: Row, units: Units) -> list[str | Cell]:
-    factor, unit = units.difference(row.unit)
+    factor, unit = units.of(row.first).difference(row.unit)
     name = f"{row.quantity} [{unit}]" if unit else row.quantity
     least, most = (number(factor * v) for v in row.spread)
     return [
@@ -77,7 +77,7 @@ def _grouped(row: Row, units: Units) -> list[str | Cell]:
 
 
 def _single(fit: ChannelFit, units: Units) -> list[str | Cell]:
-    factor, unit = units.difference(fit.unit)
+    factor, unit = units.of(fit.channel).difference(fit.unit)
     name = f"{fit.channel} [{unit}]" if unit else fit.channel
     return [
         _titled(fit.recording, fit.is_held_out),

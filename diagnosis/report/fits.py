@@ -24,6 +24,7 @@ class Row:
         recording: Its title.
         is_held_out: Whether nothing was fitted to it.
         quantity: `coil temperature`.
+        first: Name of the first of the channels.
         unit: SI unit of the RMSE.
         channels: How many.
         rmse: Root mean square over the channels, by stage.
@@ -35,6 +36,7 @@ class Row:
     recording: str
     is_held_out: bool
     quantity: str
+    first: str
     unit: str
     channels: int
     rmse: dict[str, float]
@@ -85,6 +87,7 @@ def _row(members: Sequence[ChannelFit]) -> Row:
         recording=first.recording,
         is_held_out=first.is_held_out,
         quantity=quantity(first.channel),
+        first=first.channel,
         unit=first.unit,
         channels=len(members),
         rmse=_by_stage([m.rmse for m in members], lambda sizes: root_mean_square(np.array(sizes))),

@@ -39,7 +39,7 @@ from diagnosis.report.sentences import (
 )
 from diagnosis.report.series import Series
 from diagnosis.report.undecided import departing, model_note, remainder, suggested, what_decides
-from diagnosis.report.user_units import Units
+from diagnosis.report.user_units import Units, units_of
 
 #: Windows in which something is left that are shown at the top.
 _LEFT = 3
@@ -99,7 +99,7 @@ def _sections(
     diagnosis: Diagnosis, series: Sequence[Series], network: Network, moving: MovingFabric | None
 ) -> Iterator[Section]:
     """Sections in their order: where nothing was found, what is left is the answer and comes first."""
-    units = Units(diagnosis.units)
+    units = units_of(diagnosis)
     left = [remainder_section(diagnosis.left, units)] if diagnosis.left else []
     moved = [section("The fabric in motion", "moving_fabric.html.j2", moving=moving)] if moving else []
     if diagnosis.findings:
@@ -111,7 +111,7 @@ def _sections(
         yield from left
     if series:
         yield _channels(diagnosis, series)
-    if missing := waveform_section(diagnosis.waveforms, Units(diagnosis.units)):
+    if missing := waveform_section(diagnosis.waveforms, units_of(diagnosis)):
         yield missing
     if diagnosis.next_experiment is not None:
         yield experiment_section(diagnosis.next_experiment)
@@ -135,7 +135,7 @@ def _answer(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
     facts: list[tuple[str, Told]] = [("Doubt", doubt_text(d)) for d in diagnosis.doubts[:_LEFT]]
     facts += _undecided(diagnosis) if diagnosis.verdict is Verdict.CANNOT_TELL else _found(diagnosis)
     facts.append(("Searched", searched(diagnosis)))
-    if far := moved_most(diagnosis, Units(diagnosis.units)):
+    if far := moved_most(diagnosis, units_of(diagnosis)):
         facts.append(("Parameters", far))
     if diagnosis.next_experiment is not None:
         facts.append(("Next experiment", diagnosis.next_experiment.statement))
@@ -163,7 +163,7 @@ def _judged_by(diagnosis: Diagnosis) -> str:
 def _found(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
     """Where, when, what and how much better; how much better alone where nothing was found."""
     better, told = ("How much better", improvement(diagnosis)), diagnosis.accepted
-    units = Units(diagnosis.units)
+    units = units_of(diagnosis)
     others = [("Suggested", suggested(f, units)) for f in diagnosis.suggestions]
     if not told:
         return [*others, better]
@@ -180,7 +180,7 @@ def _found(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
 
 def _undecided(diagnosis: Diagnosis) -> list[tuple[str, Told]]:
     """What is suggested or left, why that is not accepted, and what would decide."""
-    units = Units(diagnosis.units)
+    units = units_of(diagnosis)
     facts: list[tuple[str, Told]] = []
     for finding in diagnosis.accepted:
         facts.append(("Accepted, not identified", f"{finding.statement}; {when(finding, units=units)}"))
@@ -208,8 +208,8 @@ def _place_and_time(diagnosis: Diagnosis, series: Sequence[Series], network: Net
         network=network_figure(network, diagnosis.findings) if network.strings else "",
         # What the picture cannot show: findings that concern no single element of the network.
         others=[f"{n}: {f.place}" for n, f in enumerate(diagnosis.findings, 1) if not concerned(f, network)],
-        timeline=timeline_figure(diagnosis.findings, begin, end, Units(diagnosis.units)) if end > begin else "",
-        span=Units(diagnosis.units).span(begin, end),
+        timeline=timeline_figure(diagnosis.findings, begin, end, units_of(diagnosis)) if end > begin else "",
+        span=units_of(diagnosis).span(begin, end),
         is_fabric=any(fit.channel.startswith(_OF_A_FABRIC) for fit in diagnosis.fit),
     )
 
@@ -223,7 +223,7 @@ def _extent(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[float, floa
 
 def _channels(diagnosis: Diagnosis, series: Sequence[Series]) -> Section:
     """Figures of channels: training and, beside it, held out."""
-    units = Units(diagnosis.units)
+    units = units_of(diagnosis)
     drawn: dict[str, dict[bool, list[tuple[str, str]]]] = {}
     if not diagnosis.findings:  # what is left is the answer
         series = sorted(series, key=lambda s: not any(is_left_in(r, s) for r in diagnosis.left))

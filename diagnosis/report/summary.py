@@ -31,7 +31,7 @@ from diagnosis.report.sentences import (
 )
 from diagnosis.report.undecided import model_note, remainder, what_decides
 from diagnosis.report.unit_factor import unit_factor
-from diagnosis.report.user_units import Units
+from diagnosis.report.user_units import Units, units_of
 
 #: Lines that a summary has at most.
 LINES = 40
@@ -69,8 +69,8 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
     for note in diagnosis.notes:
         lines += map(Text, _wrapped("note     ", note, width, _NOTE))
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
-    if clocks(diagnosis, Units(diagnosis.units)):
-        foot += map(Text, _wrapped("times    ", clocks(diagnosis, Units(diagnosis.units)), width, 3))
+    if clocks(diagnosis, units_of(diagnosis)):
+        foot += map(Text, _wrapped("times    ", clocks(diagnosis, units_of(diagnosis)), width, 3))
     if thinning(diagnosis):
         foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
     if diagnosis.next_experiment is not None:
@@ -88,7 +88,7 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
 
 
 def _body(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
-    units = Units(diagnosis.units)
+    units = units_of(diagnosis)
     for doubt in diagnosis.doubts[:_FINDINGS]:
         yield from _wrapped("doubt    ", doubt_text(doubt), width, 3)
     if len(diagnosis.doubts) > _FINDINGS:
@@ -132,6 +132,7 @@ def _next(experiment: NextExperiment) -> str:
 
 
 def _finding(order: int, finding: Finding, width: int, units: Units, is_open: bool) -> Iterator[str]:
+    units = units.of(finding.place)
     yield from _wrapped(f"{order} where  ", where(finding), width, 1)
     yield from _wrapped("  when   ", when(finding, units=units), width, 1)
     prefix = "" if finding.is_accepted else "suggested, not accepted: "
@@ -154,7 +155,7 @@ def _finding(order: int, finding: Finding, width: int, units: Units, is_open: bo
 
 
 def _fit(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
-    found, units = rows(diagnosis.fit), Units(diagnosis.units)
+    found, units = rows(diagnosis.fit), units_of(diagnosis)
     for row in found[:_ROWS]:
         yield from _wrapped("         ", _fit_row(row, units), width, 1)
     if len(found) > _ROWS:
@@ -162,7 +163,7 @@ def _fit(diagnosis: Diagnosis, width: int, rest: str) -> Iterator[str]:
 
 
 def _fit_row(row: Row, units: Units) -> str:
-    factor, unit = units.difference(row.unit)
+    factor, unit = units.of(row.first).difference(row.unit)
     every = [number(factor * row.rmse[stage]) for stage in STAGES]
     told = " -> ".join(every) if len(set(every)) > 1 else every[0]  # nothing was changed
     part = "held out" if row.is_held_out else "training"

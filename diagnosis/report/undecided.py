@@ -80,7 +80,7 @@ def mean_left(left: Remainder, units: Units) -> str:
     """Mean of measured minus simulated where something is left; empty where it is not known."""
     if not (left.unit and math.isfinite(left.mean)):
         return ""
-    factor, unit = units.difference(left.unit)
+    factor, unit = units.of(left.channel).difference(left.unit)
     return f"{factor * left.mean:+.3g} {unit}".strip()
 
 

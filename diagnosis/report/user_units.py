@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cosim.unit.protocol import Array
-from diagnosis.judge.diagnosis import Estimate
+from diagnosis.judge.diagnosis import Diagnosis, Estimate
+from diagnosis.recording.recording import Recording
 from diagnosis.report import display
 from diagnosis.report.display import interval, number, user_scale, user_unit
 
@@ -49,9 +50,23 @@ class Units:
 
     Args:
         written: Of channels and clocks, as written; of several of one kind the first counts.
+        channels: Names of channels and the unit of each, as written.
     """
 
     written: tuple[str, ...] = ()
+    channels: tuple[tuple[str, str], ...] = ()
+
+    def of(self, channel: str) -> Units:
+        """The same with the unit of a channel first: two speeds may be written in rpm and in deg/s.
+
+        Args:
+            channel: Its name, with or without what a title of a recording or an occasion adds.
+
+        >>> Units(("rpm", "deg/s"), (("motor", "rpm"), ("arm", "deg/s"))).of("arm (second)").text(1.0, "rad/s")
+        '57.3 deg/s'
+        """
+        own = dict(self.channels).get(channel.partition(" (")[0])
+        return self if own is None else Units((own, *self.written), self.channels)
 
     def scale(self, value: float, unit: str, is_difference: bool = True) -> Scale:
         """How a quantity of such a size is shown.
@@ -124,9 +139,17 @@ class Units:
 IN_SI = Units()
 
 
-def written_units(recordings: Sequence[Sequence[str]]) -> Units:
-    """Units of several recordings, each once, in their order."""
-    return Units(tuple(dict.fromkeys(unit for units in recordings for unit in units)))
+def written_units(recordings: Sequence[Recording]) -> Units:
+    """Units of several recordings, each once, in their order; of a channel that of the first recording that has it."""
+    channels: dict[str, str] = {}
+    for recording in recordings:  # the units of its channels come first, in their order
+        channels = {**dict(zip(recording.channels, recording.units)), **channels}
+    return Units(tuple(dict.fromkeys(u for r in recordings for u in r.units)), tuple(channels.items()))
+
+
+def units_of(diagnosis: Diagnosis) -> Units:
+    """Units in which a diagnosis is shown."""
+    return Units(diagnosis.units, tuple(diagnosis.channel_units.items()))
 
 
 def _is_readable(value: float) -> bool:

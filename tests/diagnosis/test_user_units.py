@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,7 +12,8 @@ import pytest
 from rich.console import Console
 
 from diagnosis.candidates.registry import candidate, catalogue
-from diagnosis.judge.diagnosis import Estimate, Physical, Verdict
+from diagnosis.judge.diagnosis import Adequacy, Estimate, Left, Physical, Verdict
+from diagnosis.judge.headline import what_stays
 from diagnosis.judge.location import Remainder
 from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.remainder import remainders
@@ -24,9 +26,9 @@ from diagnosis.report.json_file import write_json
 from diagnosis.report.page import write_html
 from diagnosis.report.summary import print_summary
 from diagnosis.report.undecided import remainder
-from diagnosis.report.user_units import Units, written_units
+from diagnosis.report.user_units import Units, units_of, written_units
 from diagnosis.search.problem import Layout, Term, TermParameter
-from tests.diagnosis.report_examples import CONTACT, diagnosis
+from tests.diagnosis.report_examples import CONTACT, diagnosis, fit
 
 
 @pytest.mark.parametrize(
@@ -160,7 +162,7 @@ def test_terminal_and_page_show_the_units_of_the_recording_and_the_file_stays_in
 
 def test_a_recording_knows_the_units_that_were_written():
     monday = load_recording(Path("docs/examples/rig/monday"))
-    assert written_units([monday.units]).written == ("degC", "mm", "mA", "s")
+    assert written_units([monday]).written == ("degC", "mm", "mA", "s")
 
 
 def test_what_is_left_has_the_unit_of_its_channel():
@@ -193,3 +195,36 @@ def test_every_number_of_a_law_says_what_it_is():
         assert parameter.meaning, f"{law}.{parameter.name}"
         if parameter.unit == "1":  # 0.8 may be what is left, what is lost, or what is added
             assert any(kind in parameter.meaning for kind in ("share", "factor", "change")), f"{law}.{parameter.name}"
+
+
+def test_two_channels_of_one_kind_are_each_shown_in_their_own_unit(tmp_path: Path) -> None:
+    """A motor in rpm and a gyro in deg/s are both rad/s: errors, noise and axes of each are in what its column has."""
+    fits = tuple(fit(name, "rad/s", 2.0, True) for name in ("joint.motor", "joint.arm"))
+    told = replace(
+        diagnosis(Verdict.MISSING_PHYSICS),
+        fit=fits,
+        units=("rpm", "deg/s", "s"),
+        channel_units={"joint.motor": "rpm", "joint.arm": "deg/s"},
+    )
+    units = units_of(told)
+    assert units.of("joint.arm (second)").text(1.0, "rad/s") == "57.3 deg/s"
+    assert units.of("joint.motor").text(1.0, "rad/s") == "9.55 rpm"
+    assert units.of("joint.elsewhere").text(1.0, "rad/s") == "9.55 rpm"  # no channel: the first that was written
+    write_html(told, [], tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "joint.arm [deg/s]" in page
+    assert "joint.motor [rpm]" in page
+    assert "joint.arm [rpm]" not in page
+    console = Console(record=True, width=200, file=io.StringIO())
+    print_summary(told, console, "report.html")
+    shown = console.export_text()
+    assert re.search(r"joint arm: RMSE .* deg/s", shown)
+    assert re.search(r"joint motor: RMSE .* rpm", shown)
+
+
+def test_what_stays_is_in_the_unit_of_its_channel() -> None:
+    worst = Left("third", "joint.arm", "rad/s", 0.02, 0.01, 4.0, 1.2)
+    chi = {"before": 5.0, "recalibrated": 4.0, "after": 4.0}
+    right = Adequacy("held-out recordings", True, chi, 1.2, 0.1, 0.1, worst, (1, 1), (), 0, True, True, True, False)
+    units = Units(("rpm", "deg/s"), (("joint.motor", "rpm"), ("joint.arm", "deg/s")))
+    assert what_stays(right, units).startswith("1.1 deg/s of joint.arm stays")
