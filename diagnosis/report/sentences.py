@@ -17,7 +17,7 @@ ADVICE = {
     Verdict.CONSISTENT: "Nothing that was tried needs to be added to the model.",
     Verdict.RECALIBRATED: "Parameters of the model were off; nothing that was tried needs to be added.",
     Verdict.RECORDING_FAULT: "Correct the recording or the scenario first; nothing was concluded about the physics.",
-    Verdict.MEASUREMENT_FAULT: "Repair, replace or model the sensor before the physics is changed.",
+    Verdict.MEASUREMENT_FAULT: "Repair or model what is at fault before the physics is changed.",
     Verdict.MISSING_PHYSICS: "Place and times are below.",
     Verdict.UNNAMED_PHYSICS: "The formula describes it within these recordings; a name for it is left to a person.",
     Verdict.CANNOT_TELL: "Trust neither the model nor a correction of it where it departs from these recordings.",
