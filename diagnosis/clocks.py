@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from diagnosis.check.beside import Compared
 from diagnosis.check.clock_of_one import OTHERS, RECALIBRATED, clocks_of_one
 from diagnosis.judge.diagnosis import Doubt
@@ -48,7 +50,7 @@ def _beside(one: Compared, model: DiagnosisModel, point: Point, number: int) -> 
     for series, values in zip(model.runs[number].series, model.predict(point, number)):
         name = series.channel.name
         beside = one.channels.get(name)
-        if beside is not None and beside.simulated is not None:
-            course = Series(series.channel.times[series.samples], values, False, beside.simulated.unit)
-            channels[name] = replace(beside, simulated=course)
+        if beside is not None and beside.simulated is not None and np.isfinite(values).all():
+            times = series.channel.times[-len(values) :]  # those that are compared are the last ones
+            channels[name] = replace(beside, simulated=Series(times, values, False, beside.simulated.unit))
     return replace(one, channels=channels)
