@@ -27,7 +27,7 @@ run: plan setup fmus  ## the paper's experiment: all runs, figures and the score
 
 plan:
 	@echo "make run does the paper's experiments in Bullet$(if $(filter 1,$(STARTS)),, from $(STARTS) starts)$(if $(filter 0,$(BANDS)),,, then bands over $(BANDS) starts in MuJoCo):" \
-	  "$(if $(filter-out 0,$(BANDS)),half an hour on two cores (make run BANDS=0: without bands$(comma) 7 min),7 min a start on two cores). In this order:"
+	  "$(if $(filter-out 0,$(BANDS)),30 to 40 minutes on two cores (make run BANDS=0: without bands$(comma) 7 min),7 min a start on two cores). In this order:"
 	@echo "  1. a virtual environment in $(VENV) and libngspice (the first time: downloads, minutes)"
 	@echo "  2. the FMUs from their C sources (the first time: seconds; compiler lines go to $(FMUS)/build.log)"
 	@echo "  3. the paper's experiments, figures and scorecard; before it begins it says how long each takes"
