@@ -42,7 +42,7 @@ def lead(diagnosis: Diagnosis, series: Sequence[Series]) -> Lead | None:
     if found is None:
         return None
     one, fit = found
-    units = units_of(diagnosis)
+    units = units_of(diagnosis).of(one.channel)
     part = "held out" if one.is_held_out else "training: no recording was held out"
     whose = (
         f"{clean(one.channel)}, {clean(one.recording)} ({part})" if one.recording else f"{clean(one.channel)} ({part})"
@@ -66,7 +66,7 @@ def worst(diagnosis: Diagnosis, series: Sequence[Series]) -> tuple[Series, Chann
 
 def told(one: Series, fit: ChannelFit, units: Units) -> str:
     """`current error 9.88 -> 1.98 mA (RMSE), noise of its sensor 2.00 mA`."""
-    factor, unit = units.of(one.channel).difference(one.unit)
+    factor, unit = units.difference(one.unit)
     sizes = [number(factor * fit.rmse[stage]) for stage in _stages(one)]
     noise = number(factor * float(np.sqrt(np.nanmean(np.square(one.deviation)))))
     quantity = clean(one.channel).rpartition(".")[2].replace("_", " ")
@@ -87,8 +87,8 @@ def _stages(one: Series) -> list[str]:
 def _paint(figure: Figure, one: Series, units: Units) -> None:
     """Above what was measured and what the models say, below measured minus simulated with the noise of the sensor."""
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
-    scaled = units.of(one.channel).axis(one.measured, one.unit)
-    factor, unit = units.of(one.channel).difference(one.unit)
+    scaled = units.axis(one.measured, one.unit)
+    factor, unit = units.difference(one.unit)
     keep = thinned(one.measured)
     upper.plot(one.times[keep], scaled(one.measured[keep]), ".", ms=2.5, color="#2d3748", label="measured")
     noise = 2.0 * factor * float(np.sqrt(np.nanmean(np.square(one.deviation))))

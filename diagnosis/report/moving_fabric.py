@@ -92,9 +92,11 @@ def moving_fabric(diagnosis: Diagnosis, scenario: Scenario, recording: Recording
                 break
         except InputError as error:
             stopped.append(f"{title}: {error.problem}")
-    shown = tuple(f.title for f in fabrics)
-    text = page(_film(fabrics, diagnosis, recording)) if fabrics else ""
-    return MovingFabric(recording.title, shown, text, tuple(stopped))
+    try:
+        text = page(_film(fabrics, diagnosis, recording)) if fabrics else ""
+    except InputError as error:  # a marker that reads kilometres must not cost the answer
+        return MovingFabric(recording.title, stopped=(*stopped, f"{error.key}: {error.problem}"))
+    return MovingFabric(recording.title, tuple(f.title for f in fabrics), text, tuple(stopped))
 
 
 def _film(fabrics: Sequence[Fabric], diagnosis: Diagnosis, recording: Recording) -> Film:

@@ -111,7 +111,7 @@ def _sections(
         yield from left
     if series:
         yield _channels(diagnosis, series)
-    if missing := waveform_section(diagnosis.waveforms, units_of(diagnosis)):
+    if missing := waveform_section(diagnosis.waveforms, units):
         yield missing
     if diagnosis.next_experiment is not None:
         yield experiment_section(diagnosis.next_experiment)

@@ -69,8 +69,8 @@ def print_summary(diagnosis: Diagnosis, console: Console, rest: str = "report.ht
     for note in diagnosis.notes:
         lines += map(Text, _wrapped("note     ", note, width, _NOTE))
     foot = [Text(line) for line in _wrapped("effort   ", effort(diagnosis), width, 1)]
-    if clocks(diagnosis, units_of(diagnosis)):
-        foot += map(Text, _wrapped("times    ", clocks(diagnosis, units_of(diagnosis)), width, 3))
+    if shifted := clocks(diagnosis, units_of(diagnosis)):
+        foot += map(Text, _wrapped("times    ", shifted, width, 3))
     if thinning(diagnosis):
         foot += map(Text, _wrapped("readings ", thinning(diagnosis), width, 3))
     if diagnosis.next_experiment is not None:

@@ -109,6 +109,17 @@ def test_ctrl_c_ends_the_picture_and_not_the_answer(folder, tmp_path, monkeypatc
     assert "Not shown: scenario as it was: the run stopped: interrupted" in (tmp_path / "report.html").read_text()
 
 
+def test_a_marker_that_reads_kilometres_costs_the_picture_and_not_the_answer(folder):
+    whole = load_recording(folder / "monday")
+    name, channel = next((n, c) for n, c in whole.channels.items() if n.startswith("marker"))
+    far = replace(whole, channels={**whole.channels, name: replace(channel, values=channel.values + 2000.0)})
+    moving = moving_fabric(found(folder), load_scenario(folder / "scenario.yaml"), far)
+    assert moving is not None
+    assert (moving.page, moving.shown) == ("", ())
+    (reason,) = moving.stopped
+    assert reason.startswith(f"channels.{name}: it reads 200")
+
+
 def test_a_scenario_without_a_fabric_has_no_picture(folder):
     scenario = load_scenario("single_coil_heating")
     assert moving_fabric(found(folder), scenario, load_recording(folder / "monday")) is None
