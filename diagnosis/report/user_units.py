@@ -11,6 +11,7 @@ from diagnosis.judge.diagnosis import Diagnosis, Estimate
 from diagnosis.recording.recording import Recording
 from diagnosis.report import display
 from diagnosis.report.display import interval, number, user_scale, user_unit
+from diagnosis.report.fits import plain_channel
 
 #: Sizes of a number that are read without an exponent. What falls outside in the user's unit and not in SI stays in SI:
 #: 5 ohm/A^2 are 0.000005 ohm/mA^2.
@@ -65,7 +66,7 @@ class Units:
         >>> Units(("rpm", "deg/s"), (("motor", "rpm"), ("arm", "deg/s"))).of("arm (second)").text(1.0, "rad/s")
         '57.3 deg/s'
         """
-        own = dict(self.channels).get(channel.partition(" (")[0])
+        own = dict(self.channels).get(plain_channel(channel))
         return self if own is None else Units((own, *self.written), self.channels)
 
     def scale(self, value: float, unit: str, is_difference: bool = True) -> Scale:
