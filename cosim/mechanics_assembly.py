@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import fields
 from typing import Any
 
@@ -10,7 +11,7 @@ from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
-from mechanics.added import AddedEffects, tilted
+from mechanics.added import AddedEffects, LinkEffects, tilted
 from mechanics.fabric import FabricDesign
 from mechanics.mujoco_world import MujocoMissing
 from mechanics.pendulum import PendulumDesign, PendulumUnit
@@ -46,7 +47,10 @@ FABRIC_UNITS = {
     "payload": "kg",
 }
 #: Those of them that are effects which a plain fabric leaves out.
-_ADDED = frozenset(field.name for field in fields(AddedEffects))
+_ADDED = frozenset(field.name for field in fields(AddedEffects)) - {"links"}
+#: SI unit of what one link may have besides, given as `name[number of the link]`.
+LINK_UNITS = {"steel_loss": "1", "coil_loss": "1", "slide_friction": "N"}
+_OF_A_LINK = re.compile(r"(\w+)\[(\d+)\]")
 
 #: The same of a pendulum.
 PENDULUM_UNITS = {
@@ -78,8 +82,16 @@ PENDULUM_UNITS = {
 def build_fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
     """A fabric; raises ValueError for a parameter that does not fit, InputError where its engine is not installed."""
     numbers: dict[str, Any] = {}
+    of_links: dict[int, dict[str, float]] = {}
     for key, value in parameters.values.items():
-        if key == "gravity":
+        if of_link := _OF_A_LINK.fullmatch(key):
+            own, number = of_link[1], int(of_link[2])
+            if own not in LINK_UNITS:
+                hint = did_you_mean(own, list(LINK_UNITS))
+                known = ", ".join(f"{n}[{number}]" for n in LINK_UNITS)
+                raise ValueError(f"a link has no parameter `{own}`{hint}; link {number} may have {known}")
+            of_links.setdefault(number - 1, {})[own] = _quantity(value).to(LINK_UNITS[own])
+        elif key == "gravity":
             numbers[key] = _gravity(value)
         elif key not in FABRIC_UNITS:
             raise ValueError(_no_parameter("fabric", key, ["gravity", *FABRIC_UNITS]))
@@ -87,8 +99,10 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
             raise ValueError(f"{key} must be one number with a unit")
         else:
             numbers[key] = value.to(FABRIC_UNITS[key])
-    added = AddedEffects(**{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
-    if added.slide_friction and component.solver.springs == "motor":
+    links = tuple((number, LinkEffects(**own)) for number, own in sorted(of_links.items()))
+    added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
+    has_friction = added.slide_friction or any(own.slide_friction for _, own in links)
+    if has_friction and component.solver.springs == "motor":
         raise ValueError("slide_friction needs solver.springs `force`: springs as motors use up the joint's motor")
     leaning = numbers.pop("tilt", 0.0), numbers.pop("roll", 0.0)
     numbers["gravity"] = tilted(numbers.get("gravity", FabricDesign.gravity), *leaning)

@@ -3,11 +3,38 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from cosim.unit.protocol import Array
+
+
+@dataclass(frozen=True)
+class LinkEffects:
+    """What one link has besides, or lacks.
+
+    Args:
+        steel_loss: Share of the stiffness of both steel springs that is missing: 1 where they are left out.
+        coil_loss: Share of the stiffness of both coils that is missing: 0.5 where one of them is broken.
+        slide_friction: Dry friction in its slide beyond that of every slide [N]: a link that jams has much.
+
+    Raises:
+        ValueError: A share outside 0 to 1, or a friction below 0 or not finite.
+    """
+
+    steel_loss: float = 0.0
+    coil_loss: float = 0.0
+    slide_friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("steel_loss", "coil_loss"):
+            value = getattr(self, name)
+            if not 0.0 <= value <= 1.0:
+                raise ValueError(f"{name} of a link is {value}: give a share from 0 to 1")
+        if not (math.isfinite(self.slide_friction) and self.slide_friction >= 0):
+            raise ValueError(f"slide_friction of a link is {self.slide_friction}: give zero or a positive number")
 
 
 @dataclass(frozen=True)
@@ -26,6 +53,7 @@ class AddedEffects:
         cold_stiffness: Stiffness at which they have the rest length given [N/m].
         added_friction: Friction between links beyond `friction` of the design, a coefficient of a pair.
         payload: Mass hung on the links of the last row [kg], carried as its weight.
+        links: Number of a link, from 0, and what it has besides; at most once each.
 
     Raises:
         ValueError: A number is negative or not finite.
@@ -45,12 +73,45 @@ class AddedEffects:
     cold_stiffness: float = 157.1
     added_friction: float = 0.0
     payload: float = 0.0
+    links: tuple[tuple[int, LinkEffects], ...] = ()
 
     def __post_init__(self) -> None:
         for field in fields(self):
+            if field.name == "links":
+                continue
             value = getattr(self, field.name)
             if not (math.isfinite(value) and value >= 0):
                 raise ValueError(f"{field.name} is {value}: give zero or a positive number")
+
+    def steel_kept(self, links: int) -> Array:
+        """Share of the stiffness of the steel springs that every link has, shape (link,).
+
+        Args:
+            links: Number of links of the fabric.
+        """
+        return self._of_links(links, 1.0, lambda own: 1.0 - own.steel_loss)
+
+    def coils_kept(self, links: int) -> Array:
+        """Share of the stiffness of its coils that every link has, shape (link,).
+
+        Args:
+            links: Number of links of the fabric.
+        """
+        return self._of_links(links, 1.0, lambda own: 1.0 - own.coil_loss)
+
+    def slide_frictions(self, links: int) -> Array:
+        """Dry friction in the slide of every link [N], shape (link,).
+
+        Args:
+            links: Number of links of the fabric.
+        """
+        return self._of_links(links, self.slide_friction, lambda own: self.slide_friction + own.slide_friction)
+
+    def _of_links(self, links: int, plain: float, own: Callable[[LinkEffects], float]) -> Array:
+        found = np.full(links, plain)
+        for number, effects in self.links:
+            found[number] = own(effects)
+        return found
 
     def rest_length(self, stiffness: Array, rest_length: Array) -> Array:
         """Length at which each coil begins to pull [m], shape (coil,).

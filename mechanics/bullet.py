@@ -18,7 +18,6 @@ from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.solver import SolverSettings
-from mechanics.springs import SteelSpring
 from mechanics.world import Contacts
 
 pybullet = load()
@@ -63,7 +62,6 @@ class World:
 
     def __init__(self, design: FabricDesign, layout: Layout, solver: SolverSettings, motion: Motion) -> None:
         self.design, self.layout, self.solver = design, layout, solver
-        self.steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
         self._motion = motion.copy()
         self._client = pybullet.connect(pybullet.DIRECT)
         if self._client < 0:
@@ -74,9 +72,11 @@ class World:
         self._bodies = [self._link(i, shapes, self._half) for i in range(design.links)]
         self._link_of = {body: link for link, body in enumerate(self._bodies)}
         sliding = np.flatnonzero(~layout.is_locked)
-        #: (body, its two coils) of every link whose slide is free.
-        self._sliding = [(self._bodies[i], 2 * int(i), 2 * int(i) + 1) for i in sliding]
+        #: (body, stiffness of both its steel springs [N/m], its two coils) of every link whose slide is free.
+        steel = 2 * design.steel_stiffness * design.added.steel_kept(design.links)
+        self._sliding = [(self._bodies[i], float(steel[i]), 2 * int(i), 2 * int(i) + 1) for i in sliding]
         self._slides = sliding
+        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
         self._free = np.flatnonzero(~layout.is_fixed)
         self._added = AddedForces(design, layout, self._client, self._bodies, sliding.tolist())
 
@@ -217,8 +217,8 @@ class World:
             rest_length: Shape (coil,) [m].
         """
         act = self._push if self.solver.springs == "force" else self._drive
-        k, r = stiffness.tolist(), self.design.added.rest_length(stiffness, rest_length).tolist()
-        links = [(body, k[i], r[i], k[j], r[j]) for body, i, j in self._sliding]
+        k, r = (self._coils_kept * stiffness).tolist(), self.design.added.rest_length(stiffness, rest_length).tolist()
+        links = [(body, steel, k[i], r[i], k[j], r[j]) for body, steel, i, j in self._sliding]
         step, client = pybullet.stepSimulation, self._client
         for _ in range(steps):
             act(links)
@@ -226,32 +226,32 @@ class World:
                 self._added.push()
             step(client)
 
-    def _opening_force(self, slide: float, k0: float, r0: float, k1: float, r1: float) -> float:
+    def _opening_force(self, slide: float, steel: float, k0: float, r0: float, k1: float, r1: float) -> float:
         """Force of both arms' springs that lengthens a link [N]: two steel coils push, NiTi coils 0 and 1 pull."""
-        length, steel = self.design.length_cold + slide * _PER_UNIT, self.steel
-        force = 2 * steel.stiffness * (steel.rest_length - length) if length < steel.rest_length else 0.0
+        length, rest = self.design.length_cold + slide * _PER_UNIT, self.design.steel_rest_length
+        force = steel * (rest - length) if length < rest else 0.0
         if length > r0:
             force -= k0 * (length - r0)
         if length > r1:
             force -= k1 * (length - r1)
         return force
 
-    def _push(self, links: list[tuple[int, float, float, float, float]]) -> None:
+    def _push(self, links: list[tuple[int, float, float, float, float, float]]) -> None:
         """Springs as joint forces."""
         client, get, put, torque = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _TORQUE
-        for body, k0, r0, k1, r1 in links:
-            force = self._opening_force(get(body, 0, client)[0], k0, r0, k1, r1)
+        for body, steel, k0, r0, k1, r1 in links:
+            force = self._opening_force(get(body, 0, client)[0], steel, k0, r0, k1, r1)
             put(body, 0, torque, force=SCALE * force, physicsClientId=client)
 
-    def _drive(self, links: list[tuple[int, float, float, float, float]]) -> None:
+    def _drive(self, links: list[tuple[int, float, float, float, float, float]]) -> None:
         """Springs as bounded joint motors; see the class."""
         client, get, put, motor = self._client, pybullet.getJointState, pybullet.setJointMotorControl2, _MOTOR
         shortest = SCALE * (self.design.bar_distance_hot - self.design.bar_distance_cold)
         per_step, slowly = 1.0 / self.solver.micro_step, 1.0 / STOP_CORRECTION_TIME
         impact = self._half.mass / 2 * per_step  # two halves of mass m move against each other like m / 2
-        for body, k0, r0, k1, r1 in links:
+        for body, steel, k0, r0, k1, r1 in links:
             slide, rate = get(body, 0, client)[:2]
-            force = self._opening_force(slide, k0, r0, k1, r1)
+            force = self._opening_force(slide, steel, k0, r0, k1, r1)
             if force > 0:
                 gap, bound = -slide, SCALE * force
                 is_inside, speed = gap > 0, rate

@@ -30,7 +30,7 @@ class AddedForces:
         self, design: FabricDesign, layout: Layout, client: int, bodies: Sequence[int], sliding: Sequence[int]
     ) -> None:
         self._client, added = client, design.added
-        self._material(design, [bodies[i] for i in range(design.links)], [bodies[i] for i in sliding])
+        self._material(design, bodies, sliding)
         per_row = design.links_per_row
         free = [i for i in range(design.links) if not layout.is_fixed[i]]
         #: (body, where it is held to, spring constant) of the wires, in Bullet's units; N/m is the same as kg/s^2.
@@ -46,23 +46,25 @@ class AddedForces:
 
     def _material(self, design: FabricDesign, bodies: Sequence[int], sliding: Sequence[int]) -> None:
         added, client = design.added, self._client
+        friction = added.slide_frictions(design.links)
         if added.hinge_friction:
             # Bullet adds the products of each body's rolling friction with the other's friction.
             rolling = SCALE * added.hinge_friction / (2 * math.sqrt(design.pair_friction))
-            for body in bodies:
+            for body in bodies[: design.links]:
                 for piece in (-1, 0):
                     pybullet.changeDynamics(body, piece, rollingFriction=rolling, physicsClientId=client)
-        for body in sliding:
+        for link in sliding:
+            body = bodies[link]
             if added.slide_damping:
                 pybullet.changeDynamics(body, 0, jointDamping=added.slide_damping, physicsClientId=client)
-            if added.slide_friction:
+            if friction[link]:
                 # A bounded motor that wants the slide to stand is Coulomb friction, solved with the contacts.
                 pybullet.setJointMotorControl2(
                     body,
                     0,
                     pybullet.VELOCITY_CONTROL,
                     targetVelocity=0.0,
-                    force=SCALE * added.slide_friction,
+                    force=SCALE * float(friction[link]),
                     physicsClientId=client,
                 )
 

@@ -76,7 +76,14 @@ class FabricDesign:
 
     def __post_init__(self) -> None:
         self._check_numbers()
+        self._check_links()
         self._check_weave()
+
+    def _check_links(self) -> None:
+        numbers = [link for link, _ in self.added.links]
+        for link in numbers:
+            if not 0 <= link < self.links or numbers.count(link) > 1:
+                raise ValueError(f"link {link + 1}: the fabric has links 1 to {self.links}, each at most once")
 
     def _check_numbers(self) -> None:
         for name in ("bar_diameter", "tolerance", "length_cold", "length_hot", "link_mass", "steel_rest_length"):

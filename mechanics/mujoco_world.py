@@ -18,7 +18,6 @@ from mechanics.fabric import FabricDesign, Layout
 from mechanics.half import Half, half
 from mechanics.motion import SCALE, Motion, rotation, woven
 from mechanics.solver import SolverSettings
-from mechanics.springs import SteelSpring
 from mechanics.world import Contacts, Divergence
 
 #: Time constant of a contact and of a stop [s]; MuJoCo wants at least two micro-steps.
@@ -79,9 +78,11 @@ class MujocoWorld:
         check_design(design, solver)
         self._mujoco = load_mujoco()
         self.design, self.layout, self.solver = design, layout, solver
-        self.steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
         self._half = half(design)
         self._motion = motion.copy()
+        self._steel = design.steel_stiffness * design.added.steel_kept(design.links)
+        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
+        self._friction = design.added.slide_frictions(design.links)
         self._free, self._slides = np.flatnonzero(~layout.is_fixed), np.flatnonzero(~layout.is_locked)
         self._model = self._mujoco.MjModel.from_xml_string(self._description())
         self._data = self._mujoco.MjData(self._model)
@@ -95,6 +96,7 @@ class MujocoWorld:
     def advance(self, steps: int, stiffness: Array, rest_length: Array) -> None:
         """See `mechanics.world.World`."""
         pulls_from = self.design.added.rest_length(stiffness, rest_length)
+        stiffness = self._coils_kept * stiffness
         nonlinear = self._set_springs(stiffness, pulls_from)
         if nonlinear.any() or self._ends.size:
             for _ in range(steps):
@@ -147,12 +149,13 @@ class MujocoWorld:
         coils, rest = stiffness.reshape(-1, 2)[links], pulls_from.reshape(-1, 2)[links]
         is_slack = (rest >= longest) | (coils == 0.0)
         is_linear = (is_slack | (rest <= shortest)).all(axis=1)
-        is_linear &= self.steel.rest_length >= longest or self.steel.rest_length <= shortest
-        pushing = 2 * self.steel.stiffness if self.steel.rest_length >= longest else 0.0
+        steel_rest = design.steel_rest_length
+        is_linear &= steel_rest >= longest or steel_rest <= shortest
+        pushing = 2 * self._steel[links] * (steel_rest >= longest)
         acting = np.where(is_slack, 0.0, coils)
         total = acting.sum(axis=1) + pushing
         # Where the forces of all springs balance, as a displacement of the slide.
-        moment = (acting * rest).sum(axis=1) + pushing * self.steel.rest_length
+        moment = (acting * rest).sum(axis=1) + pushing * steel_rest
         balance = np.divide(moment, total, out=np.zeros_like(total), where=total > 0.0) - design.length_cold
         self._model.jnt_stiffness[self._slide_joint] = np.where(is_linear, total, 0.0)
         self._model.qpos_spring[self._slide_position] = balance
@@ -164,7 +167,7 @@ class MujocoWorld:
         links = self._slides[chosen]
         length = self.design.length_cold + self._data.qpos[self._slide_position[chosen]]
         pull = stiffness.reshape(-1, 2)[links] * np.maximum(length[:, None] - pulls_from.reshape(-1, 2)[links], 0.0)
-        push = 2 * self.steel.stiffness * np.maximum(self.steel.rest_length - length, 0.0)
+        push = 2 * self._steel[links] * np.maximum(self.design.steel_rest_length - length, 0.0)
         self._data.qfrc_applied[self._slide_velocity[chosen]] = push - pull.sum(axis=1)
 
     def _check(self) -> None:
@@ -298,7 +301,7 @@ class MujocoWorld:
                 axis="0 1 0",
                 range=_text((shortest, 0.0)),
                 damping=repr(design.added.slide_damping),
-                frictionloss=repr(design.added.slide_friction),
+                frictionloss=repr(float(self._friction[link])),
             )
         self._solid(front, part, -1.0)
 

@@ -34,7 +34,9 @@ def coil_tension(stiffness: Array, extension: Array) -> Array:
     return np.asarray(stiffness * np.maximum(extension, 0.0))
 
 
-def spring_energy(stiffness: Array, extension: Array, length: Array, steel: SteelSpring) -> float:
+def spring_energy(
+    stiffness: Array, extension: Array, length: Array, steel: SteelSpring, kept: Array | float = 1.0
+) -> float:
     """Energy of all coils and steel springs [J].
 
     Args:
@@ -42,7 +44,8 @@ def spring_energy(stiffness: Array, extension: Array, length: Array, steel: Stee
         extension: Shape (coil,) [m].
         length: Shape (coil,), length of the arm's coil and steel spring [m].
         steel: The steel spring.
+        kept: Share of its stiffness that each arm's spring has, shape (coil,).
     """
     coils = 0.5 * stiffness * np.maximum(extension, 0.0) ** 2
     pushed = np.maximum(steel.rest_length - length, 0.0)
-    return float(np.sum(coils) + 0.5 * steel.stiffness * np.sum(pushed**2))
+    return float(np.sum(coils) + 0.5 * steel.stiffness * np.sum(kept * pushed**2))

@@ -114,6 +114,10 @@ class FabricUnit(Unit):
         self.coordinates: Mapping[str, Coordinate] = fabric_coordinates(design)
         self._store = ArrayStore(name, self.variables)
         self._layout = layout(design)
+        self._check_links()
+        #: Share of their stiffness that coils and steel springs have, shape (coil,): 1 but for links with effects.
+        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
+        self._steel_kept = np.repeat(design.added.steel_kept(design.links), 2)
         self._half = half(design)
         self._steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
         self._make_world = _engine(design, solver)
@@ -142,6 +146,16 @@ class FabricUnit(Unit):
     def _seat(self, motion: Motion) -> None:
         self.terminate()
         self._world = self._make_world(self.design, self._layout, self.solver, motion)
+
+    def _check_links(self) -> None:
+        for link, _ in self.design.added.links:
+            if not self._layout.is_locked[link]:
+                continue
+            first = int(np.flatnonzero(~self._layout.is_locked)[0])
+            raise ValueError(
+                f"link {link + 1} is held, and what is given of its slide does nothing: the first link that slides is "
+                f"link {first + 1}"
+            )
 
     def _check_inputs(self, time: int) -> None:
         for name in ("stiffness", "rest_length"):
@@ -237,7 +251,7 @@ class FabricUnit(Unit):
         length = np.repeat(put["link_length"], 2)
         put["extension"][...] = length - put["rest_length"]
         slack = length - self.design.added.rest_length(put["stiffness"], put["rest_length"])
-        put["tension"][...] = coil_tension(put["stiffness"], slack)
+        put["tension"][...] = coil_tension(self._coils_kept * put["stiffness"], slack)
         put["position"][...] = (back + front) / 2
         put["orientation"][...] = motion.orientation
         self._measure_shape(back, front, axes)
@@ -278,7 +292,7 @@ class FabricUnit(Unit):
         put["potential_energy"][...] = (
             -moving[0] @ (back_centre @ gravity)
             - moving[1] @ (front_centre @ gravity)
-            + spring_energy(put["stiffness"], slack, length, self._steel)
+            + spring_energy(self._coils_kept * put["stiffness"], slack, length, self._steel, self._steel_kept)
         )
 
     def _check_finite(self, motion: Motion, time: int) -> None:

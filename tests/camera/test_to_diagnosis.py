@@ -21,6 +21,13 @@ WITHOUT = [
     "backlash",
     "thermal_contraction",
     "payload",
+    "weak_steel",
+    "weak_coil",
+    "jammed_link",
+    "turned_camera",
+    "camera_scale",
+    "camera_origin",
+    "marker_elsewhere",
 ]
 
 

@@ -64,7 +64,9 @@ def test_every_effect_is_a_parameter_that_the_scenario_takes(found):
     for term in found.laws():
         point = Point(np.zeros(len(found.parameters)), {term: (term.parameters[0].starts[0],)})
         numbers = found.fabric_parameters(point, 0)
-        assert list(numbers) == [term.parameters[0].name]
+        name = term.parameters[0].name
+        place = found.link_places.get(term)
+        assert list(numbers) == ([name] if place is None else [f"{name}[{link}]" for link in place.links])
         amended = with_fabric(small(), **{n: f"{v.number!r} {v.unit}" for n, v in numbers.items()})
         assemble(amended).system.terminate()
 

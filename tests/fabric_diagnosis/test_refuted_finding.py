@@ -37,6 +37,13 @@ WITHOUT = [
     "thermal_contraction",
     "payload",
     "roll",
+    "weak_steel",
+    "weak_coil",
+    "jammed_link",
+    "turned_camera",
+    "camera_scale",
+    "camera_origin",
+    "marker_elsewhere",
 ]
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from cosim.scenario import Scenario
 from diagnosis.laws.library import library
-from diagnosis.models.fabric.laws import fabric_laws
+from diagnosis.models.fabric.camera import CAMERA_LAWS
+from diagnosis.models.fabric.laws import LINK_LAWS, fabric_laws
 from diagnosis.search.pendulum_terms import pendulum_laws
 from diagnosis.search.unit_law import UnitLaw
 
@@ -23,6 +24,6 @@ def laws_of(scenario: Scenario) -> list[UnitLaw]:
 
 
 def identifiers() -> set[str]:
-    """Of all laws of all kinds of component, and of the library for systems of FMUs."""
+    """Of all laws of all kinds of component, of links and cameras, and of the library for systems of FMUs."""
     own = {law.place.term.identifier for laws in LAWS.values() for law in laws("")}
-    return own | {law.identifier for law in library()}
+    return own | LINK_LAWS | CAMERA_LAWS | {law.identifier for law in library()}

@@ -31,6 +31,8 @@ class Binning:
         pieces = max(4, min(PIECES, MOST // max(len(self._channels), 1)))
         self._pieces = [_pieces(c, pieces) for c in self._channels]
         self.plain_names = [c.name for c in self._channels]
+        #: What each channel measures, and the number of its recording.
+        self.targets, self.recordings = [c.target for c in self._channels], number_of
         named = labels(recordings)
         self.names = [
             c.name if len(recordings) == 1 else f"{c.name} ({named[n]})" for c, n in zip(self._channels, number_of)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from diagnosis.search.cosim_model import ComponentTerm
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.unit_law import UnitLaw
+from mechanics.fabric import Layout
 
 
 @dataclass(frozen=True)
@@ -28,9 +31,15 @@ _LOAD = "a known weight on the last row decides"
 FIRST = 0.3
 
 
-def _number(name: str, unit: str, lower: float, upper: float, most: float, why: str, meaning: str) -> TermParameter:
+#: The same of an effect of one link: a spring that is a third weaker moves less than contacts scatter.
+SHARE = 0.6
+
+
+def _number(
+    name: str, unit: str, lower: float, upper: float, most: float, why: str, meaning: str, first: float = FIRST
+) -> TermParameter:
     """The number of an effect, tried at one share of the largest size that is believed, and of either sign."""
-    starts = (FIRST * most, -FIRST * most) if lower < 0.0 else (FIRST * most,)
+    starts = (first * most, -first * most) if lower < 0.0 else (first * most,)
     return TermParameter(name, unit, lower, upper, starts, plausible=most, plausible_reason=why, meaning=meaning)
 
 
@@ -167,8 +176,113 @@ _LAWS = (
 )
 
 
+@dataclass(frozen=True)
+class _LinkLaw:
+    """An effect of one link, or of all free links of a row."""
+
+    identifier: str
+    name: str
+    law: str
+    parameter: TermParameter
+    confused_with: Mapping[str, str]
+
+
+_ONE_LINK = "the lengths of single links decide"
+_LINK_LAWS = (
+    _LinkLaw(
+        "weak_steel",
+        "weak steel springs",
+        "stiffness = (1 - steel_loss) * steel_stiffness",
+        _number(
+            "steel_loss",
+            "1",
+            0.0,
+            1.0,
+            1.0,
+            "springs that are left out",
+            "share of the stiffness of the steel springs that is missing",
+            SHARE,
+        ),
+        {"weak_coil": "never told apart from stronger coils: the two balance", "base:steel_stiffness": _ONE_LINK},
+    ),
+    _LinkLaw(
+        "weak_coil",
+        "weak coils, or coils that are not heated",
+        "stiffness = (1 - coil_loss) * coil_stiffness",
+        _number(
+            "coil_loss",
+            "1",
+            0.0,
+            1.0,
+            1.0,
+            "coils that are broken",
+            "share of the stiffness of the coils that is missing",
+            SHARE,
+        ),
+        {"jammed_link": _HOT, "weak_steel": _ONE_LINK},
+    ),
+    _LinkLaw(
+        "jammed_link",
+        "a slide that jams",
+        "force = -slide_friction * sign(slide_rate)",
+        _number(
+            "slide_friction",
+            "N",
+            0.0,
+            40.0,
+            40.0,
+            "more than all springs of a link can push",
+            "force that friction holds in the slide",
+            SHARE,
+        ),
+        {"weak_coil": _HOT, "slide_friction": _ONE_LINK},
+    ),
+)
+
+#: Identifiers of what single links and rows may have.
+LINK_LAWS = frozenset(law.identifier for law in _LINK_LAWS)
+
+
+@dataclass(frozen=True)
+class LinkPlace:
+    """Links that an effect acts in.
+
+    Args:
+        label: For people.
+        links: Their numbers, from 1.
+        row: Number of the row, from 1.
+        is_row: Whether they are all free links of the row.
+    """
+
+    label: str
+    links: tuple[int, ...]
+    row: int
+    is_row: bool
+
+
+def link_places(component: str, layout: Layout) -> list[LinkPlace]:
+    """Every row with links that slide, then every such link.
+
+    A row with one of them is no place of its own.
+
+    Args:
+        component: Name of the fabric in the scenario.
+        layout: Its links.
+    """
+    sliding = [int(i) for i in np.flatnonzero(~layout.is_locked)]
+    rows: dict[int, list[int]] = {}
+    for link in sliding:
+        rows.setdefault(int(layout.row[link]) + 1, []).append(link + 1)
+    found = [LinkPlace(f"{component}, row {r}", tuple(own), r, True) for r, own in rows.items() if len(own) > 1]
+    for link in sliding:
+        row, place = int(layout.row[link]) + 1, int(layout.link_in_row[link]) + 1
+        label = f"{component}, link {link + 1} (row {row}, place {place})"
+        found.append(LinkPlace(label, (link + 1,), row, False))
+    return found
+
+
 def fabric_laws(component: str) -> list[UnitLaw]:
-    """Laws of a component of kind `bullet_fabric`.
+    """Laws of all links of a component of kind `bullet_fabric`.
 
     Args:
         component: Its name in the scenario.
@@ -186,3 +300,20 @@ def fabric_laws(component: str) -> list[UnitLaw]:
         )
         for law in _LAWS
     ]
+
+
+def link_laws(component: str, places: Sequence[LinkPlace]) -> dict[Term, tuple[UnitLaw, LinkPlace]]:
+    """Laws of single links and rows, with where each acts.
+
+    Args:
+        component: Name of the fabric in the scenario.
+        places: See `link_places`.
+    """
+    found = {}
+    for place in places:
+        for law in _LINK_LAWS:
+            term = Term(law.identifier, place.label, "mechanical", (law.parameter,), law=law.law)
+            names = tuple(f"{law.parameter.name}[{link}]" for link in place.links)
+            own = UnitLaw(ComponentTerm(term, component, names), law.name, "mechanics/added.py", law.confused_with)
+            found[term] = own, place
+    return found

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.fabric.camera import Camera
 from diagnosis.models.fabric.scatter import Bins, Whitening, calibrated_scatter
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Layout, Parameter, Point, Term
@@ -22,6 +23,7 @@ class MechanicalModel:
         bins: What each bin is.
         members: Ensemble about the anchor, shape (members, bins): its scatter counts as noise.
         names: Names of the channels.
+        camera: What is seen of the bins; None: they are read as they are.
     """
 
     def __init__(
@@ -32,7 +34,9 @@ class MechanicalModel:
         bins: Bins,
         members: Array,
         names: Sequence[str],
+        camera: Camera | None = None,
     ) -> None:
+        self.camera = camera
         self.parameters, self.surface, self.measured, self.bins, self.members = (
             parameters,
             surface,
@@ -46,18 +50,32 @@ class MechanicalModel:
 
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""
-        return self._whiten(self.measured - self.surface.bins(points, [p.base for p in points]))
+        bins = self.surface.bins(points, [p.base for p in points])
+        return self._whiten(self.measured - np.array([self._seen(row, p) for row, p in zip(bins, points)]))
+
+    def _seen(self, bins: Array, point: Point) -> Array:
+        return bins if self.camera is None else self.camera.seen(bins, point.terms)
 
     def base_jacobian(self, point: Point) -> Array:
         """See `diagnosis.search.problem.Model`."""
-        return -self._whiten(self.surface.slopes).T if len(self.parameters) else np.zeros((len(self.measured), 0))
+        if not len(self.parameters):
+            return np.zeros((len(self.measured), 0))
+        nothing = self._seen(np.zeros_like(self.measured), point)
+        return -self._whiten(np.array([self._seen(row, point) - nothing for row in self.surface.slopes])).T
 
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """See `diagnosis.search.problem.strength_slopes`; not finite where a term could not be simulated."""
         found = np.full((len(tasks), len(self.measured)), np.inf)
+        here = self.surface.bins([point], [point.base])[0]
+        seen = self._seen(here, point)
         for row, (term, values) in zip(found, tasks):
             if self.surface.knows(term):
-                row[:] = -self._whiten(self.surface.effect(term, values[0])) / values[0]
+                change = self._seen(here + self.surface.effect(term, values[0]), point) - seen
+            elif self.camera is not None and term in self.camera.terms:
+                change = self._seen(here, point.plus(term, values)) - seen
+            else:
+                continue
+            row[:] = -self._whiten(change) / values[0]
         return found
 
     def groups(self) -> Mapping[str, AnyArray]:
@@ -70,7 +88,7 @@ class MechanicalModel:
         noise = self.bins.noise * np.random.default_rng([seed, number]).standard_normal(len(self.measured))
         surface = self.surface.with_mean(others.mean(axis=0), self.surface.anchor)
         measured = self.members[number] + noise
-        return MechanicalModel(self.parameters, surface, measured, self.bins, others, self.layout.names)
+        return MechanicalModel(self.parameters, surface, measured, self.bins, others, self.layout.names, self.camera)
 
     def scatter_deviation(self) -> Array:
         """Standard deviation of scatter in each bin, shape (bins,)."""

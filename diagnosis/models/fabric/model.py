@@ -20,9 +20,10 @@ from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
 from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
 from diagnosis.models.fabric.bins import Binning
-from diagnosis.models.fabric.laws import fabric_laws
+from diagnosis.models.fabric.camera import Camera, CameraLaw
+from diagnosis.models.fabric.laws import LinkPlace, fabric_laws, link_laws, link_places
 from diagnosis.models.fabric.mechanical import MechanicalModel
-from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_of
+from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_layout, fabric_of
 from diagnosis.models.fabric.search import search_fabric
 from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
@@ -83,10 +84,20 @@ class FabricModel(ModelBase):
         self.fabric_runs = self._simulations(scenario)
         self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
         self._numbers = Numbers(scenario)
-        self._laws = {u.place.term: u for u in fabric_laws(name) if u.place.term.identifier not in without}
+        self._laws: dict[Term, UnitLaw] = {u.place.term: u for u in fabric_laws(name)}
+        of_links = link_laws(name, link_places(name, fabric_layout(scenario, name)))
+        #: Terms of rows and links to where they act.
+        self.link_places: Mapping[Term, LinkPlace] = {t: place for t, (_, place) in of_links.items()}
+        self._laws |= {t: law for t, (law, _) in of_links.items()}
+        self._laws = {t: law for t, law in self._laws.items() if t.identifier not in without}
         own_parameters = [f.parameter for f in self.free]
         self.parameters: Sequence[Parameter] = [*(self.network.parameters if self.network else ()), *own_parameters]
         self.binning = Binning(self.mechanical_recordings)
+        self.camera = Camera(
+            self.binning.targets, self.binning.bins.channel, self.binning.bins.time, self.binning.recordings
+        )
+        self._camera_terms = {t: own for t, own in self.camera.terms.items() if t.identifier not in without}
+        self._cameras = [_camera_of(r) for r in self.mechanical_recordings]
         self._mechanical: MechanicalModel | None = None
         #: What each residual belongs to, those of the coil network first; known once it is prepared.
         self.layout = Layout(np.zeros(0), np.zeros(0), (), ())
@@ -176,11 +187,14 @@ class FabricModel(ModelBase):
 
     def network_point(self, point: Point) -> Point:
         """What of a point belongs to the coil network."""
-        return Point(point.base[: self.first_own], {t: v for t, v in point.terms.items() if t not in self._laws})
+        return Point(point.base[: self.first_own], {t: v for t, v in point.terms.items() if not self._is_own(t)})
+
+    def _is_own(self, term: Term) -> bool:
+        return term in self._laws or term in self._camera_terms
 
     def own_point(self, point: Point) -> Point:
         """What of a point belongs to the fabric."""
-        return Point(point.base[self.first_own :], {t: v for t, v in point.terms.items() if t in self._laws})
+        return Point(point.base[self.first_own :], {t: v for t, v in point.terms.items() if self._is_own(t)})
 
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""
@@ -202,8 +216,8 @@ class FabricModel(ModelBase):
 
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
         """See `diagnosis.search.problem.strength_slopes`."""
-        own = [i for i, (term, _) in enumerate(tasks) if term in self._laws]
-        others = [i for i, (term, _) in enumerate(tasks) if term not in self._laws]
+        own = [i for i, (term, _) in enumerate(tasks) if self._is_own(term)]
+        others = [i for i, (term, _) in enumerate(tasks) if not self._is_own(term)]
         count = len(self.prepared.measured)
         first = len(self.network.layout.time) if self.network else 0
         found = np.zeros((len(tasks), first + count))
@@ -213,23 +227,29 @@ class FabricModel(ModelBase):
         return found
 
     def laws(self) -> list[Term]:
-        """Effects of the fabric alone."""
+        """Effects of the fabric alone, which are simulated: those of all links, of rows, of single links."""
         return list(self._laws)
+
+    def camera_terms(self) -> list[Term]:
+        """What the camera may do to places: known without a simulation."""
+        return list(self._camera_terms)
 
     def terms(self) -> list[Term]:
         """Every law that may be missing, at every place."""
-        return [*(self.network.terms() if self.network else ()), *self._laws]
+        return [*(self.network.terms() if self.network else ()), *self._laws, *self._camera_terms]
 
-    def where(self, term: Term) -> tuple[UnitLaw | CandidateTerm, Labelled | Place]:
+    def where(self, term: Term) -> tuple[UnitLaw | CameraLaw | CandidateTerm, Labelled | Place]:
         """Effect and place of a term."""
         if term in self._laws:
-            return self._laws[term], Labelled(self.component)
+            return self._laws[term], Labelled(term.place)
+        if term in self._camera_terms:
+            return self._camera_terms[term]
         assert self.network is not None
         return self.network.where(term)
 
     def shows_in(self, term: Term) -> tuple[Sequence[int], bool] | None:
         """See `diagnosis.search.focus.Local`."""
-        return None if term in self._laws or self.network is None else self.network.shows_in(term)
+        return None if self._is_own(term) or self.network is None else self.network.shows_in(term)
 
     def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         """See `DiagnosisModel`: masses are taken as given."""
@@ -253,7 +273,11 @@ class FabricModel(ModelBase):
             if free.belongs_to(number) and z:
                 found[free.name] = PhysicalValue(free.parameter.value(float(z)), free.parameter.unit)
         for term, values in own.terms.items():
-            found.update(with_law(self._numbers, self._laws[term].place, values, found))
+            if term not in self._laws:  # what the camera does moves nothing
+                continue
+            law = self._laws[term].place
+            for name in law.names:
+                found.update(with_law(self._numbers, replace(law, names=(name,)), values, found))
         if start:
             found["start_number"] = PhysicalValue(float(start), "1")
             if not self._has_speed:
@@ -282,7 +306,10 @@ class FabricModel(ModelBase):
         first = list(self.network.predict(own, run)) if self.network else []
         found = self.fabric_runs.make([(run, self.fabric_parameters(point, run), own)])[0]
         channels = self.mechanical_recordings[run].channels.values()
-        return [*first, *(found if found is not None else [np.full(len(c.times), np.inf) for c in channels])]
+        if found is None:
+            return [*first, *(np.full(len(c.times), np.inf) for c in channels)]
+        seen = self._cameras[run].seen(np.concatenate(found), point.terms)
+        return [*first, *np.split(seen, np.cumsum([len(v) for v in found])[:-1])]
 
     @property
     def has_scatter(self) -> bool:
@@ -316,6 +343,15 @@ class FabricModel(ModelBase):
     def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
         """Asked of its coils: it is not fitted where it judges, and what has an instant or a day belongs to them."""
         return self.network is not None and self.network.is_moved_by(term, values)
+
+
+def _camera_of(recording: Recording) -> Camera:
+    """What is seen of the samples of a recording, channel after channel."""
+    channels = list(recording.channels.values())
+    number = np.repeat(np.arange(len(channels)), [len(c.times) for c in channels])
+    return Camera(
+        [c.target for c in channels], number, np.concatenate([c.times for c in channels]), [0] * len(channels)
+    )
 
 
 def _network(

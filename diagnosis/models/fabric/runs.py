@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -13,8 +14,11 @@ from cosim.assemble import assemble
 from cosim.components import CircuitComponent, FabricComponent, nanoseconds
 from cosim.compute.batch import Batches
 from cosim.compute.result import Task
+from cosim.mechanics_assembly import build_fabric
+from cosim.parameters import resolve
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
 from diagnosis.models.coil_network.model import CoilNetworkModel
@@ -23,6 +27,7 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_run import Changes, Setting, setting, simulate
 from diagnosis.search.problem import Point
+from mechanics.fabric import Layout, layout
 
 #: Kinds of channels that a fabric gives; all others belong to circuit and coils.
 _KINDS = frozenset({"link", "marker", "fabric"})
@@ -33,6 +38,26 @@ def fabric_of(scenario: Scenario) -> str | None:
     """Name of the fabric of a scenario; None where it has none, or several."""
     names = [n for n, c in scenario.components.items() if isinstance(c, FabricComponent)]
     return names[0] if len(names) == 1 else None
+
+
+def fabric_layout(scenario: Scenario, component: str) -> Layout:
+    """Links of a fabric, and which of them are held.
+
+    Args:
+        scenario: The scenario.
+        component: Name of the fabric.
+
+    Raises:
+        InputError: A parameter of the fabric is wrong.
+    """
+    own = scenario.components[component]
+    assert isinstance(own, FabricComponent)
+    values = resolve(own.parameter_set, own.parameters, scenario.path or Path("scenario.yaml"))
+    try:
+        unit = build_fabric(component, own, values)
+    except ValueError as error:
+        raise InputError(scenario.path or "scenario", f"components.{component}.parameters", str(error), "") from error
+    return layout(unit.design)
 
 
 def divided(recording: Recording, component: str) -> tuple[Recording, Recording]:

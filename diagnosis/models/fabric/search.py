@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 4, 40.0
+#: Rows whose links are simulated one by one.
+ROWS = 2
 
 
 @dataclass(frozen=True)
@@ -32,17 +34,20 @@ class Effort:
         repeats: Starts of every effect.
         confirmed: Starts at the point found.
         hopeful: Effects that are simulated again where they were fitted.
+        has_links: Whether effects of single links are simulated at once; else those of the links of a row whose own
+            effect is hopeful.
     """
 
     ensemble: int
     repeats: int
     confirmed: int
     hopeful: int = HOPEFUL
+    has_links: bool = False
 
 
 #: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth. An effort
 #: of 10,000 takes about a second of one core. It stands for the time, so that a result does not depend on the machine.
-EFFORTS = ((45e3, Effort(8, 3, 6)), (110e3, Effort(6, 2, 5)), (float("inf"), Effort(6, 1, 4)))
+EFFORTS = ((45e3, Effort(8, 3, 6, has_links=True)), (110e3, Effort(6, 2, 5)), (float("inf"), Effort(6, 1, 4)))
 #: A strength this close to one that was simulated needs no other simulation.
 NEAR = 0.15
 
@@ -78,6 +83,8 @@ def search_fabric(
     margin = plan.margin()
     own = replace(settings, floor=max(settings.floor, margin))
     outcome = plan.search(own)
+    if plan.narrow(outcome):
+        outcome = plan.search(own)
     if plan.sharpen(outcome):
         outcome = plan.search(own)
     plan.confirm(outcome)
@@ -95,10 +102,16 @@ class _Plan:
         self._network_point = Point(np.zeros(model.first_own))
         self._size, self._repeats, self._confirmed = effort.ensemble, effort.repeats, effort.confirmed
         self._hopeful = effort.hopeful
-        effects = len(model.free) + sum(len(t.parameters[0].starts) for t in model.laws())
+        self._first = [t for t in model.laws() if effort.has_links or self._is_wide(t)]
+        effects = len(model.free) + sum(len(t.parameters[0].starts) for t in self._first)
         self._sharpened = self._confirmed if self._repeats > 1 else 1
         once = self._size + self._repeats * effects + self._hopeful * self._sharpened + self._confirmed
         self._left = self._count * once
+
+    def _is_wide(self, term: Term) -> bool:
+        """Whether an effect acts in more than one link."""
+        place = self.model.link_places.get(term)
+        return place is None or place.is_row
 
     def _enter(self, stage: str, simulations: int) -> None:
         """A stage that makes so many simulations for each recording."""
@@ -131,8 +144,8 @@ class _Plan:
 
     def answers(self) -> None:
         """One simulation of every parameter and of every start value of every effect."""
-        model, count = self.model, len(self.model.free)
-        tasks = [(t, s) for t in model.laws() for s in t.parameters[0].starts]
+        count = len(self.model.free)
+        tasks = [(t, s) for t in self._first for s in t.parameters[0].starts]
         self._enter("mechanical effects", self._repeats * (count + len(tasks)))
         points = [self._point(np.eye(count)[i]) for i in range(count)]
         points += [self._point(np.zeros(count), {t: (s,)}) for t, s in tasks]
@@ -160,14 +173,16 @@ class _Plan:
         model = self.model
         binning, parameters = model.binning, [f.parameter for f in model.free]
         model.prepare(
-            MechanicalModel(parameters, self.surface, binning.measured(), binning.bins, members, binning.names)
+            MechanicalModel(
+                parameters, self.surface, binning.measured(), binning.bins, members, binning.names, model.camera
+            )
         )
 
     def margin(self) -> float:
         """Largest gain that the search finds in any member of the ensemble, which lacks nothing."""
         self._tell("the same search on nulls")
         whole, gains = self.model.prepared, [0.0]
-        known = [t for t in self.model.laws() if self.surface.knows(t)]
+        known = [t for t in self.model.laws() if self.surface.knows(t)] + self.model.camera_terms()
         once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
         for number in range(len(self._members) if len(self._members) > FEWEST else 0):
             null = whole.without_member(number, self.settings.seed)
@@ -181,6 +196,30 @@ class _Plan:
         unknown = {t for t in model.laws() if not self.surface.knows(t)}
         terms = [t for t in model.terms() if t not in unknown]
         return search(model, terms, settings, model.groups(), self._tell)
+
+    def narrow(self, outcome: Outcome) -> bool:
+        """Simulate an effect in every link of the row in which it is hopeful; whether any was."""
+        places = self.model.link_places
+        near = [e for e in outcome.rivals if e.fit.cost < outcome.rivals[0].fit.cost + BEHIND]
+        rows = [t for e in [outcome.best, *near] for t in e.terms if t in places and places[t].is_row]
+        chosen = list(dict.fromkeys(rows))[:ROWS]
+        tasks = [
+            t
+            for t in self.model.laws()
+            if not self.surface.knows(t)
+            and any(t.identifier == r.identifier and places[t].row == places[r].row for r in chosen)
+        ]
+        if not tasks:
+            return False
+        self._left += self._count * self._repeats * len(tasks)
+        self._enter("the same in single links", self._repeats * len(tasks))
+        found = self._means(
+            [self._point(np.zeros(len(self.model.free)), {t: t.parameters[0].starts[:1]}) for t in tasks], self._repeats
+        )
+        for term, bins in zip(tasks, found):
+            if bins is not None:
+                self.surface.add(term, term.parameters[0].starts[0], bins, np.zeros(len(self.model.free)))
+        return True
 
     def sharpen(self, outcome: Outcome) -> bool:
         """Simulate hopeful effects where they were fitted; whether any was."""
@@ -219,7 +258,8 @@ class _Plan:
         mean = members.mean(axis=0)
         predicted = self.surface.bins([point], [point.base])[0]
         about = np.concatenate([self._members - self._members.mean(axis=0), members - mean])
-        strongest = max(point.terms, key=lambda t: outcome.best.gains.get(t, 0.0), default=None)
+        simulated = [t for t in point.terms if self.surface.knows(t)]
+        strongest = max(simulated, key=lambda t: outcome.best.gains.get(t, 0.0), default=None)
         if strongest is None:
             self.surface = self.surface.with_mean(mean, point.base)
         elif abs(point.terms[strongest][0]) > 0:
