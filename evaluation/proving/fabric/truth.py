@@ -32,10 +32,13 @@ class Specimen:
         steel: Spring constant of the compression springs [N/m].
         steel_rest: Their unloaded length [m].
         coil: Spring constant of the cold coils [N/m].
+        heating: Times [s] and factors of the spring constant of the coils, straight between them; empty: 1.
+        rows: Of the fabric.
         coil_rest: Their unloaded length [m].
         offset: Distance of the bars less the length of the springs [m].
         effects: What acts besides, by name, in SI.
         at_link: Number of the link that a local effect sits in.
+        at_row: Number of the row that it sits in, where it is all links of a row.
     """
 
     measures: Measures = field(default_factory=Measures)
@@ -44,14 +47,33 @@ class Specimen:
     steel: float = 150.0
     steel_rest: float = 58.5e-3
     coil: float = 157.1
+    heating: tuple[tuple[float, float], ...] = ()
+    rows: int = ROWS
     coil_rest: float = 9.4e-3
     offset: float = 0.85e-3
     effects: Mapping[str, float] = field(default_factory=dict)
     at_link: int = -1
+    at_row: int = -1
 
     def of(self, name: str) -> float:
         """Strength of an effect; 0 where it does not act."""
         return self.effects.get(name, 0.0)
+
+    def coil_at(self, time: float, is_local: bool) -> float:
+        """Spring constant of a coil [N/m].
+
+        Args:
+            time: Since the start [s].
+            is_local: Whether it sits in the link, or the row, of a local effect.
+        """
+        factor = 1.0
+        if self.heating:
+            times, factors = zip(*self.heating)
+            factor = float(np.interp(time, times, factors))
+        if is_local:
+            factor = 1.0 + (1.0 - self.of("unheated_coil")) * (factor - 1.0)
+            factor *= 1.0 - self.of("weak_coil")
+        return self.coil * factor
 
 
 def drape(specimen: Specimen, stop: float, interval: float, rng: np.random.Generator) -> Array:
@@ -79,7 +101,8 @@ class _Bench:
 
     def __init__(self, engine: Any, client: int, specimen: Specimen, rng: np.random.Generator) -> None:
         self._engine, self._client, self._specimen = engine, client, specimen
-        self._links = weave(specimen.measures, ROWS, COLUMNS, HELD)
+        self._time = 0.0
+        self._links = weave(specimen.measures, specimen.rows, COLUMNS, HELD)
         engine.setPhysicsEngineParameter(
             fixedTimeStep=STEP,
             numSolverIterations=ITERATIONS,
@@ -193,6 +216,7 @@ class _Bench:
         for _ in range(round(stop / interval)):
             for _ in range(between):
                 self._push()
+                self._time += STEP
                 self._engine.stepSimulation(self._client)
             found.append(self._markers())
         return np.array(found)
@@ -200,13 +224,13 @@ class _Bench:
     def _push(self) -> None:
         """Springs, dry friction of slides and a payload."""
         engine, specimen, client = self._engine, self._specimen, self._client
-        last = [n for n in self._free if self._links[n].row == ROWS - 1]
+        last = [n for n in self._free if self._links[n].row == specimen.rows - 1]
         for n in self._free:
             body = self._bodies[n]
             length = specimen.measures.cold - specimen.offset + engine.getJointState(body, 0, client)[0] / _CM
-            is_local = n == specimen.at_link
+            is_local = n == specimen.at_link or self._links[n].row == specimen.at_row
             steel = specimen.steel * (1.0 - specimen.of("weak_steel") * is_local)
-            pull = specimen.coil * max(length - specimen.coil_rest, 0.0)
+            pull = specimen.coil_at(self._time, is_local) * max(length - specimen.coil_rest, 0.0)
             force = 2.0 * (steel * max(specimen.steel_rest - length, 0.0) - pull)
             engine.setJointMotorControl2(body, 0, engine.TORQUE_CONTROL, force=_CM * force, physicsClientId=client)
             dry = specimen.of("slide_friction") + specimen.of("jammed_link") * is_local
