@@ -18,7 +18,16 @@ from typing import Any
 import numpy as np
 
 from evaluation.command import run_cosim
-from evaluation.strangers import fifth_set, first_set, fourth_set, second_set, seventh_set, sixth_set, third_set
+from evaluation.strangers import (
+    eighth_set,
+    fifth_set,
+    first_set,
+    fourth_set,
+    second_set,
+    seventh_set,
+    sixth_set,
+    third_set,
+)
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
 
@@ -30,6 +39,7 @@ SETS = {
     "fifth": fifth_set.CASES,
     "sixth": sixth_set.CASES,
     "seventh": seventh_set.CASES,
+    "eighth": eighth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")

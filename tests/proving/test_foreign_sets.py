@@ -14,14 +14,15 @@ from cosim.run import run
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
 from evaluation.fmus.model import OdeModel
-from evaluation.strangers import fifth_set, seventh_set, sixth_set
+from evaluation.strangers import eighth_set, fifth_set, seventh_set, sixth_set
 from evaluation.strangers.__main__ import SETS, make
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import FINE, Truth
 
 
 @pytest.mark.parametrize(
-    ("key", "cases", "nulls", "pairs"), [("fifth", 27, 7, 3), ("sixth", 25, 7, 2), ("seventh", 26, 8, 2)]
+    ("key", "cases", "nulls", "pairs"),
+    [("fifth", 27, 7, 3), ("sixth", 25, 7, 2), ("seventh", 26, 8, 2), ("eighth", 25, 7, 2)],
 )
 def test_set_has_nulls_effects_and_faults_under_names_of_their_own(
     key: str, cases: int, nulls: int, pairs: int
@@ -34,7 +35,9 @@ def test_set_has_nulls_effects_and_faults_under_names_of_their_own(
     assert sum(name.endswith("_two") for name in names) == pairs
 
 
-@pytest.mark.parametrize("case", [fifth_set.pan_steam, sixth_set.surge_throttle, seventh_set.heli_pivot])
+@pytest.mark.parametrize(
+    "case", [fifth_set.pan_steam, sixth_set.surge_throttle, seventh_set.heli_pivot, eighth_set.muffler_jet]
+)
 def test_draw_is_that_of_its_seed(case: Callable[[Path, Rng], Truth], tmp_path: Path) -> None:
     for folder, seed in (("a", 5), ("b", 5), ("c", 6)):
         make(case, tmp_path / folder, seed)
@@ -70,6 +73,9 @@ RIGS = (
     (seventh_set, "heli_pivot", "arm.rate", "gyro_dps", degrees, 2.0, 0.1),
     (seventh_set, "boost_diode", "rig.voltage", "U_out", kept, 0.1, 0.01),
     (seventh_set, "syringe_tubing", "line.pressure", "p_mbar", millibar, 1.0, 0.1),
+    (eighth_set, "mirror_film", "mirror.angle", "psd_deg", degrees, 0.06, 0.01),
+    (eighth_set, "muffler_jet", "muffler.second", "mic2_Pa", kept, 2.5, 0.1),
+    (eighth_set, "dye_shade", "loop.cell", "c_cell", grams, 0.12, 0.02),
 )
 
 
