@@ -49,7 +49,7 @@ FABRIC_UNITS = {
 #: Those of them that are effects which a plain fabric leaves out.
 _ADDED = frozenset(field.name for field in fields(AddedEffects)) - {"links"}
 #: SI unit of what one link may have besides, given as `name[number of the link]`.
-LINK_UNITS = {"steel_loss": "1", "coil_loss": "1", "slide_friction": "N"}
+LINK_UNITS = {"steel_loss": "1", "coil_loss": "1", "heat_loss": "1", "slide_friction": "N"}
 _OF_A_LINK = re.compile(r"(\w+)\[(\d+)\]")
 
 #: The same of a pendulum.

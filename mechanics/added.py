@@ -18,6 +18,7 @@ class LinkEffects:
     Args:
         steel_loss: Share of the stiffness of both steel springs that is missing: 1 where they are left out.
         coil_loss: Share of the stiffness of both coils that is missing: 0.5 where one of them is broken.
+        heat_loss: Share that is missing of the stiffness of both coils beyond `cold_stiffness`: 1 where they stay cold.
         slide_friction: Dry friction in its slide beyond that of every slide [N]: a link that jams has much.
 
     Raises:
@@ -26,10 +27,11 @@ class LinkEffects:
 
     steel_loss: float = 0.0
     coil_loss: float = 0.0
+    heat_loss: float = 0.0
     slide_friction: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("steel_loss", "coil_loss"):
+        for name in ("steel_loss", "coil_loss", "heat_loss"):
             value = getattr(self, name)
             if not 0.0 <= value <= 1.0:
                 raise ValueError(f"{name} of a link is {value}: give a share from 0 to 1")
@@ -91,13 +93,18 @@ class AddedEffects:
         """
         return self._of_links(links, 1.0, lambda own: 1.0 - own.steel_loss)
 
-    def coils_kept(self, links: int) -> Array:
-        """Share of the stiffness of its coils that every link has, shape (link,).
+    def coil_stiffness(self, stiffness: Array) -> Array:
+        """Stiffness of every coil with what its link lacks [N/m], shape (coil,).
 
         Args:
-            links: Number of links of the fabric.
+            stiffness: As the actuator gives it, shape (coil,) [N/m].
         """
-        return self._of_links(links, 1.0, lambda own: 1.0 - own.coil_loss)
+        if not self.links:
+            return stiffness
+        links = len(stiffness) // 2
+        kept = np.repeat(self._of_links(links, 1.0, lambda own: 1.0 - own.coil_loss), 2)
+        cold = np.repeat(self._of_links(links, 0.0, lambda own: own.heat_loss), 2)
+        return np.asarray(kept * (stiffness - cold * np.maximum(stiffness - self.cold_stiffness, 0.0)))
 
     def slide_frictions(self, links: int) -> Array:
         """Dry friction in the slide of every link [N], shape (link,).

@@ -76,7 +76,6 @@ class World:
         steel = 2 * design.steel_stiffness * design.added.steel_kept(design.links)
         self._sliding = [(self._bodies[i], float(steel[i]), 2 * int(i), 2 * int(i) + 1) for i in sliding]
         self._slides = sliding
-        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
         self._free = np.flatnonzero(~layout.is_fixed)
         self._added = AddedForces(design, layout, self._client, self._bodies, sliding.tolist())
 
@@ -217,7 +216,8 @@ class World:
             rest_length: Shape (coil,) [m].
         """
         act = self._push if self.solver.springs == "force" else self._drive
-        k, r = (self._coils_kept * stiffness).tolist(), self.design.added.rest_length(stiffness, rest_length).tolist()
+        added = self.design.added
+        k, r = added.coil_stiffness(stiffness).tolist(), added.rest_length(stiffness, rest_length).tolist()
         links = [(body, steel, k[i], r[i], k[j], r[j]) for body, steel, i, j in self._sliding]
         step, client = pybullet.stepSimulation, self._client
         for _ in range(steps):

@@ -81,7 +81,6 @@ class MujocoWorld:
         self._half = half(design)
         self._motion = motion.copy()
         self._steel = design.steel_stiffness * design.added.steel_kept(design.links)
-        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
         self._friction = design.added.slide_frictions(design.links)
         self._free, self._slides = np.flatnonzero(~layout.is_fixed), np.flatnonzero(~layout.is_locked)
         self._model = self._mujoco.MjModel.from_xml_string(self._description())
@@ -96,7 +95,7 @@ class MujocoWorld:
     def advance(self, steps: int, stiffness: Array, rest_length: Array) -> None:
         """See `mechanics.world.World`."""
         pulls_from = self.design.added.rest_length(stiffness, rest_length)
-        stiffness = self._coils_kept * stiffness
+        stiffness = self.design.added.coil_stiffness(stiffness)
         nonlinear = self._set_springs(stiffness, pulls_from)
         if nonlinear.any() or self._ends.size:
             for _ in range(steps):

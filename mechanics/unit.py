@@ -115,8 +115,7 @@ class FabricUnit(Unit):
         self._store = ArrayStore(name, self.variables)
         self._layout = layout(design)
         self._check_links()
-        #: Share of their stiffness that coils and steel springs have, shape (coil,): 1 but for links with effects.
-        self._coils_kept = np.repeat(design.added.coils_kept(design.links), 2)
+        #: Share of their stiffness that the steel springs have, shape (coil,): 1 but for links with effects.
         self._steel_kept = np.repeat(design.added.steel_kept(design.links), 2)
         self._half = half(design)
         self._steel = SteelSpring(design.steel_stiffness, design.steel_rest_length)
@@ -251,7 +250,7 @@ class FabricUnit(Unit):
         length = np.repeat(put["link_length"], 2)
         put["extension"][...] = length - put["rest_length"]
         slack = length - self.design.added.rest_length(put["stiffness"], put["rest_length"])
-        put["tension"][...] = coil_tension(self._coils_kept * put["stiffness"], slack)
+        put["tension"][...] = coil_tension(self.design.added.coil_stiffness(put["stiffness"]), slack)
         put["position"][...] = (back + front) / 2
         put["orientation"][...] = motion.orientation
         self._measure_shape(back, front, axes)
@@ -292,7 +291,9 @@ class FabricUnit(Unit):
         put["potential_energy"][...] = (
             -moving[0] @ (back_centre @ gravity)
             - moving[1] @ (front_centre @ gravity)
-            + spring_energy(self._coils_kept * put["stiffness"], slack, length, self._steel, self._steel_kept)
+            + spring_energy(
+                self.design.added.coil_stiffness(put["stiffness"]), slack, length, self._steel, self._steel_kept
+            )
         )
 
     def _check_finite(self, motion: Motion, time: int) -> None:

@@ -85,6 +85,7 @@ def told(tmp_path, truth, findings, code=0):
     (tmp_path / "answers/x.json").write_text(json.dumps({"case": "x", **truth}))
     (tmp_path / "diagnoses/x/done.json").write_text(json.dumps({"code": code, "seconds": 1.0}))
     plain = {"is_accepted": True, "unit": "mechanical", "standing": "named", "ambiguous_with": [], "parameters": []}
+    plain["place"] = "fabric"
     whole = [{**plain, **f} for f in findings]
     answer = {"findings": whole, "verdict": "missing physics", "adequacy": None}
     (tmp_path / "diagnoses/x/answer/diagnosis.json").write_text(json.dumps(answer))
@@ -93,7 +94,9 @@ def told(tmp_path, truth, findings, code=0):
 
 NOTHING = {"kind": "null", "effect": "", "strength": 0.0}
 TILT = {"kind": "global", "effect": "tilt", "strength": 0.1}
-JAMMED = {"kind": "local", "effect": "jammed_link", "strength": 20.0}
+JAMMED = {"kind": "local", "effect": "jammed_link", "strength": 20.0, "link": 8, "row": 0}
+COLD_ROW = {"kind": "local", "effect": "unheated_coil", "strength": 0.9, "link": 0, "row": 4}
+TURNED = {"kind": "camera", "effect": "turned_camera", "strength": 0.05}
 
 
 @pytest.mark.parametrize(
@@ -102,11 +105,17 @@ JAMMED = {"kind": "local", "effect": "jammed_link", "strength": 20.0}
         (NOTHING, [], [], False, False),
         (NOTHING, [{"effect": "roll", "standing": "unnamed"}], ["roll"], False, False),
         (NOTHING, [{"effect": "roll", "is_accepted": False}], [], False, False),
-        (NOTHING, [{"effect": "bias", "unit": "measurement"}], [], False, False),
+        (NOTHING, [{"effect": "camera_scale", "unit": "measurement"}], ["camera_scale"], False, False),
         (TILT, [{"effect": "tilt"}], [], True, True),
         (TILT, [{"effect": "payload", "ambiguous_with": ["tilt"]}], [], False, True),
         (TILT, [{"effect": "payload"}], ["payload"], False, False),
         (JAMMED, [{"effect": "roll"}], ["roll"], False, False),
+        (JAMMED, [{"effect": "jammed_link", "place": "fabric, link 8 (row 3, place 2)"}], [], True, True),
+        (JAMMED, [{"effect": "jammed_link", "place": "fabric, link 7 (row 3, place 1)"}], ["jammed_link"], False, True),
+        (JAMMED, [{"effect": "jammed_link", "place": "fabric, row 3"}], ["jammed_link"], False, True),
+        (COLD_ROW, [{"effect": "unheated_coil", "place": "fabric, row 4"}], [], True, True),
+        (TURNED, [{"effect": "turned_camera", "unit": "measurement"}], [], True, True),
+        (TURNED, [{"effect": "tilt", "standing": "unnamed"}], ["tilt"], False, False),
         (JAMMED, [{"effect": "roll", "standing": "unnamed"}], [], False, False),
     ],
 )
@@ -146,7 +155,7 @@ def test_nothing_false_is_said_of_a_small_fabric_from_another_engine(tmp_path, n
         "fabric_001", "global" if effects else "null", effect, effects.get(effect, 0.0), Specimen(effects=effects)
     )
     case.write(tmp_path / "cases", tmp_path / "answers", np.random.default_rng(15))
-    assert diagnose_draw(["--cases", "1", "--out", str(tmp_path)]) == 0
+    assert diagnose_draw(["--cases", "1", "--rig", "drape", "--out", str(tmp_path)]) == 0
     found = score(tmp_path, "fabric_001")
     assert not found["failed"]
     assert found["false"] == []

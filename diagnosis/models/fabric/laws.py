@@ -207,7 +207,7 @@ _LINK_LAWS = (
     ),
     _LinkLaw(
         "weak_coil",
-        "weak coils, or coils that are not heated",
+        "weak coils",
         "stiffness = (1 - coil_loss) * coil_stiffness",
         _number(
             "coil_loss",
@@ -219,7 +219,23 @@ _LINK_LAWS = (
             "share of the stiffness of the coils that is missing",
             SHARE,
         ),
-        {"jammed_link": _HOT, "weak_steel": _ONE_LINK},
+        {"unheated_coil": "the cold part of the recording decides", "jammed_link": _HOT, "weak_steel": _ONE_LINK},
+    ),
+    _LinkLaw(
+        "unheated_coil",
+        "coils that are heated less",
+        "stiffness = coil_stiffness - heat_loss * maximum(coil_stiffness - cold_stiffness, 0)",
+        _number(
+            "heat_loss",
+            "1",
+            0.0,
+            1.0,
+            1.0,
+            "coils that stay cold",
+            "share of the rise of the coils' stiffness that is missing",
+            SHARE,
+        ),
+        {"weak_coil": "the cold part of the recording decides", "jammed_link": "the cold part decides"},
     ),
     _LinkLaw(
         "jammed_link",

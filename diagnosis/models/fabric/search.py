@@ -51,8 +51,9 @@ EFFORTS = ((45e3, Effort(8, 3, 6, has_links=True)), (110e3, Effort(6, 2, 5)), (f
 #: Prior deviations over which the answer to a parameter is simulated. One deviation moves places less than contacts
 #: scatter: slopes were scatter then, and a fit could follow them. The answer is straight enough over a few per cent.
 STEP = 4.0
-#: A strength this close to one that was simulated needs no other simulation.
-NEAR = 0.15
+#: How often hopeful effects are simulated where they were fitted: a spring that is a little too weak does nothing, and
+#: straight lines do not know that.
+ROUNDS = 3
 
 OnProgress = Callable[[str], None]
 
@@ -88,7 +89,9 @@ def search_fabric(
     outcome = plan.search(own)
     if plan.narrow(outcome):
         outcome = plan.search(own)
-    if plan.sharpen(outcome):
+    for _ in range(ROUNDS):
+        if not plan.sharpen(outcome):
+            break
         outcome = plan.search(own)
     plan.confirm(outcome)
     outcome = plan.search(own)
@@ -106,10 +109,15 @@ class _Plan:
         self._size, self._repeats, self._confirmed = effort.ensemble, effort.repeats, effort.confirmed
         self._hopeful = effort.hopeful
         self._first = [t for t in model.laws() if effort.has_links or self._is_wide(t)]
-        effects = len(model.free) + sum(len(t.parameters[0].starts) for t in self._first)
         self._sharpened = self._confirmed if self._repeats > 1 else 1
-        once = self._size + self._repeats * effects + self._hopeful * self._sharpened + self._confirmed
-        self._left = self._count * once
+        effects = self._repeats * len(model.free) + sum(
+            self._starts(t) * len(t.parameters[0].starts) for t in self._first
+        )
+        self._left = self._count * (self._size + effects + self._hopeful * self._sharpened + self._confirmed)
+
+    def _starts(self, term: Term) -> int:
+        """From how many starts an effect is simulated at first; there are many of single links and rows."""
+        return 1 if term in self.model.link_places else self._repeats
 
     def _is_wide(self, term: Term) -> bool:
         """Whether an effect acts in more than one link."""
@@ -120,7 +128,7 @@ class _Plan:
         """A stage that makes so many simulations for each recording."""
         self._tell(stage)
         self.model.batches.progress.enter(stage, self._left)
-        self._left -= self._count * simulations
+        self._left = max(self._left - self._count * simulations, 0)
 
     def _point(self, z: Array, terms: dict[Term, tuple[float, ...]] | None = None) -> Point:
         return Point(np.concatenate([self._network_point.base, z]), {**self._network_point.terms, **(terms or {})})
@@ -149,26 +157,25 @@ class _Plan:
         """One simulation of every parameter and of every start value of every effect."""
         count = len(self.model.free)
         tasks = [(t, s) for t in self._first for s in t.parameters[0].starts]
-        self._enter("mechanical effects", self._repeats * (count + len(tasks)))
-        points = [self._point(STEP * np.eye(count)[i]) for i in range(count)]
-        points += [self._point(np.zeros(count), {t: (s,)}) for t, s in tasks]
-        found = self._means(points, self._repeats)
+        self._enter("mechanical effects", self._repeats * count + sum(self._starts(t) for t, _ in tasks))
+        points = [(self._point(STEP * np.eye(count)[i]), self._repeats) for i in range(count)]
+        points += [(self._point(np.zeros(count), {t: (s,)}), self._starts(t)) for t, s in tasks]
+        found = self._means(points)
         for i, bins in enumerate(found[:count]):
             if bins is not None:
                 self.surface.slopes[i] = (bins - self.surface.mean) / STEP
         for (term, strength), bins in zip(tasks, found[count:]):
             if bins is not None:
-                self.surface.add(term, strength, bins, np.zeros(count))
+                self.surface.add(term, strength, bins, np.zeros(count), self._starts(term))
         self._prepare(self._members)
 
-    def _means(self, points: Sequence[Point], count: int) -> list[Array | None]:
-        """Means over several starts, each of its own for every point; None where every run stopped."""
-        found = self.model.simulated(
-            [(p, self._size + 1 + i * count + r) for i, p in enumerate(points) for r in range(count)]
-        )
+    def _means(self, points: Sequence[tuple[Point, int]]) -> list[Array | None]:
+        """Means over so many starts, each of its own for every point; None where every run stopped."""
+        starts = iter(range(self._size + 1, self._size + 1 + sum(count for _, count in points)))
+        found = iter(self.model.simulated([(p, next(starts)) for p, count in points for _ in range(count)]))
         means: list[Array | None] = []
-        for first in range(0, len(found), count):
-            rows = [r for r in found[first : first + count] if r is not None]
+        for _, count in points:
+            rows = [r for r in (next(found) for _ in range(count)) if r is not None]
             means.append(np.mean(rows, axis=0) if rows else None)
         return means
 
@@ -214,14 +221,13 @@ class _Plan:
         ]
         if not tasks:
             return False
-        self._left += self._count * self._repeats * len(tasks)
-        self._enter("the same in single links", self._repeats * len(tasks))
-        found = self._means(
-            [self._point(np.zeros(len(self.model.free)), {t: t.parameters[0].starts[:1]}) for t in tasks], self._repeats
-        )
+        self._left += self._count * len(tasks)
+        self._enter("the same in single links", len(tasks))
+        here = np.zeros(len(self.model.free))
+        found = self._means([(self._point(here, {t: t.parameters[0].starts[:1]}), 1) for t in tasks])
         for term, bins in zip(tasks, found):
             if bins is not None:
-                self.surface.add(term, term.parameters[0].starts[0], bins, np.zeros(len(self.model.free)))
+                self.surface.add(term, term.parameters[0].starts[0], bins, here)
         return True
 
     def sharpen(self, outcome: Outcome) -> bool:
@@ -233,18 +239,19 @@ class _Plan:
             for term in explanation.terms:
                 if term in laws and self._is_far(term, explanation) and len(wanted) < self._hopeful:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
+        if not wanted:
+            return False
         self._enter("hopeful effects where they were fitted", self._hopeful * self._sharpened)
         points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
-        found = self._means(points, self._sharpened)
+        found = self._means([(p, self._sharpened) for p in points])
         for bins, (term, (point, strength)) in zip(found, wanted.items()):
             if bins is not None:
-                self.surface.add(term, strength, bins, self.model.own_point(point).base)
-        return bool(wanted)
+                self.surface.add(term, strength, bins, self.model.own_point(point).base, self._sharpened)
+        return True
 
     def _is_far(self, term: Term, explanation: Explanation) -> bool:
         strength = explanation.fit.point.terms[term][0]
-        size = max(abs(strength), 1e-12)
-        return abs(strength) > 1e-9 and all(abs(strength - k) > NEAR * size for k in self.surface.knots(term))
+        return abs(strength) > 1e-9 and not self.surface.has_near(term, strength, self._sharpened)
 
     def confirm(self, outcome: Outcome) -> None:
         """Several starts at the best explanation: what it really gives, and its scatter."""
@@ -268,5 +275,5 @@ class _Plan:
         elif abs(point.terms[strongest][0]) > 0:
             rest = predicted - self.surface.effect(strongest, point.terms[strongest][0])
             corrected = self.surface.mean + (point.base - self.surface.anchor) @ self.surface.slopes + mean - rest
-            self.surface.add(strongest, point.terms[strongest][0], corrected, point.base)
+            self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
         self._prepare(self.surface.mean + about)

@@ -9,6 +9,18 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.search.problem import Point, Term
 
+#: A strength this close to one that was simulated, as a share of it, needs no other simulation.
+NEAR = 0.15
+
+
+def is_near(one: float, other: float) -> bool:
+    """Whether two strengths are alike.
+
+    >>> is_near(1.0, 1.1), is_near(1.0, -1.0)
+    (True, False)
+    """
+    return abs(one - other) <= NEAR * max(abs(other), 1e-12)
+
 
 class Surface:
     """Bins of all mechanical channels as a function of parameters and strengths of terms.
@@ -26,21 +38,28 @@ class Surface:
         #: Derivative of the bins by each z, shape (parameters, bins).
         self.slopes = np.zeros((len(anchor), len(mean)))
         self._knots: dict[Term, dict[float, Array]] = {}
+        #: Starts over which each knot is a mean.
+        self._starts: dict[Term, dict[float, int]] = {}
 
-    def add(self, term: Term, strength: float, bins: Array, z: Array) -> None:
-        """A simulation with a term.
+    def add(self, term: Term, strength: float, bins: Array, z: Array, starts: int = 1) -> None:
+        """A simulation with a term; those at nearly the same strength from fewer starts are not needed any more.
 
         Args:
             term: The term.
             strength: Its strength, not 0.
-            bins: What it gave, shape (bins,).
+            bins: What it gave, mean over its starts, shape (bins,).
             z: z of the parameters there.
+            starts: From how many starts.
         """
-        self._knots.setdefault(term, {})[strength] = bins - self.mean - (z - self.anchor) @ self.slopes
+        knots, known = self._knots.setdefault(term, {}), self._starts.setdefault(term, {})
+        for other in [k for k in knots if known[k] < starts and is_near(k, strength)]:
+            del knots[other], known[other]
+        knots[strength] = bins - self.mean - (z - self.anchor) @ self.slopes
+        known[strength] = starts
 
-    def knots(self, term: Term) -> list[float]:
-        """Strengths at which a term was simulated."""
-        return sorted(self._knots.get(term, {}))
+    def has_near(self, term: Term, strength: float, starts: int) -> bool:
+        """Whether a term was simulated at nearly this strength, from so many starts or more."""
+        return any(is_near(k, strength) and n >= starts for k, n in self._starts.get(term, {}).items())
 
     def knows(self, term: Term) -> bool:
         """Whether a term was simulated at all."""
@@ -75,5 +94,5 @@ class Surface:
     def with_mean(self, mean: Array, anchor: Array) -> Surface:
         """The same answers about another anchor."""
         other = Surface(mean, anchor)
-        other.slopes, other._knots = self.slopes, self._knots
+        other.slopes, other._knots, other._starts = self.slopes, self._knots, self._starts
         return other

@@ -1,9 +1,13 @@
-"""Cases of small fabrics: a drape from flat, seen by a camera, with what is concealed drawn from a seed."""
+"""Cases of small fabrics, seen by a camera, with what is concealed drawn from a seed.
+
+`drape`: 4 x 2 links fall from flat. `heated`: 5 x 2 links fall, are heated by programmes, and cool.
+"""
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,18 +15,42 @@ from typing import Any
 import numpy as np
 import yaml
 
-from evaluation.proving.fabric.truth import COLUMNS, HELD, ROWS, Specimen, drape
+from evaluation.proving.fabric.truth import COLUMNS, HELD, Specimen, drape
 from evaluation.proving.rig import Array
 
-_SCENARIO = Path(__file__).resolve().parents[1] / "scenarios" / "small_fabric.yaml"
-#: Duration of a recording and time between two pictures [s]; noise of a marker along every axis [m].
-STOP, INTERVAL, NOISE = 0.4, 0.04, 3e-4
+_SCENARIOS = Path(__file__).resolve().parents[1] / "scenarios"
+#: Time between two pictures [s]; noise of a marker along every axis [m].
+INTERVAL, NOISE = 0.04, 3e-4
 #: Share of readings that are lost behind a link.
 LOST = 0.03
 #: Deviation of what is never quite as the scenario says: masses, springs and friction, as shares.
 OFF = {"mass": 0.01, "steel": 0.02, "friction": 0.03, "coil": 0.01}
-#: Effects of all links: range of the strength, whether it has a sign, and the share of draws.
-GLOBAL = {
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A fabric that cases are drawn of.
+
+    Args:
+        scenario: File name.
+        stop: Duration of a recording [s].
+        base: The fabric without what is concealed.
+        spread: Effects of all links: range of the strength, and whether it has a sign.
+        local: Effects of one link or one row: range of the strength.
+        camera: What cameras and markers do: range of the strength, and whether it has a sign.
+        has_rows: Whether a local effect may act in all links of a row.
+    """
+
+    scenario: str
+    stop: float
+    base: Specimen
+    spread: Mapping[str, tuple[float, float, bool]]
+    local: Mapping[str, tuple[float, float]]
+    camera: Mapping[str, tuple[float, float, bool]]
+    has_rows: bool = False
+
+
+_SPREAD = {
     "tilt": (0.05, 0.12, True),
     "roll": (0.05, 0.12, True),
     "payload": (0.02, 0.06, False),
@@ -30,9 +58,52 @@ GLOBAL = {
     "viscous_damping": (5.0, 30.0, False),
     "contact_friction": (0.3, 0.8, False),
 }
-#: Effects of one link, and of the camera; the catalogue of the diagnosis has none of them.
-LOCAL = {"weak_steel": (0.5, 0.9), "jammed_link": (20.0, 20.0)}
-CAMERA = ("exchanged_markers", "turned_camera", "slipped_marker")
+_CAMERA = {
+    "exchanged_markers": (1.0, 1.0, False),
+    "turned_camera": (0.05, 0.05, True),
+    "slipped_marker": (2e-3, 2e-3, False),
+}
+#: Factor of the stiffness of coils that are hot.
+_HOT = 387.0 / 157.1
+RIGS = {
+    "drape": Rig(
+        "small_fabric.yaml",
+        0.4,
+        Specimen(),
+        _SPREAD,
+        {"weak_steel": (0.5, 0.9), "jammed_link": (20.0, 20.0)},
+        _CAMERA,
+    ),
+    "heated": Rig(
+        "heated_fabric.yaml",
+        1.2,
+        Specimen(rows=5, heating=((0.0, 1.0), (0.4, 1.0), (0.55, _HOT), (0.9, _HOT), (1.0, 1.0))),
+        {
+            "tilt": (0.08, 0.25, True),
+            "roll": (0.1, 0.3, True),
+            "payload": (0.015, 0.05, False),
+            "slide_friction": (1.0, 4.0, False),
+            "viscous_damping": (15.0, 60.0, False),
+            "contact_friction": (0.4, 1.0, False),
+            "supply_wire_stiffness": (1.5, 5.0, False),
+        },
+        {
+            "weak_steel": (0.3, 0.9),
+            "weak_coil": (0.3, 0.8),
+            "unheated_coil": (0.6, 1.0),
+            "jammed_link": (20.0, 20.0),
+        },
+        {
+            "exchanged_markers": (1.0, 1.0, False),
+            "turned_camera": (0.03, 0.1, True),
+            "camera_scale": (0.03, 0.1, True),
+            "camera_origin": (2e-3, 5e-3, True),
+            "marker_elsewhere": (1.5e-3, 4e-3, True),
+            "slipped_marker": (1.5e-3, 4e-3, True),
+        },
+        has_rows=True,
+    ),
+}
 #: Kind to its share.
 KINDS = {"null": 0.35, "global": 0.4, "local": 0.15, "camera": 0.1}
 
@@ -47,6 +118,7 @@ class FabricCase:
         effect: What is concealed; empty: nothing.
         strength: In SI; of an exchange 1.
         specimen: The fabric with its effect.
+        rig: One of `RIGS`.
     """
 
     identifier: str
@@ -54,6 +126,7 @@ class FabricCase:
     effect: str
     strength: float
     specimen: Specimen
+    rig: str = "drape"
 
     def write(self, cases: Path, answers: Path, rng: np.random.Generator) -> None:
         """Make the recordings and write them, the task and the answer.
@@ -65,13 +138,14 @@ class FabricCase:
         """
         folder = cases / self.identifier
         for order, name in enumerate(("training_1", "held_out_1"), start=1):
-            markers = drape(self.specimen, STOP, INTERVAL, rng)
+            markers = drape(self.specimen, RIGS[self.rig].stop, INTERVAL, rng)
             _write_recording(folder / name, self._seen(markers, rng), order)
-        (folder / "scenario.yaml").write_text(_SCENARIO.read_text())
+        (folder / "scenario.yaml").write_text((_SCENARIOS / RIGS[self.rig].scenario).read_text(encoding="utf-8"))
         task = {"scenario": "scenario.yaml", "training": ["training_1"], "held_out": ["held_out_1"], "hidden": []}
         (folder / "task.yaml").write_text(yaml.safe_dump(task, sort_keys=False))
         answers.mkdir(parents=True, exist_ok=True)
         answer = {"case": self.identifier, "kind": self.kind, "effect": self.effect, "strength": self.strength}
+        answer |= {"link": self.specimen.at_link + 1, "row": self.specimen.at_row + 1}
         (answers / f"{self.identifier}.json").write_text(json.dumps(answer, indent=1) + "\n")
 
     def _seen(self, markers: Array, rng: np.random.Generator) -> Array:
@@ -79,8 +153,14 @@ class FabricCase:
         seen = markers[:, 2 * HELD :].copy()
         if self.effect == "exchanged_markers":
             seen[:, [0, 1]] = seen[:, [1, 0]]
+        if self.effect == "marker_elsewhere":
+            seen[:, 1, 1] += self.strength
         if self.effect == "slipped_marker":
             seen[len(seen) // 2 :, 1, 1] += self.strength
+        if self.effect == "camera_scale":
+            seen *= 1.0 + self.strength
+        if self.effect == "camera_origin":
+            seen[..., 2] += self.strength
         if self.effect == "turned_camera":
             cosine, sine = math.cos(self.strength), math.sin(self.strength)
             y, z = seen[..., 1].copy(), seen[..., 2].copy()
@@ -90,41 +170,46 @@ class FabricCase:
         return seen
 
 
-def drawn_case(identifier: str, rng: np.random.Generator, kind: str = "") -> FabricCase:
+def drawn_case(identifier: str, rng: np.random.Generator, kind: str = "", rig: str = "drape") -> FabricCase:
     """A case with its fabric, kind, effect and strength drawn.
 
     Args:
         identifier: Of the case.
         rng: Of all draws.
         kind: This one; empty: drawn by `KINDS`.
+        rig: One of `RIGS`.
     """
     kind = kind or str(rng.choice(list(KINDS), p=list(KINDS.values())))
-    base = Specimen()
-    off = {n: getattr(base, n) * math.exp(share * float(rng.standard_normal())) for n, share in OFF.items()}
-    specimen = replace(base, **off)
+    own = RIGS[rig]
+    off = {n: getattr(own.base, n) * math.exp(share * float(rng.standard_normal())) for n, share in OFF.items()}
+    specimen = replace(own.base, **off)
     if kind == "null":
-        return FabricCase(identifier, kind, "", 0.0, specimen)
+        return FabricCase(identifier, kind, "", 0.0, specimen, rig)
     if kind == "camera":
-        effect = str(rng.choice(CAMERA))
-        strength = {"turned_camera": math.copysign(0.05, rng.uniform(-1, 1)), "slipped_marker": 2e-3}.get(effect, 1.0)
-        return FabricCase(identifier, kind, effect, strength, specimen)
+        effect, strength = _drawn(own.camera, rng)
+        return FabricCase(identifier, kind, effect, strength, specimen, rig)
     if kind == "local":
-        effect = str(rng.choice(list(LOCAL)))
-        strength = float(rng.uniform(*LOCAL[effect]))
+        effect = str(rng.choice(list(own.local)))
+        strength = float(rng.uniform(*own.local[effect]))
         per_row = 2 * COLUMNS - 1
-        link = int(rng.integers(HELD * per_row, ROWS * per_row))
-        return FabricCase(
-            identifier, kind, effect, strength, replace(specimen, effects={effect: strength}, at_link=link)
-        )
-    effect = str(rng.choice(list(GLOBAL)))
-    low, high, has_sign = GLOBAL[effect]
+        link = int(rng.integers(HELD * per_row, specimen.rows * per_row))
+        is_row = own.has_rows and rng.random() < 0.4
+        at_row, at_link = (link // per_row, -1) if is_row else (-1, link)
+        specimen = replace(specimen, effects={effect: strength}, at_row=at_row, at_link=at_link)
+        return FabricCase(identifier, kind, effect, strength, specimen, rig)
+    effect, strength = _drawn(own.spread, rng)
+    return FabricCase(identifier, kind, effect, strength, replace(specimen, effects={effect: strength}), rig)
+
+
+def _drawn(effects: Mapping[str, tuple[float, float, bool]], rng: np.random.Generator) -> tuple[str, float]:
+    """One of the effects, and its strength."""
+    effect = str(rng.choice(list(effects)))
+    low, high, has_sign = effects[effect]
     strength = float(rng.uniform(low, high))
-    if has_sign and rng.random() < 0.5:
-        strength = -strength
-    return FabricCase(identifier, kind, effect, strength, replace(specimen, effects={effect: strength}))
+    return effect, -strength if has_sign and rng.random() < 0.5 else strength
 
 
-def write_cases(folder: Path, count: int, seed: int, kind: str = "") -> list[str]:
+def write_cases(folder: Path, count: int, seed: int, kind: str = "", rig: str = "drape") -> list[str]:
     """Draw cases and write them into `cases/` and `answers/`; returns their names.
 
     Args:
@@ -132,11 +217,12 @@ def write_cases(folder: Path, count: int, seed: int, kind: str = "") -> list[str
         count: How many.
         seed: Of all draws.
         kind: This one alone; empty: all.
+        rig: One of `RIGS`.
     """
     names = []
     for number in range(count):
         rng = np.random.default_rng([seed, number])
-        case = drawn_case(f"fabric_{number + 1:03d}", rng, kind)
+        case = drawn_case(f"fabric_{number + 1:03d}", rng, kind, rig)
         if not (folder / "answers" / f"{case.identifier}.json").is_file():
             case.write(folder / "cases", folder / "answers", rng)
         names.append(case.identifier)

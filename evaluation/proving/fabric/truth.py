@@ -122,6 +122,8 @@ class _Bench:
         shapes = [self._shape(1.0), self._shape(-1.0)]
         self._bodies = [self._body(link, shapes) for link in self._links]
         self._free = [n for n, link in enumerate(self._links) if not link.is_held]
+        #: Where the free links were woven, in Bullet's units: wires hold them there.
+        self._woven = {n: engine.getBasePositionAndOrientation(self._bodies[n], client)[0] for n in self._free}
         for n in self._free:
             speed = 0.1 * rng.uniform(-1.0, 1.0, 3)
             engine.resetBaseVelocity(self._bodies[n], speed.tolist(), [0.0] * 3, physicsClientId=client)
@@ -237,6 +239,10 @@ class _Bench:
             engine.setJointMotorControl2(
                 body, 0, engine.VELOCITY_CONTROL, targetVelocity=0.0, force=_CM * dry, physicsClientId=client
             )
+            if self._links[n].place == 2 * COLUMNS - 2 and specimen.of("supply_wire_stiffness"):
+                place, _ = engine.getBasePositionAndOrientation(body, client)
+                wire = [specimen.of("supply_wire_stiffness") * (w - p) for w, p in zip(self._woven[n], place)]
+                engine.applyExternalForce(body, -1, wire, place, engine.WORLD_FRAME, physicsClientId=client)
             if n in last and specimen.of("payload"):
                 share = [_CM * specimen.of("payload") * g / len(last) for g in self._weight]
                 place, _ = engine.getBasePositionAndOrientation(body, client)
