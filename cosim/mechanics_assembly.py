@@ -90,7 +90,7 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
                 hint = did_you_mean(own, list(LINK_UNITS))
                 known = ", ".join(f"{n}[{number}]" for n in LINK_UNITS)
                 raise ValueError(f"a link has no parameter `{own}`{hint}; link {number} may have {known}")
-            of_links.setdefault(number - 1, {})[own] = _quantity(value).to(LINK_UNITS[own])
+            of_links.setdefault(number - 1, {})[own] = _in_unit(key, _quantity(value), LINK_UNITS[own])
         elif key == "gravity":
             numbers[key] = _gravity(value)
         elif key not in FABRIC_UNITS:
@@ -98,7 +98,7 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
         elif not isinstance(value, PhysicalValue):
             raise ValueError(f"{key} must be one number with a unit")
         else:
-            numbers[key] = value.to(FABRIC_UNITS[key])
+            numbers[key] = _in_unit(key, value, FABRIC_UNITS[key])
     links = tuple((number, LinkEffects(**own)) for number, own in sorted(of_links.items()))
     added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
     has_friction = added.slide_friction or any(own.slide_friction for _, own in links)
@@ -151,6 +151,13 @@ def build_pendulum(name: str, component: PendulumComponent, parameters: Resolved
 def _no_parameter(kind: str, key: str, known: list[str]) -> str:
     hint = did_you_mean(key, known)
     return f"a {kind} has no parameter `{key}`{f'{hint} It has' if hint else '; it has'}: {', '.join(known)}"
+
+
+def _in_unit(key: str, value: PhysicalValue, unit: str) -> float:
+    try:
+        return value.to(unit)
+    except ValueError as error:
+        raise ValueError(f"{key}: {error}") from error
 
 
 def _gravity(value: ParameterValue) -> tuple[float, float, float]:
