@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -28,16 +28,19 @@ def write_scenario(data: Mapping[str, Any], comment: str, path: Path) -> Scenari
     return load_scenario(path)
 
 
-def comment_of(page: str, terms: Mapping[Term, Iterable[float]]) -> str:
+def comment_of(page: str, terms: Mapping[Term, Iterable[float]], readings: Collection[Term] = ()) -> str:
     """Comment that names the page that explains the file, and what was found.
 
     Args:
         page: Path of the document.
         terms: What was found, with the values of its parameters.
+        readings: Terms that change readings alone and are not in the scenario.
     """
     lines = [f"# Amended scenario, written by `cosim diagnose` ({page})."]
     for term, values in terms.items():
         numbers = ", ".join(f"{p.name} = {v:.6g} {p.unit}" for p, v in zip(term.parameters, values))
         left_out = "" if term.recording is None else "left out, a fault of one recording: "
+        if term in readings:
+            left_out = "left out, it changes readings and moves nothing: "
         lines.append(f"# {left_out}{term.place}: {term.law}; {numbers}")
     return "\n".join(lines) + "\n"

@@ -31,7 +31,7 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
         InputError: The result is no valid scenario; the keys are those of the scenario.
     """
     assert base.path is not None, "the scenario was read from a file"
-    data = parse_yaml(read_text(base.path), base.path)
+    data = _data_of(base)
     merged = copy.deepcopy(_merged(data, recording.overrides))
     macro = nanoseconds(base.time.macro_step) * 1e-9
     for recorded in recording.inputs:
@@ -46,6 +46,15 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     except InputError as error:
         problem = f"{error.problem} (with the overrides of {recording.path})"
         raise InputError(error.source, error.key, problem, error.remedy) from error
+
+
+def _data_of(base: Scenario) -> Any:
+    """The scenario as YAML data: as its file has it, or as it is where a program changed it since it was read."""
+    assert base.path is not None
+    data = parse_yaml(read_text(base.path), base.path)
+    if scenario_of_data(copy.deepcopy(data), base.path) == base:
+        return data
+    return parse_yaml(base.to_yaml(), base.path)
 
 
 def _merged(base: Any, change: Any) -> Any:

@@ -51,7 +51,9 @@ def amend_fabric(scenario: Scenario, model: FabricModel, point: Point, folder: P
         data = yaml.safe_load(scenario.to_yaml())
         take_along(scenario, data, folder)
     _put(data, model, point)
-    write_scenario(data, comment_of("docs/fabric-diagnosis.md", model.own_point(point).terms), path)
+    write_scenario(
+        data, comment_of("docs/fabric-diagnosis.md", model.own_point(point).terms, model.camera_terms()), path
+    )
     return path
 
 

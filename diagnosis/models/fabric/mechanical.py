@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -89,6 +90,20 @@ class MechanicalModel:
         surface = self.surface.with_mean(others.mean(axis=0), self.surface.anchor)
         measured = self.members[number] + noise
         return MechanicalModel(self.parameters, surface, measured, self.bins, others, self.layout.names, self.camera)
+
+    def of_run(self, runs: Array, number: int, seed: int) -> MechanicalModel:
+        """A null: one of several runs of one point as the recording, with sensors' noise, about the mean of the others.
+
+        Args:
+            runs: Shape (runs, bins), two or more.
+            number: Of the run that is the recording.
+            seed: Of the noise.
+        """
+        noise = self.bins.noise * np.random.default_rng([seed, number]).standard_normal(len(self.measured))
+        surface = self.surface.with_mean(np.delete(runs, number, axis=0).mean(axis=0), self.surface.anchor)
+        null = copy.copy(self)
+        null.surface, null.measured = surface, runs[number] + noise
+        return null
 
     def scatter_deviation(self) -> Array:
         """Standard deviation of scatter in each bin, shape (bins,)."""

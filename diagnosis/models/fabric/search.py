@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Effects that are simulated again, and how far their -2 log posterior may lie behind the best.
 HOPEFUL, BEHIND = 4, 40.0
+#: Share of the largest gain by which another effect may gain less.
+LEAST = 0.5
 #: Rows whose links are simulated one by one.
 ROWS = 2
 
@@ -68,8 +70,10 @@ def search_fabric(
 
     1. Circuit and coils are recalibrated by the coil network. 2. Random starts tell the contacts' scatter.
     3. Every mechanical parameter and effect is simulated once or twice. 4. The whole search runs on every member of
-    the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated;
-    hopeful effects are simulated where they were fitted, and the best explanation from several starts.
+    the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated: for
+    one effect first, then for more beside it, since contacts of a fabric with an effect scatter by another amount than
+    those of one without. Hopeful effects are simulated where they were fitted, and the best explanation from several
+    starts.
 
     Args:
         model: Model and training recordings; its mechanical part is made here.
@@ -86,15 +90,14 @@ def search_fabric(
     plan.answers()
     margin = plan.margin()
     own = replace(settings, floor=max(settings.floor, margin))
-    outcome = plan.search(own)
+    one = replace(own, most_terms=min(own.most_terms, 1))
+    outcome = plan.search(one)
     if plan.narrow(outcome):
-        outcome = plan.search(own)
-    for _ in range(ROUNDS):
-        if not plan.sharpen(outcome):
-            break
-        outcome = plan.search(own)
-    plan.confirm(outcome)
-    outcome = plan.search(own)
+        outcome = plan.search(one)
+    outcome = plan.settled(outcome, one)
+    if outcome.best.terms:
+        more = replace(own, floor=max(own.floor, plan.margin_beside()))
+        outcome = plan.settled(plan.search(more), more)
     model.take_scatter(model.scatter())
     return outcome
 
@@ -151,6 +154,10 @@ class _Plan:
                 "run the scenario with `cosim run`; most often solver.micro_step is too long",
             )
         self._members = np.array(members)
+        #: Runs of the explanation that was confirmed last, shape (starts, bins).
+        self._runs_found = self._members
+        #: Runs about the means of their points.
+        self._apart = self._members - self._members.mean(axis=0)
         self.surface = Surface(self._members.mean(axis=0), np.zeros(len(model.free)))
 
     def answers(self) -> None:
@@ -171,13 +178,24 @@ class _Plan:
 
     def _means(self, points: Sequence[tuple[Point, int]]) -> list[Array | None]:
         """Means over so many starts, each of its own for every point; None where every run stopped."""
+        return [None if runs is None else runs.mean(axis=0) for runs in self._runs(points)]
+
+    def _runs(self, points: Sequence[tuple[Point, int]]) -> list[Array | None]:
+        """The same before the mean is taken, shape (starts, bins) each."""
         starts = iter(range(self._size + 1, self._size + 1 + sum(count for _, count in points)))
         found = iter(self.model.simulated([(p, next(starts)) for p, count in points for _ in range(count)]))
-        means: list[Array | None] = []
+        runs: list[Array | None] = []
         for _, count in points:
             rows = [r for r in (next(found) for _ in range(count)) if r is not None]
-            means.append(np.mean(rows, axis=0) if rows else None)
-        return means
+            runs.append(np.array(rows) if rows else None)
+        return runs
+
+    def _scatter_of(self, runs: Array) -> None:
+        """Count how runs of one point differ as scatter: a fabric with an effect may scatter more than one without."""
+        if len(runs) > 1:
+            apart = (runs - runs.mean(axis=0)) * np.sqrt(len(runs) / (len(runs) - 1.0))
+            self._apart = np.concatenate([self._apart, apart])
+            self._prepare(self.surface.mean + self._apart)
 
     def _prepare(self, members: Array) -> None:
         model = self.model
@@ -192,13 +210,24 @@ class _Plan:
         """Largest gain that the search finds in any member of the ensemble, which lacks nothing."""
         self._tell("the same search on nulls")
         whole, gains = self.model.prepared, [0.0]
-        known = [t for t in self.model.laws() if self.surface.knows(t)] + self.model.camera_terms()
         once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
         for number in range(len(self._members) if len(self._members) > FEWEST else 0):
             null = whole.without_member(number, self.settings.seed)
-            outcome = search(null, known, once)
-            gains.append(outcome.base.cost - min([outcome.base.cost, *(e.fit.cost for e in outcome.rivals)]))
+            gains.append(_largest_gain(search(null, self._known(), once)))
         return max(gains)
+
+    def margin_beside(self) -> float:
+        """The same of fabrics that lack what was found and nothing else: the runs from which it was confirmed."""
+        self._tell("the same search on nulls that have what was found")
+        whole, gains = self.model.prepared, [0.0]
+        once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
+        for number in range(len(self._runs_found) if len(self._runs_found) > 1 else 0):
+            null = whole.of_run(self._runs_found, number, self.settings.seed)
+            gains.append(_largest_gain(search(null, self._known(), once)))
+        return max(gains)
+
+    def _known(self) -> list[Term]:
+        return [t for t in self.model.laws() if self.surface.knows(t)] + self.model.camera_terms()
 
     def search(self, settings: Settings) -> Outcome:
         """The search on what is known so far."""
@@ -210,8 +239,7 @@ class _Plan:
     def narrow(self, outcome: Outcome) -> bool:
         """Simulate an effect in every link of the row in which it is hopeful; whether any was."""
         places = self.model.link_places
-        near = [e for e in outcome.rivals if e.fit.cost < outcome.rivals[0].fit.cost + BEHIND]
-        rows = [t for e in [outcome.best, *near] for t in e.terms if t in places and places[t].is_row]
+        rows = [t for e in self._hopeful_of(outcome) for t in e.terms if t in places and places[t].is_row]
         chosen = list(dict.fromkeys(rows))[:ROWS]
         tasks = [
             t
@@ -230,12 +258,27 @@ class _Plan:
                 self.surface.add(term, term.parameters[0].starts[0], bins, here)
         return True
 
+    def settled(self, outcome: Outcome, settings: Settings) -> Outcome:
+        """The outcome with hopeful effects simulated where they were fitted, and the best from several starts."""
+        for _ in range(ROUNDS):
+            if not self.sharpen(outcome):
+                break
+            outcome = self.search(settings)
+        self.confirm(outcome)
+        return self.search(settings)
+
+    def _hopeful_of(self, outcome: Outcome) -> list[Explanation]:
+        """The best, and rivals that are nearly as good or gain half as much: what was simulated once is uncertain."""
+        best = outcome.rivals[0].fit.cost if outcome.rivals else outcome.best.fit.cost
+        most = max(best + BEHIND, best + LEAST * (outcome.base.cost - best))
+        near = [e for e in outcome.rivals if e.terms and e.fit.cost < most]
+        return [outcome.best, *sorted(near, key=lambda e: e.fit.cost)]
+
     def sharpen(self, outcome: Outcome) -> bool:
         """Simulate hopeful effects where they were fitted; whether any was."""
         laws = set(self.model.laws())
-        near = [e for e in outcome.rivals if e.fit.cost < outcome.rivals[0].fit.cost + BEHIND and e.terms]
         wanted: dict[Term, tuple[Point, float]] = {}
-        for explanation in [outcome.best, *near]:
+        for explanation in self._hopeful_of(outcome):
             for term in explanation.terms:
                 if term in laws and self._is_far(term, explanation) and len(wanted) < self._hopeful:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
@@ -243,10 +286,11 @@ class _Plan:
             return False
         self._enter("hopeful effects where they were fitted", self._hopeful * self._sharpened)
         points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
-        found = self._means([(p, self._sharpened) for p in points])
-        for bins, (term, (point, strength)) in zip(found, wanted.items()):
-            if bins is not None:
-                self.surface.add(term, strength, bins, self.model.own_point(point).base, self._sharpened)
+        found = self._runs([(p, self._sharpened) for p in points])
+        for runs, (term, (point, strength)) in zip(found, wanted.items()):
+            if runs is not None:
+                self.surface.add(term, strength, runs.mean(axis=0), self.model.own_point(point).base, self._sharpened)
+                self._scatter_of(runs)
         return True
 
     def _is_far(self, term: Term, explanation: Explanation) -> bool:
@@ -264,10 +308,9 @@ class _Plan:
         found = [m for m in model.simulated(starts) if m is not None]
         if not found:
             return
-        members = np.array(found)
+        members = self._runs_found = np.array(found)
         mean = members.mean(axis=0)
         predicted = self.surface.bins([point], [point.base])[0]
-        about = np.concatenate([self._members - self._members.mean(axis=0), members - mean])
         simulated = [t for t in point.terms if self.surface.knows(t)]
         strongest = max(simulated, key=lambda t: outcome.best.gains.get(t, 0.0), default=None)
         if strongest is None:
@@ -276,4 +319,9 @@ class _Plan:
             rest = predicted - self.surface.effect(strongest, point.terms[strongest][0])
             corrected = self.surface.mean + (point.base - self.surface.anchor) @ self.surface.slopes + mean - rest
             self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
-        self._prepare(self.surface.mean + about)
+        self._scatter_of(members)
+
+
+def _largest_gain(outcome: Outcome) -> float:
+    """What the best of all explanations gains over the recalibrated model [-2 log posterior]."""
+    return outcome.base.cost - min([outcome.base.cost, *(e.fit.cost for e in outcome.rivals)])

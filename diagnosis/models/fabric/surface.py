@@ -42,7 +42,9 @@ class Surface:
         self._starts: dict[Term, dict[float, int]] = {}
 
     def add(self, term: Term, strength: float, bins: Array, z: Array, starts: int = 1) -> None:
-        """A simulation with a term; those at nearly the same strength from fewer starts are not needed any more.
+        """A simulation with a term; it stands in place of those at nearly the same strength from no more starts.
+
+        Two means that scatter, side by side, would make a slope of nothing.
 
         Args:
             term: The term.
@@ -52,7 +54,7 @@ class Surface:
             starts: From how many starts.
         """
         knots, known = self._knots.setdefault(term, {}), self._starts.setdefault(term, {})
-        for other in [k for k in knots if known[k] < starts and is_near(k, strength)]:
+        for other in [k for k in knots if known[k] <= starts and is_near(k, strength)]:
             del knots[other], known[other]
         knots[strength] = bins - self.mean - (z - self.anchor) @ self.slopes
         known[strength] = starts
