@@ -45,6 +45,7 @@ from diagnosis.judge.unfitted import (
     left_out_readings,
     left_out_stretches,
 )
+from diagnosis.judge.within_rows import within_rows
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error
 from diagnosis.models.build import models_of, uses_batches, with_switch_times
@@ -186,6 +187,7 @@ def diagnose(
     units = written_units(both)
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
+    found = within_rows(found, scenario, training)
     doubts = without_explained_starts(doubts, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
