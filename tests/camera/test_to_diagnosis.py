@@ -23,6 +23,7 @@ WITHOUT = [
     "payload",
     "weak_steel",
     "weak_coil",
+    "unheated_coil",
     "jammed_link",
     "turned_camera",
     "camera_scale",

@@ -39,6 +39,7 @@ WITHOUT = [
     "roll",
     "weak_steel",
     "weak_coil",
+    "unheated_coil",
     "jammed_link",
     "turned_camera",
     "camera_scale",

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
-from diagnosis.models.fabric.scatter import FEWEST
+from diagnosis.models.fabric.scatter import FEWEST, Whitening, calibrated_scatter
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
@@ -53,9 +53,16 @@ EFFORTS = ((45e3, Effort(8, 3, 6, has_links=True)), (110e3, Effort(6, 2, 5)), (f
 #: Prior deviations over which the answer to a parameter is simulated. One deviation moves places less than contacts
 #: scatter: slopes were scatter then, and a fit could follow them. The answer is straight enough over a few per cent.
 STEP = 4.0
+#: How much farther from nothing an effect has to be than any member of the ensemble, in mean squares. Of ten effects
+#: that do nothing one is farther than all of eight members.
+SHOWS = 1.5
+#: Bins of two runs that are one run [m and 1/m].
+SAME = 1e-12
 #: How often hopeful effects are simulated where they were fitted: a spring that is a little too weak does nothing, and
 #: straight lines do not know that.
 ROUNDS = 3
+#: Of these, how many in a second and third round.
+AGAIN = 2
 
 OnProgress = Callable[[str], None]
 
@@ -144,7 +151,8 @@ class _Plan:
             self._network_point = recalibrate(model.network).point
         self._enter("contact scatter", self._size)
         here = self._point(np.zeros(len(model.free)))
-        members = [m for m in model.simulated([(here, s + 1) for s in range(self._size)]) if m is not None]
+        runs = model.simulated([(here, s + 1) for s in range(self._size)])
+        members = [m for m in runs if m is not None]
         if len(members) < FEWEST:
             reason = (model.fabric_runs.reasons or ["it stops"])[0]
             raise InputError(
@@ -154,11 +162,23 @@ class _Plan:
                 "run the scenario with `cosim run`; most often solver.micro_step is too long",
             )
         self._members = np.array(members)
+        #: Number of the start of the first member, and effects that were asked whether they do anything.
+        self._plain_start = next(s + 1 for s, m in enumerate(runs) if m is not None)
+        self._asked: set[Term] = set()
+        self._scatter = calibrated_scatter(self._members, model.binning.bins)
+        self._farthest = self._farthest_member()
         #: Runs of the explanation that was confirmed last, shape (starts, bins).
         self._runs_found = self._members
         #: Runs about the means of their points.
         self._apart = self._members - self._members.mean(axis=0)
         self.surface = Surface(self._members.mean(axis=0), np.zeros(len(model.free)))
+
+    def _farthest_member(self) -> float:
+        """Mean square of the member that is farthest from the mean of the others, whitened by the scatter of both."""
+        count = len(self._members)
+        whiten = Whitening(self._scatter * (1.0 + 1.0 / (count - 1.0)), self.model.binning.bins.noise / 10.0)
+        others = (self._members.sum(axis=0) - self._members) / (count - 1.0)
+        return float(np.max(np.mean(whiten(self._members - others) ** 2, axis=1)))
 
     def answers(self) -> None:
         """One simulation of every parameter and of every start value of every effect."""
@@ -172,9 +192,52 @@ class _Plan:
             if bins is not None:
                 self.surface.slopes[i] = (bins - self.surface.mean) / STEP
         for (term, strength), bins in zip(tasks, found[count:]):
-            if bins is not None:
-                self.surface.add(term, strength, bins, np.zeros(count), self._starts(term))
+            self._take(term, strength, bins)
+        wide = [(t, s) for t, s in tasks if t not in self.model.link_places and not self.surface.knows(t)]
+        larger = [(t, float(np.copysign(min(t.parameters[0].plausible, t.parameters[0].upper), s))) for t, s in wide]
+        self._left += self._count * self._repeats * len(larger)
+        self._enter("effects that hardly show, at their largest", self._repeats * len(larger))
+        for (term, strength), bins in zip(
+            larger, self._means([(self._point(np.zeros(count), {t: (s,)}), self._repeats) for t, s in larger])
+        ):
+            self._take(term, strength, bins)
+        self._without_plain()
         self._prepare(self._members)
+
+    def _take(self, term: Term, strength: float, bins: Array | None) -> None:
+        """Take what an effect does where that is more than the scatter of the contacts.
+
+        An effect that does nothing (coils without heat in a cold fabric) is the scatter of its runs, which a fit would
+        follow.
+        """
+        starts = self._starts(term)
+        if bins is not None and self._shows(bins - self.surface.mean, starts):
+            self.surface.add(term, strength, bins, np.zeros(len(self.model.free)), starts)
+
+    def _without_plain(self) -> None:
+        """Forget effects that do nothing at all: from the first start they run as the plain fabric does.
+
+        Of effects that do nothing one in ten shows, by the scatter of its runs.
+        """
+        count = len(self.model.free)
+        known = [t for t in self.model.laws() if self.surface.knows(t) and t not in self._asked]
+        self._asked |= set(known)
+        starts = {t: next(iter(self.surface.strengths(t))) for t in known}
+        points = [self._point(np.zeros(count), {t: (s,)}) for t, s in starts.items()]
+        self._left += self._count * len(points)
+        self._enter("whether they do anything at all", len(points))
+        for term, bins in zip(starts, self.model.simulated([(p, self._plain_start) for p in points])):
+            if bins is not None and np.allclose(bins, self._members[0], rtol=0.0, atol=SAME):
+                self.surface.forget(term)
+
+    def _shows(self, change: Array, starts: int) -> bool:
+        """Whether a change of the mean over so many starts is farther from nothing than any member of the ensemble is.
+
+        By `SHOWS` times, in mean squares whitened by the scatter of either, with a tenth of the sensors' noise.
+        """
+        count, noise = len(self._members), self.model.binning.bins.noise
+        own = Whitening(self._scatter * (1.0 / starts + 1.0 / count), noise / 10.0)(change)
+        return bool(np.mean(own**2) > SHOWS * self._farthest)
 
     def _means(self, points: Sequence[tuple[Point, int]]) -> list[Array | None]:
         """Means over so many starts, each of its own for every point; None where every run stopped."""
@@ -254,14 +317,14 @@ class _Plan:
         here = np.zeros(len(self.model.free))
         found = self._means([(self._point(here, {t: t.parameters[0].starts[:1]}), 1) for t in tasks])
         for term, bins in zip(tasks, found):
-            if bins is not None:
-                self.surface.add(term, term.parameters[0].starts[0], bins, here)
+            self._take(term, term.parameters[0].starts[0], bins)
+        self._without_plain()
         return True
 
     def settled(self, outcome: Outcome, settings: Settings) -> Outcome:
         """The outcome with hopeful effects simulated where they were fitted, and the best from several starts."""
-        for _ in range(ROUNDS):
-            if not self.sharpen(outcome):
+        for number in range(ROUNDS):
+            if not self.sharpen(outcome, self._hopeful if number == 0 else min(self._hopeful, AGAIN)):
                 break
             outcome = self.search(settings)
         self.confirm(outcome)
@@ -274,17 +337,17 @@ class _Plan:
         near = [e for e in outcome.rivals if e.terms and e.fit.cost < most]
         return [outcome.best, *sorted(near, key=lambda e: e.fit.cost)]
 
-    def sharpen(self, outcome: Outcome) -> bool:
-        """Simulate hopeful effects where they were fitted; whether any was."""
+    def sharpen(self, outcome: Outcome, most: int) -> bool:
+        """Simulate at most so many hopeful effects where they were fitted; whether any was."""
         laws = set(self.model.laws())
         wanted: dict[Term, tuple[Point, float]] = {}
         for explanation in self._hopeful_of(outcome):
             for term in explanation.terms:
-                if term in laws and self._is_far(term, explanation) and len(wanted) < self._hopeful:
+                if term in laws and self._is_far(term, explanation) and len(wanted) < most:
                     wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
         if not wanted:
             return False
-        self._enter("hopeful effects where they were fitted", self._hopeful * self._sharpened)
+        self._enter("hopeful effects where they were fitted", len(wanted) * self._sharpened)
         points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
         found = self._runs([(p, self._sharpened) for p in points])
         for runs, (term, (point, strength)) in zip(found, wanted.items()):

@@ -63,6 +63,15 @@ class Surface:
         """Whether a term was simulated at nearly this strength, from so many starts or more."""
         return any(is_near(k, strength) and n >= starts for k, n in self._starts.get(term, {}).items())
 
+    def strengths(self, term: Term) -> list[float]:
+        """Strengths at which a term is known."""
+        return sorted(self._knots.get(term, {}))
+
+    def forget(self, term: Term) -> None:
+        """Forget what a term does."""
+        self._knots.pop(term, None)
+        self._starts.pop(term, None)
+
     def knows(self, term: Term) -> bool:
         """Whether a term was simulated at all."""
         return term in self._knots
