@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.fabric.camera import Camera
 from diagnosis.models.fabric.scatter import Bins, Whitening, calibrated_scatter
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Layout, Parameter, Point, Term
+
+
+class View(Protocol):
+    """What is seen of bins: see `diagnosis.models.fabric.camera.Camera`."""
+
+    @property
+    def terms(self) -> Container[Term]:
+        """Laws that change what is seen and not what moves."""
+        ...
+
+    def seen(self, values: Array, terms: Mapping[Term, tuple[float, ...]]) -> Array:
+        """Values as they are read, shape as given."""
+        ...
 
 
 class MechanicalModel:
@@ -35,7 +48,7 @@ class MechanicalModel:
         bins: Bins,
         members: Array,
         names: Sequence[str],
-        camera: Camera | None = None,
+        camera: View | None = None,
     ) -> None:
         self.camera = camera
         self.parameters, self.surface, self.measured, self.bins, self.members = (
