@@ -8,28 +8,12 @@ from typer.testing import CliRunner
 
 from cosim.cli import app
 from evaluation.camera.case import CAMERA, SCENARIO
+from tests.fabric_diagnosis.fabrics import laws_but
 
 pytest.importorskip("mujoco")
 TILT = 0.15
 #: Two effects compete; all would take minutes more.
-WITHOUT = [
-    "roll",
-    "slide_friction",
-    "viscous_damping",
-    "hinge_friction",
-    "supply_wire_stiffness",
-    "backlash",
-    "thermal_contraction",
-    "payload",
-    "weak_steel",
-    "weak_coil",
-    "unheated_coil",
-    "jammed_link",
-    "turned_camera",
-    "camera_scale",
-    "camera_origin",
-    "marker_elsewhere",
-]
+WITHOUT = laws_but("tilt", "contact_friction")
 
 
 def call(*arguments):

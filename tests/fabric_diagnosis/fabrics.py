@@ -10,6 +10,8 @@ import yaml
 from cosim.run import run
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit.quantity import PhysicalValue
+from diagnosis.models.fabric.camera import CAMERA_LAWS
+from diagnosis.models.fabric.laws import LINK_LAWS, fabric_laws
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import Recording, load_recording
 from diagnosis.recording.sensor import SensorFile
@@ -27,6 +29,13 @@ SENSORS = SensorFile.model_validate(
 )
 ELECTRICAL = ["supply.current", "coil[1,1].temperature", "coil[3,2].temperature"]
 MARKERS = [f"marker[{i}].{axis}" for i in range(5, 11) for axis in "xyz"] + ["link[15].length", "link[12].length"]
+
+
+def laws_but(*kept: str) -> list[str]:
+    """Identifiers of all laws of a fabric, its links and its camera, without some: few simulations do then."""
+    every = {law.place.term.identifier for law in fabric_laws("")} | LINK_LAWS | CAMERA_LAWS
+    assert every > set(kept)
+    return sorted(every - set(kept))
 
 
 def with_fabric(scenario: Scenario, **numbers: str) -> Scenario:

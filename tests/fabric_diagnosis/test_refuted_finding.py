@@ -21,31 +21,13 @@ from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import SensorFile
 from diagnosis.recording.write import Notes, write_recording
-from tests.fabric_diagnosis.fabrics import DRAPE, shortened, with_fabric
+from tests.fabric_diagnosis.fabrics import DRAPE, laws_but, shortened, with_fabric
 
 #: More samples than a channel has bins, so that neither can be taken for the other.
 SENSORS = SensorFile.model_validate({"default": {"rate": "200 Hz", "noise": "0.1 mm", "unit": "m"}})
 CHANNELS = [f"marker[{i}].{axis}" for i in (5, 6) for axis in "yz"]
 #: All but a lean of the stand: few simulations do.
-WITHOUT = [
-    "contact_friction",
-    "slide_friction",
-    "viscous_damping",
-    "hinge_friction",
-    "supply_wire_stiffness",
-    "backlash",
-    "thermal_contraction",
-    "payload",
-    "roll",
-    "weak_steel",
-    "weak_coil",
-    "unheated_coil",
-    "jammed_link",
-    "turned_camera",
-    "camera_scale",
-    "camera_origin",
-    "marker_elsewhere",
-]
+WITHOUT = laws_but("tilt")
 
 
 def tiny() -> Scenario:

@@ -107,6 +107,7 @@ class Camera:
         for n, target in enumerate(targets):
             if n in axis and target.kind == "marker":
                 self._markers.setdefault(f"marker[{target.element[0]}].{target.quantity}", []).append(n)
+        self._matrices: dict[str, sparse.csr_array] = {}
         self._lengths = self._measures(targets, ("length",))
         self._curvatures = self._measures(targets, ("max_curvature",))
         #: Every law of the camera and of its markers that these channels can show, with where it acts.
@@ -180,8 +181,11 @@ class Camera:
         return values
 
     def _turned(self, values: Array, place: str, angle: float) -> Array:
-        first, second = _TURNS[place.rpartition(" ")[2]]
-        matrix = self._mixing(first, second)
+        about = place.rpartition(" ")[2]
+        first, second = _TURNS[about]
+        if about not in self._matrices:  # a search turns many times
+            self._matrices[about] = self._mixing(first, second)
+        matrix = self._matrices[about]
         is_turned = np.isin(np.arange(self._count), self._of_axes(first, second))
         turned = math.cos(angle) * values + math.sin(angle) * np.asarray(matrix @ values)
         return np.where(is_turned, turned, values)

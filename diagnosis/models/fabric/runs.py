@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -14,11 +13,8 @@ from cosim.assemble import assemble
 from cosim.components import CircuitComponent, FabricComponent, nanoseconds
 from cosim.compute.batch import Batches
 from cosim.compute.result import Task
-from cosim.mechanics_assembly import build_fabric
-from cosim.parameters import resolve
 from cosim.run_folder import resolved_scenario
 from cosim.scenario import Scenario
-from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue
 from diagnosis.models.coil_network.model import CoilNetworkModel
@@ -28,6 +24,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_run import Changes, Setting, setting, simulate
 from diagnosis.search.problem import Point
 from mechanics.fabric import Layout, layout
+from mechanics.unit import FabricUnit
 
 #: Kinds of channels that a fabric gives; all others belong to circuit and coils.
 _KINDS = frozenset({"link", "marker", "fabric"})
@@ -48,15 +45,12 @@ def fabric_layout(scenario: Scenario, component: str) -> Layout:
         component: Name of the fabric.
 
     Raises:
-        InputError: A parameter of the fabric is wrong.
+        InputError: The scenario cannot be assembled.
     """
-    own = scenario.components[component]
-    assert isinstance(own, FabricComponent)
-    values = resolve(own.parameter_set, own.parameters, scenario.path or Path("scenario.yaml"))
-    try:
-        unit = build_fabric(component, own, values)
-    except ValueError as error:
-        raise InputError(scenario.path or "scenario", f"components.{component}.parameters", str(error), "") from error
+    assembly = assemble(scenario)
+    assembly.system.terminate()
+    unit = assembly.system.units[component]
+    assert isinstance(unit, FabricUnit)
     return layout(unit.design)
 
 

@@ -272,22 +272,19 @@ class _Plan:
     def margin(self) -> float:
         """Largest gain that the search finds in any member of the ensemble, which lacks nothing."""
         self._tell("the same search on nulls")
-        whole, gains = self.model.prepared, [0.0]
-        once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
-        for number in range(len(self._members) if len(self._members) > FEWEST else 0):
-            null = whole.without_member(number, self.settings.seed)
-            gains.append(_largest_gain(search(null, self._known(), once)))
-        return max(gains)
+        count = len(self._members) if len(self._members) > FEWEST else 0
+        return self._margin_of([self.model.prepared.without_member(n, self.settings.seed) for n in range(count)])
 
     def margin_beside(self) -> float:
         """The same of fabrics that lack what was found and nothing else: the runs from which it was confirmed."""
         self._tell("the same search on nulls that have what was found")
-        whole, gains = self.model.prepared, [0.0]
+        runs, whole = self._runs_found, self.model.prepared
+        return self._margin_of([whole.of_run(runs, n, self.settings.seed) for n in range(len(runs)) if len(runs) > 1])
+
+    def _margin_of(self, nulls: Sequence[MechanicalModel]) -> float:
+        """Largest gain that the search finds in any of several nulls."""
         once = replace(self.settings, floor=0.0, level=0.5, most_terms=1)
-        for number in range(len(self._runs_found) if len(self._runs_found) > 1 else 0):
-            null = whole.of_run(self._runs_found, number, self.settings.seed)
-            gains.append(_largest_gain(search(null, self._known(), once)))
-        return max(gains)
+        return max((_largest_gain(search(null, self._known(), once)) for null in nulls), default=0.0)
 
     def _known(self) -> list[Term]:
         return [t for t in self.model.laws() if self.surface.knows(t)] + self.model.camera_terms()
