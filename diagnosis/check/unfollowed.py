@@ -1,6 +1,7 @@
 """A channel of which the scenario explains next to nothing in any recording: are its inputs the ones that acted?
 
-A number that is off, a law that is missing or a resonance that is elsewhere may do that too, so it is a question.
+A number that is off, a law that is missing or a resonance that is elsewhere may do that too, so it is a question. It
+is none where the readings follow the inputs by no response with memory at all, while the simulation does.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.response import Followed, followed
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 
@@ -19,27 +21,58 @@ NEXT_TO_NOTHING = 0.1
 RECORDINGS = 2
 #: How many times its noise a channel must change by.
 MOVES = 10.0
+#: Share of a simulated channel that a response to the inputs has to predict, to say anything of the measured one.
+SHOWN = 0.5
+#: Share of a channel's variance that is taken for nothing where a size is asked for.
+LEAST = 1e-4
 
 
 def unfollowed(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about the inputs of all recordings, one for each channel; none is serious."""
-    return list(_told(every))
+    """Doubts about the inputs of all recordings, one for each channel; serious where no channel follows any input."""
+    asked = list(_asked(every))
+    if not asked:
+        return []
+    answers = _followed(every)
+    is_serious = bool(answers) and max(a.measured for a in answers.values()) <= NEXT_TO_NOTHING
+    return [_doubt(every, name, share, answers.get(name) if is_serious else None) for name, share in asked]
 
 
-def _told(every: Sequence[Compared]) -> Iterator[Doubt]:
+def _asked(every: Sequence[Compared]) -> Iterator[tuple[str, float]]:
+    """Channels of which next to nothing is explained, with the largest share in a recording."""
     for name in dict.fromkeys(n for one in every for n in one.channels):
-        having = [one for one in every if name in one.channels]
-        shares = [_explained(one.channels[name]) for one in having]
-        if len(having) < RECORDINGS or any(s is None or s > NEXT_TO_NOTHING for s in shares):
-            continue
-        largest = max(s for s in shares if s is not None)
-        text = (
-            f"in this and in every other recording that has it the scenario as it is explains at most "
-            f"{percent(largest)} of the variance of {name}, however it is scaled and offset"
-        )
+        shares = [_explained(one.channels[name]) for one in every if name in one.channels]
+        known = [s for s in shares if s is not None]
+        if len(shares) >= RECORDINGS and len(known) == len(shares) and max(known) <= NEXT_TO_NOTHING:
+            yield name, max(known)
+
+
+def _followed(every: Sequence[Compared]) -> dict[str, Followed]:
+    """How far inputs predict each channel whose simulation they predict."""
+    found = {}
+    for name in dict.fromkeys(n for one in every for n in one.channels):
+        having = [one for one in every if name in one.channels and one.channels[name].is_comparable]
+        answer = followed(having, name) if having else None
+        if answer is not None and answer.simulated >= SHOWN:
+            found[name] = answer
+    return found
+
+
+def _doubt(every: Sequence[Compared], name: str, share: float, answer: Followed | None) -> Doubt:
+    one = next(one for one in every if name in one.channels)
+    text = (
+        f"in this and in every other recording that has it the scenario as it is explains at most "
+        f"{percent(share)} of the variance of {name}, however it is scaled and offset"
+    )
+    if answer is None:
         remedy = "are the inputs of scenario and recordings the ones that acted?"
-        one = having[0]
-        yield Doubt(one.recording.title, name, "programme", text, remedy, False, one.begin, one.end, 0.0)
+        return Doubt(one.recording.title, name, "programme", text, remedy, False, one.begin, one.end, 0.0)
+    text += (
+        f", and no response with memory joins these readings to the inputs: fitted to half of each recording it "
+        f"predicts {percent(answer.measured)} of the other half, and {percent(answer.simulated)} of what is simulated"
+    )
+    remedy = "compare the programme, or the recorded input, with what was played and with what the actuator did"
+    z = float(np.sqrt(answer.simulated / max(answer.measured, LEAST)))
+    return Doubt(one.recording.title, name, "programme", text, remedy, True, one.begin, one.end, z)
 
 
 def _explained(beside: Beside) -> float | None:

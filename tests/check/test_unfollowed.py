@@ -12,6 +12,7 @@ import pytest
 from cosim.scenario import load_scenario
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
+from diagnosis.check.response import followed
 from diagnosis.check.unfollowed import unfollowed
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
@@ -36,15 +37,39 @@ def _exchange_inputs(recordings: list[Path], seed: int = 3) -> None:
         table.to_csv(recording / "data.csv", index=False)
 
 
-def test_inputs_that_acted_in_no_recording_are_asked_about(tmp_path: Path) -> None:
+def test_inputs_that_acted_in_no_recording_are_told(tmp_path: Path) -> None:
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     _exchange_inputs(recordings)
     (told,) = _questions(tmp_path, recordings)
     assert told.recording == "run_1"
     assert told.subject == "rig.position"
-    assert not told.is_serious  # a resonance that is elsewhere may do that too
+    assert told.is_serious
+    assert "no response with memory joins these readings to the inputs" in told.statement
+    assert "compare the programme" in told.remedy
+
+
+def test_inputs_that_acted_are_no_others_where_the_model_is_wrong_by_far(tmp_path: Path) -> None:
+    """A spring of a twentieth, and more friction: it answers a quarter of a period late, and follows its drive."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 380.0 * x - 20.0 * v, (1.0, 1.5, 1.2))
+    (told,) = _questions(tmp_path, recordings)
+    assert not told.is_serious
     assert "are the inputs" in told.remedy
+
+
+def test_a_drive_that_changes_seldom_tells_nothing_of_a_response(tmp_path: Path) -> None:
+    """A drift beside it could not be told from an answer."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    for recording in recordings:
+        table = pd.read_csv(recording / "data.csv")
+        table["u"] = np.where((table["t"] > 1.0) & (table["t"] < 1.3), 0.4, 0.0)
+        table.to_csv(recording / "data.csv", index=False)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    assert followed(every, "rig.position") is None
+    assert not any(d.is_serious for d in unfollowed(every))
 
 
 @pytest.mark.parametrize(
