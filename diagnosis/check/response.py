@@ -74,8 +74,11 @@ def followed(every: Sequence[Compared], channel: str) -> Followed | None:
     step = max(one.end - one.begin for one in every) / INSTANTS
     kernels = _kernels(INSTANTS + 1, step)
     halves = [[_recording(one, channel, names, kernels, step, half) for one in every] for half in (0, 1)]
-    both = (halves, halves[::-1])
-    return Followed(*(max(_share(*pair, values) for pair in both) for values in ("measured", "simulated")))
+    first, second = halves
+    measured, simulated = (
+        max(_share(first, second, values), _share(second, first, values)) for values in ("measured", "simulated")
+    )
+    return Followed(measured, simulated)
 
 
 def _changing(every: Sequence[Compared]) -> list[str]:
@@ -105,7 +108,7 @@ def _kernels(count: int, step: float) -> Array:
 def _recording(one: Compared, channel: str, names: Sequence[str], kernels: Array, step: float, half: int) -> _Recording:
     beside = one.channels[channel]
     count = int(np.ceil((one.end - one.begin) / step)) + 1
-    edges = one.begin + step * np.arange(count + 1)
+    edges = one.begin + step * np.arange(count + 1, dtype=np.float64)
     middle = len(beside.times) // 2
     part = slice(middle) if half == 0 else slice(middle, None)
     times = beside.times[part]

@@ -288,6 +288,10 @@ class CompiledModel(CosimModel):
         """Values of every channel at its samples, SI, for points with the number of a recording; None: it stopped."""
         raise NotImplementedError
 
+    def _new_rows(self, wanted: Sequence[tuple[Point, int]]) -> Iterable[Array]:
+        """Residuals of single recordings that are not kept."""
+        return (self._residual(n, values) for (_, n), values in zip(wanted, self._compiled(wanted)))
+
     @cached_property
     def _known(self) -> dict[_Key, Array]:
         """Residuals that are kept, by what was asked."""
@@ -298,8 +302,8 @@ class CompiledModel(CosimModel):
         known = self._known
         keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
         new = {key: one for key, one in zip(keys, wanted) if key not in known}
-        for key, values in zip(new, self._compiled(list(new.values()))):
-            known[key] = self._residual(key[2], values)
+        for key, row in zip(new, self._new_rows(list(new.values()))):
+            known[key] = row
         self.runs += len(new)
         found = [known[key] for key in keys]
         for key in list(known)[:-KEPT]:

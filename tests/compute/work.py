@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time as clock
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -35,3 +36,19 @@ def slow(shared: Path, given: float) -> Result:
 def deadly(shared: float, given: float) -> Result:
     """A simulation that takes its process with it, as one that runs out of memory does."""
     os._exit(1)
+
+
+def squares(offset: int) -> Callable[[int], tuple[int, int]]:
+    """Answers with the process and the square of a number, and an offset."""
+
+    def answer(number: int) -> tuple[int, int]:
+        if number < 0:
+            raise ValueError(f"{number} has no square here")
+        return os.getpid(), number**2 + offset
+
+    return answer
+
+
+def no_squares(offset: int) -> Callable[[int], tuple[int, int]]:
+    """Cannot be made."""
+    raise RuntimeError(f"no squares and {offset}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +10,7 @@ import xarray as xr
 
 from cosim.components import AddedTermEntry, nanoseconds
 from cosim.compute.batch import Batches
+from cosim.compute.replicas import Replicas
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
@@ -41,6 +42,15 @@ COMPARED = 2000
 SEARCHED_AGAIN = 30_000
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
+
+
+#: A point, and the number of a recording.
+_Asked = tuple[Point, int]
+
+
+def _row_of(given: tuple[Scenario, Sequence[Recording], Sequence[Free], Sequence[Fit]]) -> Callable[[_Asked], Array]:
+    """What answers questions for residuals in another process."""
+    return SystemModel(*given)._row
 
 
 class SystemModel(CompiledModel):
@@ -77,6 +87,9 @@ class SystemModel(CompiledModel):
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
+        place, given = self._batches.place, (scenario, self.recordings, self.free, list(found))
+        #: Residuals of a recording at a point, by this process and by copies of this model in others.
+        self._replicas = Replicas(_row_of, given, self._row, place.parallel - 1 if place.is_local else 0)
 
     @property
     def can_be_searched_again(self) -> bool:
@@ -157,6 +170,15 @@ class SystemModel(CompiledModel):
     def _compiled(self, wanted: Sequence[tuple[Point, int]]) -> Iterator[list[Array] | None]:
         """One after the other: values of many points would take much memory."""
         return (self._prediction(point, number) for point, number in wanted)
+
+    def _new_rows(self, wanted: Sequence[_Asked]) -> list[Array]:
+        """See `CompiledModel`."""
+        return self._replicas.answers(wanted)
+
+    def _row(self, asked: _Asked) -> Array:
+        """Residuals of a recording at a point."""
+        point, number = asked
+        return self._residual(number, self._prediction(point, number))
 
     def _prediction(self, point: Point, number: int) -> list[Array] | None:
         changes = self._numbers_at(point, number)
