@@ -23,6 +23,7 @@ from evaluation.strangers import (
     fifth_set,
     first_set,
     fourth_set,
+    ninth_set,
     second_set,
     seventh_set,
     sixth_set,
@@ -40,6 +41,7 @@ SETS = {
     "sixth": sixth_set.CASES,
     "seventh": seventh_set.CASES,
     "eighth": eighth_set.CASES,
+    "ninth": ninth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
