@@ -19,7 +19,7 @@ from diagnosis.check.odd_one_out import odd_ones
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
-from diagnosis.check.start import start_doubts
+from diagnosis.check.start import start_doubts, with_odd_starts
 from diagnosis.check.still import still_doubts
 from diagnosis.check.swapped import swap_doubts
 from diagnosis.check.swapped_in_one import swapped_in_one
@@ -75,6 +75,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += _outside(one)
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
+    found = with_odd_starts(found, every)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
     found += [replace(d, is_serious=d.is_serious and d.recording not in told) for d in odd_ones(every)]
     if not told:  # else why it is not followed is known

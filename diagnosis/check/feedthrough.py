@@ -45,9 +45,9 @@ def settled(channel: Channel, series: Series, inputs: Sequence[tuple[Array, Arra
     """
     if len(series.times) < 5 or not inputs:
         return channel
-    levels = np.stack([_held(times, values, series.times) for times, values in inputs])
-    if not any(asked(series.values, levels, channel.deviation) for asked in (_jumps_alone, _jumps)):
+    if not follows_at_once(series, inputs, channel.deviation):
         return channel
+    levels = _levels(series, inputs)
     step = float(series.times[1] - series.times[0])
     switched = series.times[:-1][np.any(np.diff(levels, axis=1) != 0.0, axis=0)]
     if len(switched) >= COURSE * len(channel.times):
@@ -56,6 +56,25 @@ def settled(channel: Channel, series: Series, inputs: Sequence[tuple[Array, Arra
             return later
         switched = series.times[:0]
     return _without(channel, switched, float(series.times[0]), step)
+
+
+def follows_at_once(series: Series, inputs: Sequence[tuple[Array, Array]], deviation: float) -> bool:
+    """Whether a simulated course jumps with an input.
+
+    Args:
+        series: At even times.
+        inputs: Instants [s] and values of each held input, from each instant on.
+        deviation: Of the channel's noise, SI.
+    """
+    if len(series.times) < 5 or not inputs:
+        return False
+    levels = _levels(series, inputs)
+    return any(asked(series.values, levels, deviation) for asked in (_jumps_alone, _jumps))
+
+
+def _levels(series: Series, inputs: Sequence[tuple[Array, Array]]) -> Array:
+    """Inputs that each output was computed with, shape (inputs, outputs)."""
+    return np.stack([_held(times, values, series.times) for times, values in inputs])
 
 
 def _held(times: Array, values: Array, outputs: Array) -> Array:

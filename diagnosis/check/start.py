@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import LEVEL
+from diagnosis.check.feedthrough import follows_at_once
 from diagnosis.check.quantiles import normal_beyond
 from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
@@ -23,6 +25,8 @@ WRONG_NUMBERS = 0.5
 ELSEWHERE = 3.0
 #: Deviations by which a single reading may be off.
 GROWN = 2.0
+#: Deviations that a start is off which is said to be another one, and how many times farther than in other recordings.
+FAR, ODD = 8.0, 4.0
 #: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
 STRAINED = 4.0
 
@@ -92,6 +96,40 @@ def _others(compared: Compared) -> list[Doubt]:
                 Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
             )
     return found
+
+
+def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[Doubt]:
+    """Doubts, those serious about a start where one recording alone begins elsewhere, and by far.
+
+    Before anything has acted no number and no law of the rig moves what is read, unless it follows an input at once.
+    Where the other recordings begin where they are simulated, this one does not begin as it says, or its sensor was off.
+
+    Args:
+        doubts: About all recordings.
+        every: Recordings beside their simulations.
+    """
+    known = {d.recording for d in doubts if d.is_serious}
+    return [
+        replace(d, is_serious=True) if d.kind == "start" and d.recording not in known and _is_odd(d, every) else d
+        for d in doubts
+    ]
+
+
+def _is_odd(doubt: Doubt, every: Sequence[Compared]) -> bool:
+    (own,) = (one for one in every if one.recording.title == doubt.recording)
+    beside = own.channels[doubt.subject]
+    if beside.channel.unit == "K" and not doubt.is_far:  # it may be of that day
+        return False
+    others = [o.channels[doubt.subject] for o in every if o is not own and doubt.subject in o.channels]
+    others = [b for b in others if b.is_comparable and not _is_driven_before(b)]
+    inputs = [(c.times, c.values) for c in own.courses if not c.is_linear]
+    assert beside.simulated is not None
+    if not others or follows_at_once(beside.simulated, inputs, beside.channel.deviation):
+        return False
+    off, deviation = _off(beside)
+    if abs(off) < FAR * deviation:
+        return False
+    return all(abs(off) > ODD * (abs(o) + d + b.channel.bias_bound) for b in others for o, d in [_off(b)])
 
 
 def _stated(compared: Compared, beside: Beside) -> float:

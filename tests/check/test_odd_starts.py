@@ -1,0 +1,107 @@
+"""A start of one recording that is not as stated, beside what only looks like one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from cosim.scenario import load_scenario
+from cosim.unit.protocol import Array
+from diagnosis.check.check import check_recordings
+from diagnosis.diagnose import Options, diagnose
+from diagnosis.judge.diagnosis import Doubt, Verdict
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.search import Settings
+from tests.systems.rigs import TANK, held, write_recording
+
+STEP, COUNT = 2.0, 400
+SCENARIO = """\
+title: A tank
+time: {stop: 800 s, macro_step: 2 s, output_step: 2 s}
+components:
+  pump: {kind: programme, outputs: {flow: {unit: m^3/s, constant: 0.01 m^3/s}}}
+  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
+connections:
+  - pump.flow -> tank.inflow
+"""
+
+
+def _recordings(folder: Path, starts: Sequence[float], leak: float = 0.02) -> list[Path]:
+    TANK.build(folder)
+    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    found = []
+    for number, start in enumerate(starts):
+        rng = np.random.default_rng(number)
+        inflow = np.repeat(rng.uniform(0.004, 0.016, COUNT // 20), 20)
+
+        def rate(x: Array, flow: float) -> Array:
+            return np.array([(flow - leak * x[0]) / 0.5])
+
+        level = held(rate, np.array([start]), inflow, STEP)[:, 0] + 2e-3 * rng.standard_normal(COUNT)
+        columns = {"t": STEP * np.arange(COUNT), "u": inflow, "h": level}
+        found.append(
+            write_recording(
+                folder / f"run_{number + 1}", columns, {"pump.flow": ("u", "m^3/s")}, {"tank.level": ("h", "m", "2 mm")}
+            )
+        )
+    return found
+
+
+def _starts(folder: Path, recordings: Sequence[Path]) -> list[Doubt]:
+    scenario = load_scenario(str(folder / "scenario.yaml"))
+    return [d for d in check_recordings(scenario, [load_recording(r) for r in recordings]) if d.kind == "start"]
+
+
+def test_one_recording_that_begins_elsewhere_is_told(tmp_path: Path) -> None:
+    recordings = _recordings(tmp_path, (0.4, 0.7, 0.4))
+    (told,) = _starts(tmp_path, recordings)
+    assert told.is_serious
+    assert told.recording == "run_2"
+    assert told.subject == "tank.level"
+
+
+def test_its_diagnosis_says_so_and_searches_nothing(tmp_path: Path) -> None:
+    every = [load_recording(r) for r in _recordings(tmp_path, (0.4, 0.7, 0.4))]
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    found = diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    assert found.verdict is Verdict.RECORDING_FAULT
+    assert found.statement.startswith(
+        "The first readings of a recording are not where it is said to begin: in run_2, tank.level:"
+    )
+    assert not found.findings
+
+
+@pytest.mark.parametrize(
+    ("starts", "change"),
+    [
+        ((0.7, 0.7, 0.7), None),  # all of them: a number of the scenario
+        ((0.4, 0.405, 0.4), None),  # two and a half deviations of the noise
+        ((0.4, 0.4, 0.4), lambda table: table.assign(h=table["h"] + 0.3)),  # an offset of its sensor, from begin to end
+        ((0.4, 0.7, 0.4), "uncertain"),  # the recording says that it does not know
+    ],
+)
+def test_what_is_no_other_start_of_one_recording_is_not(
+    starts: Sequence[float], change: Callable[[pd.DataFrame], pd.DataFrame] | str | None, tmp_path: Path
+) -> None:
+    recordings = _recordings(tmp_path, starts)
+    if change == "uncertain":
+        sidecar = recordings[1] / "recording.yaml"
+        keys = yaml.safe_load(sidecar.read_text(encoding="utf-8"))
+        sidecar.write_text(yaml.safe_dump(keys | {"uncertain": {"tank.h_0": "300 mm"}}), encoding="utf-8")
+    elif callable(change):
+        change(pd.read_csv(recordings[1] / "data.csv")).to_csv(recordings[1] / "data.csv", index=False)
+    assert not any(d.is_serious for d in _starts(tmp_path, recordings))
+
+
+def test_a_number_that_is_off_moves_no_start(tmp_path: Path) -> None:
+    assert not any(d.is_serious for d in _starts(tmp_path, _recordings(tmp_path, (0.4, 0.4, 0.4), leak=0.03)))
+
+
+def test_one_recording_alone_is_no_odd_one(tmp_path: Path) -> None:
+    (told,) = _starts(tmp_path, _recordings(tmp_path, (0.7,)))
+    assert not told.is_serious
