@@ -102,7 +102,7 @@ def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[
     """Doubts, those serious about a start where one recording alone begins elsewhere, and by far.
 
     Before anything has acted no number and no law of the rig moves what is read, unless it follows an input at once.
-    Where the other recordings begin where they are simulated, this one does not begin as it says, or its sensor was off.
+    Where others begin where they are simulated, this one does not begin as it says, or its sensor was off.
 
     Args:
         doubts: About all recordings.
