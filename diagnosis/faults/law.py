@@ -59,6 +59,16 @@ OFFSET = FaultLaw(
         "sensor_drift": "readings within the interval decide: a drift grows",
     },
 )
+SCALED = FaultLaw(
+    "sensor_gain_in_interval",
+    "sensor whose gain was off for a while",
+    f"reading = truth * (1 + gain * box(t)); {_INTERVAL}",
+    "gain",
+    {
+        "sensor_gain": "readings before and after the interval decide",
+        "sensor_offset_in_interval": "readings of other sizes within the interval decide",
+    },
+)
 STUCK = FaultLaw(
     "sensor_stuck_in_interval",
     "sensor that was stuck for a while",
@@ -93,6 +103,25 @@ STRETCHES = 4
 #: Share by which an input is off that is no finding: laboratory supplies hold what is set on them to about 1 %. What is
 #: smaller than that of the largest value of an input is stated as zero.
 ACCURACY = 0.01
+
+
+#: Share by which the gain of a sensor is off that is no finding, and most: twice as much is read, or nothing.
+SENSOR_ACCURACY, SENSOR_GAIN = 0.01, 1.0
+#: Width of a channel's readings, as a share of the largest, below which a gain is an offset by another name.
+WIDE = 0.5
+
+
+def sensor_gain() -> TermParameter:
+    """Strength of a wrong gain of a sensor: it reads nothing at -1, twice as much at 1."""
+    return TermParameter(
+        "gain",
+        "1",
+        -SENSOR_GAIN,
+        SENSOR_GAIN,
+        (0.02,),
+        negligible=SENSOR_ACCURACY,
+        meaning="change of the gain in the interval, as a share of the reading",
+    )
 
 
 def gain() -> TermParameter:

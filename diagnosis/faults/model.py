@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, STUCK, WHOLLY, fault_term
+from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, SCALED, STUCK, WHOLLY, fault_term, sensor_gain
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
@@ -21,9 +21,10 @@ from diagnosis.search.structure import structure
 #: What the readings of a sensor do under each fault.
 _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     OFFSET.identifier: Readings.with_offset,
+    SCALED.identifier: Readings.with_gain,
     STUCK.identifier: Readings.with_held,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, STUCK, *OF_INPUTS)}
+_LAWS = {law.identifier: law for law in (OFFSET, SCALED, STUCK, *OF_INPUTS)}
 #: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
 #: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
 _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
@@ -50,7 +51,8 @@ class FaultyModel(WrappedModel):
         for readings in self.readings:
             for again in range(OCCASIONS):
                 label = readings.label + (AGAIN if again else "")
-                for law, strength in ((OFFSET, readings.offset()), (STUCK, WHOLLY)):
+                kinds = [(OFFSET, readings.offset()), (STUCK, WHOLLY)]
+                for law, strength in [*kinds, (SCALED, sensor_gain())] if readings.has_gain else kinds:
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
 
@@ -88,13 +90,15 @@ class FaultyModel(WrappedModel):
         yield from found.items()
 
     def base_jacobian(self, point: Point) -> Array:
-        """See `diagnosis.search.problem.Model`; a sensor that is stuck sees no parameter."""
+        """See `diagnosis.search.problem.Model`; a sensor that is stuck sees no parameter, another gain sees more."""
         found = super().base_jacobian(point)
         for readings, faults in self._faults(point):
             seen = np.ones(len(readings.measured))
             for term, (strength, begin, end) in faults:
                 if term.identifier == STUCK.identifier:
                     seen *= 1.0 - strength * readings.box(begin, end)
+                elif term.identifier == SCALED.identifier:
+                    seen *= 1.0 + strength * readings.box(begin, end)
             if found.shape[1] and np.any(seen != 1.0):
                 own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
                 found[readings.own] = readings.residuals(own * seen).T

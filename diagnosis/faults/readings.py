@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.law import Span
+from diagnosis.faults.law import WIDE, Span
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import TermParameter
@@ -72,6 +72,21 @@ class Readings:
     def with_offset(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor reads too much by an amount within an interval."""
         return np.asarray(plain - amount / self.deviation * self.box(begin, end))
+
+    def with_gain(self, plain: Array, amount: float, begin: float, end: float) -> Array:
+        """Plain residuals where the sensor reads too much by a share within an interval."""
+        box = amount * self.box(begin, end)
+        return np.asarray(plain - box * self.simulated(plain))
+
+    def simulated(self, plain: Array) -> Array:
+        """What is simulated at the samples, in deviations of the noise."""
+        return np.asarray(self.measured / self.deviation - plain)
+
+    @property
+    def has_gain(self) -> bool:
+        """Whether a gain is something else than an offset: a temperature has its zero elsewhere."""
+        largest = float(np.max(np.abs(self.measured), initial=0.0))
+        return self.unit != "K" and len(self.measured) > 0 and float(np.ptp(self.measured)) >= WIDE * largest
 
     def with_held(self, plain: Array, share: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor holds its reading within an interval."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
-from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET
+from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET, STUCK
 from diagnosis.faults.readings import Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
@@ -73,23 +73,33 @@ def sensor_scores(
         for term in terms:
             kinds.setdefault(term.identifier, term)
         for term in kinds.values():
-            if term.identifier == OFFSET.identifier:
-                _offset(found, projection, scaled, readings, term)
-            else:
+            if term.identifier == STUCK.identifier:
                 _stuck(found, base, scaled, readings, term)
+            else:
+                _box(found, projection, scaled, readings, term, _unit(base, readings, term))
     return found.scoring()
 
 
-def _offset(found: _Collected, projection: Projection, scaled: Scaled, readings: Readings, term: Term) -> None:
+def _unit(base: Fit, readings: Readings, term: Term) -> Array:
+    """What a fault of strength 1 adds to the plain residuals where it acts, shape (samples,)."""
+    if term.identifier == OFFSET.identifier:
+        return np.full(len(readings.measured), -1.0 / readings.deviation)
+    return -readings.simulated(readings.plain(base.residuals[readings.own]))
+
+
+def _box(
+    found: _Collected, projection: Projection, scaled: Scaled, readings: Readings, term: Term, unit: Array
+) -> None:
+    """Score an offset or a gain, which adds a multiple of `unit` within its interval."""
     count = len(readings.measured)
     cuts = np.unique(np.linspace(0, count, min(PIECES, count) + 1).astype(int))
     bounds = (term.parameters[0].lower, term.parameters[0].upper)
-    best = best_interval(_offsets(projection, scaled, readings, cuts), FEWEST, bounds)
+    best = best_interval(_directions(projection, scaled, readings, cuts, unit), FEWEST, bounds)
     if best is None:
         return
     found.add(term, best, readings.edges[cuts])
     if len(cuts) <= count and best.gain > term.price:
-        better, finer = _refined(projection, scaled, readings, cuts, best, bounds)
+        better, finer = _refined(projection, scaled, readings, (cuts, unit), best, bounds)
         if better.gain > best.gain:
             edges = readings.edges[finer]
             found.scores.pop()
@@ -97,20 +107,25 @@ def _offset(found: _Collected, projection: Projection, scaled: Scaled, readings:
 
 
 def _refined(
-    projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray, best: Best, bounds: tuple[float, float]
+    projection: Projection,
+    scaled: Scaled,
+    readings: Readings,
+    tried: tuple[AnyArray, Array],
+    best: Best,
+    bounds: tuple[float, float],
 ) -> tuple[Best, AnyArray]:
     """The best interval near another one, down to single samples, with the cuts that it counts in.
 
     Where there are too many samples to try each begin with each end, every n-th is tried first, and each near the best
     of them then.
     """
-    count = len(readings.measured)
+    (cuts, unit), count = tried, len(readings.measured)
     while True:
         near = [np.arange(cuts[max(e - 1, 0)], cuts[min(e + 1, len(cuts) - 1)] + 1) for e in (best.first, best.last)]
         step = -(-sum(len(n) for n in near) // MOST_CUTS)
         found = cuts[[best.first, best.last]]
         finer = np.unique(np.concatenate([[0], *(n[::step] for n in near), found, [count]]))
-        better = best_interval(_offsets(projection, scaled, readings, finer).without_nulls(), FEWEST, bounds)
+        better = best_interval(_directions(projection, scaled, readings, finer, unit).without_nulls(), FEWEST, bounds)
         if better is None:
             return best, cuts
         best, cuts = better, finer
@@ -118,11 +133,11 @@ def _refined(
             return best, cuts
 
 
-def _offsets(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray) -> Pieces:
-    """Directions of an offset in pieces of a channel."""
+def _directions(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray, unit: Array) -> Pieces:
+    """Directions of an offset or a gain in pieces of a channel."""
     inside = np.arange(len(readings.measured))[None, :]
     boxes = (inside >= cuts[:-1, None]) & (inside < cuts[1:, None])
-    rows = scaled(readings.residuals(np.where(boxes, -1.0 / readings.deviation, 0.0)), readings.own)
+    rows = scaled(readings.residuals(np.where(boxes, unit, 0.0)), readings.own)
     return Pieces(*projection.pieces(rows, readings.own), np.add.reduceat(readings.used.astype(int), cuts[:-1]))
 
 
