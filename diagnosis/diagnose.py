@@ -16,6 +16,7 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import doubts_of
+from diagnosis.check.ends import with_ends
 from diagnosis.check.input_rows import with_input_rows, with_instants
 from diagnosis.clocks import clocks_once_recalibrated
 from diagnosis.experiment.design import next_experiment
@@ -144,13 +145,14 @@ def diagnose(
     known = options.catalogue()
     on_progress("checking that recordings and scenario are of the same experiment")
     compared = [compare(scenario, recording) for recording in distinct([*training, *held_out])]
-    both = [one.recording for one in compared]
+    seen = doubts_of(compared)
+    both = [with_ends(one.recording, seen) for one in compared]
     training, held_out = both[: len(training)], both[len(training) :]
     model, judge = models_of(scenario, training, held_out, known, options.threads, options.without, options.batches)
     if not options.batches.place.is_local and not uses_batches(model):
         what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
         raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
-    doubts = _doubts(compared, model, judge, options)
+    doubts = _doubts(seen, compared, model, judge, options)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
@@ -241,10 +243,13 @@ def diagnose(
 
 
 def _doubts(
-    compared: Sequence[Compared], model: DiagnosisModel, judge: DiagnosisModel | None, options: Options
+    found: tuple[Doubt, ...],
+    compared: Sequence[Compared],
+    model: DiagnosisModel,
+    judge: DiagnosisModel | None,
+    options: Options,
 ) -> tuple[Doubt, ...]:
-    """Doubts about the recordings: beside the scenario as it is, and about clocks beside it once recalibrated."""
-    found = doubts_of(compared)
+    """Doubts beside the scenario as it is, and about clocks beside it once recalibrated."""
     if not options.is_checked or of_another_experiment(found):
         return found
     return (*clocks_once_recalibrated(model, judge, compared), *found)

@@ -12,11 +12,12 @@ import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.ends import range_doubts
 from diagnosis.check.explain import LEVEL, explained
 from diagnosis.check.feedthrough import QUIETER, quieter
 from diagnosis.check.quantiles import chi_square_beyond, normal_beyond, student_beyond, student_log_height
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.noise import estimate_noise, is_unresolved, repeated, repeats_end
+from diagnosis.recording.noise import estimate_noise, is_unresolved, repeated
 from diagnosis.report.display import instant
 
 #: A noise is measured by its neighbours to within a factor: what filters and pickup do to neighbouring readings counts.
@@ -28,8 +29,6 @@ RAMPS = (5.0, 8.0)
 #: A temperature that steps by so many times its largest change from one reading to the next elsewhere steps faster than
 #: the rig makes it: a heat flow may double where another comes to it.
 FASTER = 2.0
-#: Readings at an end of a channel from which they may be an end of the sensor's range.
-MANY = 8
 #: Largest steps that are left out where the tail of the noise is estimated: two stretches with two ends.
 SPARED = 4
 #: Degrees of freedom that the noise of a sensor is given; the likelihood chooses.
@@ -61,7 +60,7 @@ def reading_doubts(compared: Compared, is_timed: bool = True) -> list[Doubt]:
     found = []
     for beside in compared.channels.values():
         stuck = stuck_stretches(compared, beside)
-        found += [*_noise(compared, beside), *_gaps(compared, beside), *_ends(compared, beside)]
+        found += [*_noise(compared, beside), *_gaps(compared, beside), *range_doubts(compared, beside)]
         found += [_stuck(compared, beside, a, b) for a, b in stuck]
         steps = _steps(compared, beside) if is_timed else []
         found += [d for d in steps if not any(_near(beside, d, s) for s in stuck)]
@@ -83,35 +82,6 @@ def _near(beside: Beside, doubt: Doubt, stretch: tuple[int, int]) -> bool:
     times = beside.channel.times
     begin, end = times[max(stretch[0] - 1, 0)], times[min(stretch[1] + 1, len(times) - 1)]
     return bool(begin <= doubt.begin <= end or begin <= doubt.end <= end)
-
-
-def _ends(compared: Compared, beside: Beside) -> list[Doubt]:
-    """Readings that repeat the largest or the smallest value, where they scatter elsewhere: an end of the range.
-
-    Where the quantity is 0 there, a sensor of what is switched off, or one that rounds coarsely, does the same.
-    """
-    channel, values = beside.channel, beside.channel.values
-    if len(values) < 32 or channel.is_clipped.any():
-        return []
-    repeats = repeats_end(values)
-    found = []
-    for value, name, key in ((values.max(), "largest", "maximum"), (values.min(), "smallest", "minimum")):
-        held = repeats & (values == value)
-        count = int(np.count_nonzero(held))
-        if count < MANY or value == 0.0:
-            continue
-        shown = compared.units.text(float(value), channel.unit, is_difference=False)
-        text = (
-            f"{count} of {len(values)} readings repeat its {name} value, {shown}, while it scatters elsewhere: the "
-            f"sensor's range may end there"
-        )
-        remedy = f"if it does, state `{key}`: such readings then count as what lies there or beyond"
-        times = channel.times[held]
-        begin, end = float(times[0]), float(times[-1])
-        found.append(
-            Doubt(compared.recording.title, channel.name, "range", text, remedy, False, begin, end, float(count))
-        )
-    return found
 
 
 def _noise(compared: Compared, beside: Beside) -> list[Doubt]:

@@ -28,13 +28,12 @@ LEAST = 1e-4
 
 
 def unfollowed(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about the inputs of all recordings, one for each channel; serious where no channel follows any input."""
-    asked = list(_asked(every))
-    if not asked:
-        return []
-    answers = _followed(every)
-    is_serious = bool(answers) and max(a.measured for a in answers.values()) <= NEXT_TO_NOTHING
-    return [_doubt(every, name, share, answers.get(name) if is_serious else None) for name, share in asked]
+    """Doubts about channels that the scenario does not explain in any recording, and about the inputs of these.
+
+    One is serious where its readings show no answer to any input, and the simulation does: the inputs are not those
+    that acted on it, or its column is of something else.
+    """
+    return [_doubt(every, name, share, _without_answer(every, name)) for name, share in _asked(every)]
 
 
 def _asked(every: Sequence[Compared]) -> Iterator[tuple[str, float]]:
@@ -46,15 +45,12 @@ def _asked(every: Sequence[Compared]) -> Iterator[tuple[str, float]]:
             yield name, max(known)
 
 
-def _followed(every: Sequence[Compared]) -> dict[str, Followed]:
-    """How far inputs predict each channel whose simulation they predict."""
-    found = {}
-    for name in dict.fromkeys(n for one in every for n in one.channels):
-        having = [one for one in every if name in one.channels and one.channels[name].is_comparable]
-        answer = followed(having, name) if having else None
-        if answer is not None and answer.simulated >= SHOWN:
-            found[name] = answer
-    return found
+def _without_answer(every: Sequence[Compared], name: str) -> Followed | None:
+    """How far inputs predict a channel that shows no answer to them; None where it does, or might."""
+    having = [one for one in every if name in one.channels and one.channels[name].is_comparable]
+    found = followed(having, name)
+    is_told = found is not None and found.simulated >= SHOWN and found.measured <= NEXT_TO_NOTHING
+    return found if is_told else None
 
 
 def _doubt(every: Sequence[Compared], name: str, share: float, answer: Followed | None) -> Doubt:
@@ -70,9 +66,12 @@ def _doubt(every: Sequence[Compared], name: str, share: float, answer: Followed 
         f", and no response with memory joins these readings to the inputs: fitted to half of each recording it "
         f"predicts {percent(answer.measured)} of the other half, and {percent(answer.simulated)} of what is simulated"
     )
-    remedy = "compare the programme, or the recorded input, with what was played and with what the actuator did"
+    remedy = (
+        "compare the programme, or the recorded input, with what was played and with what the actuator did; is it the "
+        "column of this channel?"
+    )
     z = float(np.sqrt(answer.simulated / max(answer.measured, LEAST)))
-    return Doubt(one.recording.title, name, "programme", text, remedy, True, one.begin, one.end, z)
+    return Doubt(one.recording.title, name, "no answer", text, remedy, True, one.begin, one.end, z)
 
 
 def _explained(beside: Beside) -> float | None:

@@ -23,7 +23,7 @@ _CLEARED = "the fault has to be cleared"
 #: Begin of the reason why a finding is suggested that waits for such a doubt.
 _WAITS = "first"
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
-OF_A_STRETCH = ("sensor", "input")
+OF_A_STRETCH = ("sensor", "input", "range")
 
 
 def is_of_another_experiment(doubt: Doubt) -> bool:
@@ -65,7 +65,7 @@ def is_of_an_interval(finding: Finding) -> bool:
 
 
 def faults(doubts: Sequence[Doubt]) -> list[Doubt]:
-    """Serious doubts about a stretch of a sensor or of an input."""
+    """Serious doubts about a stretch of a sensor or of an input, or about the range of a sensor."""
     return [d for d in doubts if d.is_serious and d.kind in OF_A_STRETCH]
 
 
@@ -90,6 +90,7 @@ def doubted(findings: Sequence[Finding], doubts: Sequence[Doubt]) -> tuple[Findi
         doubts: About its recordings.
     """
     told = _one_cause(findings)
+    doubts = [d for d in doubts if d.kind != "range"]  # nothing waits for it: such readings are left out
     accepted = [f for f in told if f.is_accepted and f.unit in MEASURED]
     open_ones = (*faults(doubts), *far_starts(doubts), *late_responses(doubts))
     left = [d for d in open_ones if not any(is_explained(d, f) for f in accepted)]

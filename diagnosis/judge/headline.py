@@ -23,6 +23,7 @@ _OF_ANOTHER = "The recording and the scenario are not of the same experiment"
 _LESS = (
     ({"swapped"}, "Channels are exchanged"),
     ({"unit", "sign"}, "A column is not what its recording says"),
+    ({"no answer"}, "Readings show no answer to the inputs of the scenario"),
     ({"start"}, "The first readings of a recording are not where it is said to begin"),
     ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
 )

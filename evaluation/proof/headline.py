@@ -24,7 +24,7 @@ LEAST_GAIN = 12.0
 LEAST_PROBABLE = 0.01
 #: Sabotage to the kinds of doubt (`Doubt.kind`) that tell it; a sabotage that is not here may be told by any.
 _DOUBTS: Mapping[str, frozenset[str]] = {
-    "wrong_programme": frozenset({"programme", "other run", "input", "dead time", "start"}),
+    "wrong_programme": frozenset({"programme", "no answer", "other run", "input", "dead time", "start"}),
     "other_run_input": frozenset({"programme", "other run", "input", "dead time"}),
     "input_offset": frozenset({"input", "programme", "scale"}),
     "unequal_rooms": frozenset({"start", "input", "programme"}),
