@@ -19,6 +19,7 @@ from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import independent
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.report.display import instant
 
 #: Share of a channel's variance that the scenario leaves at most where it meets it, all numbers as they are.
 MET = 0.05
@@ -72,7 +73,7 @@ class _Clock:
             low, high = sorted(100.0 * (abs(self.rate) + side * self.spread) for side in (-1.0, 1.0))
             way = "fast" if self.rate > 0.0 else "slow"
             return f"with a clock that runs {100.0 * abs(self.rate):.2g} % too {way} ({low:.2g} to {high:.2g} %, 95 %)"
-        return f"with a clock that is {abs(self.offset):.3g} s {'ahead' if self.offset > 0.0 else 'behind'}"
+        return f"with a clock that is {instant(abs(self.offset), 3)} s {'ahead' if self.offset > 0.0 else 'behind'}"
 
 
 def clocks_of_one(every: Sequence[Compared], simulated: str = AS_IT_IS) -> list[Doubt]:

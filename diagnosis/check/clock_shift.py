@@ -21,6 +21,7 @@ from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.check.timing import critical, leading, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import sample
+from diagnosis.report.display import instant
 
 #: Longest shift that is tried, as a share of the recording; longer ones move the whole response
 #: (`diagnosis.check.timing`).
@@ -144,8 +145,8 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
     is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
     if is_undecided and low > bound and found.lag > max(slowest, bound):
         text = (
-            f"the response comes late: a clock shift of {_size(found)} or a lag of {found.lag:.3g} s cannot be told "
-            "apart"
+            f"the response comes late: a clock shift of {_size(found)} or a lag of {instant(found.lag, 3)} s "
+            "cannot be told apart"
         )
         return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
     return []
@@ -188,8 +189,8 @@ def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over
         return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
     stated = max(b.channel.offset_bound for b in asked(compared))
     text = (
-        f"the response comes {abs(found.size):.3g} s earlier than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), "
-        f"where at most {stated:.3g} s are stated; {weight}"
+        f"the response comes {instant(abs(found.size), 3)} s earlier than {compared.drive} "
+        f"({_between(low, high)} s, 95 %), where at most {instant(stated, 3)} s are stated; {weight}"
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
     return Doubt(*where, text, remedy, True, *over)
@@ -199,12 +200,17 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
     """The doubt where the response comes late: a dead time and many lags in series make it late too."""
     low, high = found.interval
     text = (
-        f"the response comes {found.size:.3g} s later than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), by more "
-        f"than one or two lags explain ({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and "
-        f"many lags in series cannot be told apart"
+        f"the response comes {instant(found.size, 3)} s later than {compared.drive} "
+        f"({_between(low, high)} s, 95 %), by more than one or two lags explain "
+        f"({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and many lags in series cannot "
+        "be told apart"
     )
     remedy = "correct `time.zero` or the programme's times, or model the dead time"
     return Doubt(*where, text, remedy, False, *over, is_far=True)
+
+
+def _between(low: float, high: float) -> str:
+    return f"{instant(low, 3)} to {instant(high, 3)}"
 
 
 def _size(found: Shift) -> str:

@@ -121,7 +121,7 @@ def how(one: InputComparison) -> str:
     if one.kind == "offset":
         return f"is {abs(one.offset):.3g} {one.unit} {'higher' if one.offset > 0 else 'lower'}"
     if one.kind == "shifted":
-        return f"switches {abs(one.shift):.3g} s {'later' if one.shift > 0 else 'earlier'}"
+        return f"switches {instant(abs(one.shift), 3)} s {'later' if one.shift > 0 else 'earlier'}"
     if one.kind == "off":
         return f"is 0 {where}"
     mine, theirs = one.switches

@@ -12,6 +12,7 @@ from diagnosis.check.explain import Fit, explained, fit
 from diagnosis.check.timing import critical, discrepant, leading, percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Recording
+from diagnosis.report.display import instant
 
 #: Factors between units of time that are mistaken for one another: ms, s, min, h.
 FACTORS = {
@@ -49,8 +50,8 @@ def time_unit_doubts(compared: Compared) -> list[Doubt]:
         return []
     z, name, share, own = best
     text = (
-        f"the recording lasts {span:.3g} s, and the programme switches from {switches[0]:.3g} to "
-        f"{switches[-1]:.3g} s: with "
+        f"the recording lasts {instant(span, 3)} s, and the programme switches from {switches[0]:.3g} to "
+        f"{instant(switches[-1], 3)} s: with "
         f"{name} corrected it explains {percent(share)} of the variance of the readings, as it is {percent(own)}"
     )
     return [

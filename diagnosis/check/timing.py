@@ -16,6 +16,7 @@ from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
 from diagnosis.recording.series import sample
+from diagnosis.report.display import instant
 
 #: Channels of one recording that are asked for timing; more of the same rig say the same again.
 MOST_CHANNELS = 6
@@ -228,19 +229,19 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
         return []
     ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
-    way = "later" if shift > 0 else "earlier"
+    way, between = "later" if shift > 0 else "earlier", f"{instant(low, 3)} to {instant(high, 3)}"
     # moved beyond its shortest part a programme may be another one, but not where it explains what a model explains
     if abs(shift) < np.min(np.diff(ends)) or _shares(fits) > 1.0 - DISCREPANCY**2:
         stated = max(b.channel.offset_bound for b in leads)
         text = (
-            f"the response comes {abs(shift):.3g} s {way} than {compared.drive} ({low:.3g} to {high:.3g} s, 95 %), "
-            f"where at most {stated:.3g} s are stated: "
+            f"the response comes {instant(abs(shift), 3)} s {way} than {compared.drive} ({between} s, 95 %), "
+            f"where at most {instant(stated, 3)} s are stated: "
             "moved by that, it explains {other} of the variance of the readings, as it is {own}"
         )
         remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
         return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
     text = (
-        f"the readings do not change when the programme does: {abs(shift):.3g} s {way} ({low:.3g} to {high:.3g} s, "
+        f"the readings do not change when the programme does: {instant(abs(shift), 3)} s {way} ({between} s, "
         "95 %) it would explain {other} of their variance, as it is {own}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"

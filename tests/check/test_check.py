@@ -56,11 +56,11 @@ def test_scenario_s_programme_is_not_what_was_done(scenario: Scenario, tmp_path:
 
 @pytest.mark.parametrize("highest", [30.0, 40.0, 50.0])
 def test_sensors_that_clip_follow_their_programme(scenario: Scenario, tmp_path: Path, highest: float) -> None:
-    """They change at fewer instants than it, and nowhere else."""
+    """They change at fewer instants than it, and nowhere else; their range may be told, and nothing of a programme."""
     steps = ((0, 0, 0), (12, 0, 3.6), (80, 4, 0), (170, 0.8, 3.6), (240, 4, 0), (290, 0, 4), (370, 3.6, 0))
     short = tuple((float(t), float(p), float(q)) for t, p, q in steps)
     values = np.minimum(rig.readings(short), highest)
-    assert serious(scenario, rig.write(tmp_path / "a", short, values)) == []
+    assert {kind for kind, _ in serious(scenario, rig.write(tmp_path / "a", short, values))} <= {"range"}
 
 
 def test_exchanged_columns(scenario: Scenario, tmp_path: Path) -> None:
