@@ -2,11 +2,13 @@
 
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
 Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
+Degrees of freedom of a sum of squares that are not independent: F. E. Satterthwaite, Biometrics 2 (1946) 110-114.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +27,8 @@ QUANTILE = 3.09
 WHITE = 2.33
 #: Deviations by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
 ALONE = 5.0
+#: Time over which scatter of contacts is remembered, as a share of the recording; as of `models.fabric.scatter`.
+MEMORY = 0.5
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
 
@@ -171,6 +175,25 @@ def _lasting(own: Array, scatter: float) -> float:
     return float(np.sqrt(np.mean(own[~is_alone] ** 2)))
 
 
+def _independent(recordings: Sequence[Sequence[tuple[int, float]]]) -> float:
+    """How many independent squares have the mean of all, and its variance.
+
+    White noise is independent. What contacts scatter by is remembered for `MEMORY` of a recording, and moves all of
+    its channels: that they do so together is the worst case.
+
+    Args:
+        recordings: Of each, samples and the share of their variance that is such scatter, by channel.
+    """
+    rate = 2.0 / MEMORY
+    # mean of exp(-2 |s - t| / memory) over all pairs of instants of a recording
+    remembered = 2.0 / rate - 2.0 / rate**2 * (1.0 - math.exp(-rate))
+    samples = sum(count for own in recordings for count, _ in own)
+    white = sum(count * (1.0 - share**2) for own in recordings for count, share in own)
+    shared = sum(sum(count * share for count, share in own) ** 2 for own in recordings)
+    squared = sum(count * share**2 for own in recordings for count, share in own)  # each with itself
+    return samples**2 / (white + max(remembered * shared, squared))
+
+
 def agreement(residuals: Array, readings: Readings, tested: Tested | None = None) -> Agreement:
     """Compare residuals with the noise.
 
@@ -186,14 +209,17 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
     counted = ~wild
     numbers = [n for n in range(len(readings.channels)) if np.any(counted & (readings.channel == n))]
     found, squares, error = [], 0.0, 0.0
+    shares: dict[int, float] = {}
     for n in numbers:
         channel, own = readings.channels[n], residuals[counted & (readings.channel == n)]
         count = len(own)
         unknown = ZERO**2 if channel.bias_bound == 0.0 else 0.0
         total = float(own @ own - unknown / (1.0 + count * unknown) * own.sum() ** 2)
         own_error = 0.0 if channel.is_deviation_given else NOISE_ERROR / np.sqrt(count)
-        limit = float(chdtri(count, LEVEL / len(numbers))) / count * (1.0 + 2.0 * QUANTILE * own_error)
         noise, scatter = deviation(channel), _scatter(own)
+        shares[n] = (channel.scatter / noise) ** 2 if noise > 0.0 else 0.0
+        free = _independent([[(count, shares[n])]])
+        limit = float(chdtri(free, LEVEL / len(numbers))) / free * (1.0 + 2.0 * QUANTILE * own_error)
         found.append(
             ChannelAgreement(
                 channel.name,
@@ -215,7 +241,10 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
     samples = sum(c.samples for c in found)
     if not samples:
         return Agreement(0.0, 1.0, 0, int(wild.sum()), ())
-    limit = float(chdtri(samples, LEVEL)) / samples + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
+    own_shares = [(readings.of_channel[n], (c.samples, shares[n])) for n, c in zip(numbers, found)]
+    recordings = [[own for of, own in own_shares if of == r] for r in dict.fromkeys(of for of, _ in own_shares)]
+    free = _independent(recordings)
+    limit = float(chdtri(free, LEVEL)) / free + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
     return Agreement(
         squares / samples,
         limit,

@@ -61,6 +61,7 @@ class Channel:
             `uncertain`, `thinned`; once it has been held against a scenario, `before start` and `after stop` of the
             simulated time), with their number; `diagnosis.recording.usage` puts it into words.
         later: How much `times` were moved, to compare readings with the output after a change of an input [s].
+        scatter: Part of `deviation` by which the simulation scatters by itself (contacts), SI; it is not white.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Channel:
     is_clipped: AnyArray = field(default_factory=lambda: np.zeros(0, dtype=bool))
     dropped: Mapping[str, int] = field(default_factory=dict)
     later: float = 0.0
+    scatter: float = 0.0
 
     @property
     def unit(self) -> str:

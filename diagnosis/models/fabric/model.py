@@ -160,7 +160,8 @@ class FabricModel(ModelBase):
             electrical = tuple(ComparedSeries(s.channel, s.samples, s.used) for s in given)
             own = []
             for c in recording.channels.values():
-                both = replace(c, deviation=float(np.hypot(c.deviation, self._scatter.get(c.name, 0.0))))
+                scatter = self._scatter.get(c.name, 0.0)
+                both = replace(c, deviation=float(np.hypot(c.deviation, scatter)), scatter=scatter)
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
             found.append(compared_run((*electrical, *own)))
         return found
