@@ -85,7 +85,7 @@ class Replicas(Generic[Question, Answer]):
         self._left = count if os.name == "posix" and sys.executable else 0
         self._spent, self._answered = 0.0, 0
         self._replicas: list[_Replica] = []
-        self._end = weakref.finalize(self, _end_all, self._replicas)
+        weakref.finalize(self, _end_all, self._replicas)
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Answers in the order of the questions.

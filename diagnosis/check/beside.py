@@ -213,6 +213,11 @@ def direct(compared: Compared, times: Array) -> Array:
     return np.array([r for r in rows if np.ptp(r) > 0.0]).reshape(-1, len(times))
 
 
+def held_inputs(courses: Sequence[Course]) -> list[tuple[Array, Array]]:
+    """Instants [s] and values of each input that holds its values, from each instant on."""
+    return [(c.times, c.values) for c in courses if not c.is_linear]
+
+
 def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None = None) -> Compared:
     """Simulate a scenario under the conditions of a recording.
 
@@ -305,7 +310,7 @@ def _settled(channel: Channel, recording: Recording, courses: Sequence[Course], 
         return channel
     series = series_of(results, channel.target, recording.path / "recording.yaml")
     if channel.target.is_component:
-        channel = settled(channel, series, [(c.times, c.values) for c in courses if not c.is_linear])
+        channel = settled(channel, series, held_inputs(courses))
     if channel.is_deviation_given:
         return channel
     noise = quieter(channel, series)

@@ -18,7 +18,7 @@ from diagnosis.check.beside import Beside, Compared, direct, lagged
 from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
 from diagnosis.check.explain import explained, explains
 from diagnosis.check.quantiles import chi_square_beyond
-from diagnosis.check.timing import critical, leading, resolution
+from diagnosis.check.timing import between, critical, leading, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import sample
 from diagnosis.report.display import instant
@@ -190,7 +190,7 @@ def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over
     stated = max(b.channel.offset_bound for b in asked(compared))
     text = (
         f"the response comes {instant(abs(found.size), 3)} s earlier than {compared.drive} "
-        f"({_between(low, high)} s, 95 %), where at most {instant(stated, 3)} s are stated; {weight}"
+        f"({between(low, high)} s, 95 %), where at most {instant(stated, 3)} s are stated; {weight}"
     )
     remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
     return Doubt(*where, text, remedy, True, *over)
@@ -201,16 +201,12 @@ def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: t
     low, high = found.interval
     text = (
         f"the response comes {instant(found.size, 3)} s later than {compared.drive} "
-        f"({_between(low, high)} s, 95 %), by more than one or two lags explain "
+        f"({between(low, high)} s, 95 %), by more than one or two lags explain "
         f"({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and many lags in series cannot "
         "be told apart"
     )
     remedy = "correct `time.zero` or the programme's times, or model the dead time"
     return Doubt(*where, text, remedy, False, *over, is_far=True)
-
-
-def _between(low: float, high: float) -> str:
-    return f"{instant(low, 3)} to {instant(high, 3)}"
 
 
 def _size(found: Shift) -> str:

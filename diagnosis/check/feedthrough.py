@@ -43,8 +43,6 @@ def settled(channel: Channel, series: Series, inputs: Sequence[tuple[Array, Arra
         series: Its simulation, at even times.
         inputs: Instants [s] and values of each held input, from each instant on.
     """
-    if len(series.times) < 5 or not inputs:
-        return channel
     if not follows_at_once(series, inputs, channel.deviation):
         return channel
     levels = _levels(series, inputs)

@@ -44,18 +44,16 @@ class Followed:
 
 
 @dataclass(frozen=True)
-class _Recording:
-    """Responses to the inputs, and what is to be predicted, without what a start and a drift explain; of one half.
+class _Half:
+    """Responses to the inputs, and what is to be predicted, without what a start and a drift explain.
 
     Args:
         features: Shape (samples, responses).
-        measured: Shape (samples,).
-        simulated: Shape (samples,).
+        targets: Readings and simulation, shape (samples, 2).
     """
 
     features: Array
-    measured: Array
-    simulated: Array
+    targets: Array
 
 
 def followed(every: Sequence[Compared], channel: str) -> Followed | None:
@@ -73,11 +71,9 @@ def followed(every: Sequence[Compared], channel: str) -> Followed | None:
         return None
     step = max(one.end - one.begin for one in every) / INSTANTS
     kernels = _kernels(INSTANTS + 1, step)
-    halves = [[_recording(one, channel, names, kernels, step, half) for one in every] for half in (0, 1)]
-    first, second = halves
-    measured, simulated = (
-        max(_share(first, second, values), _share(second, first, values)) for values in ("measured", "simulated")
-    )
+    halves = [_halves(one, channel, names, kernels, step) for one in every]
+    first, second = [h[0] for h in halves], [h[1] for h in halves]
+    measured, simulated = np.maximum(_shares(first, second), _shares(second, first)).tolist()
     return Followed(measured, simulated)
 
 
@@ -105,27 +101,38 @@ def _kernels(count: int, step: float) -> Array:
     return np.array(rows)
 
 
-def _recording(one: Compared, channel: str, names: Sequence[str], kernels: Array, step: float, half: int) -> _Recording:
+def _halves(one: Compared, channel: str, names: Sequence[str], kernels: Array, step: float) -> tuple[_Half, _Half]:
+    """Both halves of the samples of a channel of one recording."""
     beside = one.channels[channel]
+    features = _responses(one, names, kernels, step, beside.times)
+    targets = np.column_stack([beside.measured, beside.simulated_there])
+    middle = len(beside.times) // 2
+    first, second = (
+        _half(beside.times[part], features[part], targets[part], step) for part in (slice(middle), slice(middle, None))
+    )
+    return first, second
+
+
+def _responses(one: Compared, names: Sequence[str], kernels: Array, step: float, times: Array) -> Array:
+    """Responses to the inputs and their squares at given times, shape (times, responses)."""
     count = int(np.ceil((one.end - one.begin) / step)) + 1
     edges = one.begin + step * np.arange(count + 1, dtype=np.float64)
-    middle = len(beside.times) // 2
-    part = slice(middle) if half == 0 else slice(middle, None)
-    times = beside.times[part]
-    nuisance = _nuisance((times - times[0]) / max(float(times[-1] - times[0]), step))
-    features = []
+    size = 2 * count
+    pulses = np.fft.rfft(kernels[:, :count], size)
+    found = []
     for course in one.courses:
         if course.name in names:
             mean = _averages(course, edges)
             driven = np.array([mean - mean.mean(), mean**2 - np.mean(mean**2)])
-            size = 2 * count
-            spectra = np.fft.rfft(driven, size)[:, None] * np.fft.rfft(kernels[:, :count], size)[None]
+            spectra = np.fft.rfft(driven, size)[:, None] * pulses
             answers = np.fft.irfft(spectra, size)[..., :count].reshape(-1, count)
-            there = np.array([np.interp(times, edges[1:], row) for row in answers])
-            features.append(_without(there.T, nuisance))
-    measured = _without(beside.measured[part, None], nuisance)[:, 0]
-    simulated = _without(beside.simulated_there[part, None], nuisance)[:, 0]
-    return _Recording(np.hstack(features), measured, simulated)
+            found += [np.interp(times, edges[1:], row) for row in answers]
+    return np.array(found).T
+
+
+def _half(times: Array, features: Array, targets: Array, step: float) -> _Half:
+    nuisance = _nuisance((times - times[0]) / max(float(times[-1] - times[0]), step))
+    return _Half(_without(features, nuisance), _without(targets, nuisance))
 
 
 def _averages(course: Course, edges: Array) -> Array:
@@ -147,16 +154,16 @@ def _without(columns: Array, nuisance: Array) -> Array:
     return np.asarray(columns - nuisance @ (nuisance.T @ columns))
 
 
-def _share(own: Sequence[_Recording], others: Sequence[_Recording], values: str) -> float:
-    """Greatest share of one half's variance that responses predict which are fitted to the other."""
-    target, fitted = (np.concatenate([getattr(o, values) for o in half]) for half in (own, others))
+def _shares(own: Sequence[_Half], others: Sequence[_Half]) -> Array:
+    """Greatest share of one half's variance that responses predict which are fitted to the other, by target."""
+    target, fitted = (np.vstack([o.targets for o in half]) for half in (own, others))
     there, features = (np.vstack([o.features for o in half]) for half in (own, others))
     size = np.sqrt(np.mean(features**2, axis=0))
     keep = size > 1e-12 * size.max()
     features, there = features[:, keep] / size[keep], there[:, keep] / size[keep]
     squares, right = features.T @ features, features.T @ fitted
-    total = least = float(np.mean(target**2))
+    total = least = np.mean(target**2, axis=0)
     for ridge in RIDGES:
         weights = np.linalg.solve(squares + ridge * len(fitted) * np.eye(len(squares)), right)
-        least = min(least, float(np.mean((target - there @ weights) ** 2)))
-    return 1.0 - least / total if total > 0.0 else 0.0
+        least = np.minimum(least, np.mean((target - there @ weights) ** 2, axis=0))
+    return np.asarray(np.where(total > 0.0, 1.0 - least / np.where(total > 0.0, total, 1.0), 0.0))

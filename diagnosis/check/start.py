@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.unit.quantity import conversion
-from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.beside import Beside, Compared, held_inputs
 from diagnosis.check.explain import LEVEL
 from diagnosis.check.feedthrough import follows_at_once
 from diagnosis.check.quantiles import normal_beyond
@@ -122,9 +122,8 @@ def _is_odd(doubt: Doubt, every: Sequence[Compared]) -> bool:
         return False
     others = [o.channels[doubt.subject] for o in every if o is not own and doubt.subject in o.channels]
     others = [b for b in others if b.is_comparable and not _is_driven_before(b)]
-    inputs = [(c.times, c.values) for c in own.courses if not c.is_linear]
     assert beside.simulated is not None
-    if not others or follows_at_once(beside.simulated, inputs, beside.channel.deviation):
+    if not others or follows_at_once(beside.simulated, held_inputs(own.courses), beside.channel.deviation):
         return False
     off, deviation = _off(beside)
     if abs(off) < FAR * deviation:

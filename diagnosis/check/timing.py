@@ -204,6 +204,11 @@ def _other_runs(compared: Compared, others: Sequence[Compared], leads: Sequence[
     return found
 
 
+def between(low: float, high: float) -> str:
+    """An interval of times, for people."""
+    return f"{instant(low, 3)} to {instant(high, 3)}"
+
+
 def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> list[Rival]:
     """The whole response earlier or later than its programme."""
     bound = max(resolution(compared, b.channel) for b in leads)
@@ -229,20 +234,21 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
         return []
     ends = np.concatenate([[compared.begin], compared.switches(), [compared.end]])
-    way, between = "later" if shift > 0 else "earlier", f"{instant(low, 3)} to {instant(high, 3)}"
+    way = "later" if shift > 0 else "earlier"
     # moved beyond its shortest part a programme may be another one, but not where it explains what a model explains
     if abs(shift) < np.min(np.diff(ends)) or _shares(fits) > 1.0 - DISCREPANCY**2:
         stated = max(b.channel.offset_bound for b in leads)
         text = (
-            f"the response comes {instant(abs(shift), 3)} s {way} than {compared.drive} ({between} s, 95 %), "
-            f"where at most {instant(stated, 3)} s are stated: "
+            f"the response comes {instant(abs(shift), 3)} s {way} than {compared.drive} "
+            f"({between(low, high)} s, 95 %), where at most {instant(stated, 3)} s are stated: "
             "moved by that, it explains {other} of the variance of the readings, as it is {own}"
         )
         remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
         return [Rival("dead time", "time", text, remedy, gained, _shares(own), _shares(fits))]
     text = (
-        f"the readings do not change when the programme does: {instant(abs(shift), 3)} s {way} ({between} s, "
-        "95 %) it would explain {other} of their variance, as it is {own}"
+        f"the readings do not change when the programme does: {instant(abs(shift), 3)} s {way} "
+        f"({between(low, high)} s, 95 %) "
+        "it would explain {other} of their variance, as it is {own}"
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]

@@ -105,36 +105,22 @@ STRETCHES = 4
 ACCURACY = 0.01
 
 
-#: Share by which the gain of a sensor is off that is no finding, and most: twice as much is read, or nothing.
-SENSOR_ACCURACY, SENSOR_GAIN = 0.01, 1.0
+#: Share by which the gain of a sensor is off that is no finding.
+SENSOR_ACCURACY = 0.01
 #: Width of a channel's readings, as a share of the largest, below which a gain is an offset by another name.
 WIDE = 0.5
 
 
+def gain(
+    meaning: str = "change of the input in the interval, as a share of what was stated", negligible: float = ACCURACY
+) -> TermParameter:
+    """Strength of a wrong input, or of a wrong gain of a sensor: nothing at -1, twice as much at 1."""
+    return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=negligible, meaning=meaning)
+
+
 def sensor_gain() -> TermParameter:
-    """Strength of a wrong gain of a sensor: it reads nothing at -1, twice as much at 1."""
-    return TermParameter(
-        "gain",
-        "1",
-        -SENSOR_GAIN,
-        SENSOR_GAIN,
-        (0.02,),
-        negligible=SENSOR_ACCURACY,
-        meaning="change of the gain in the interval, as a share of the reading",
-    )
-
-
-def gain() -> TermParameter:
-    """Strength of a wrong input: off altogether at -1, twice as much at 1."""
-    return TermParameter(
-        "gain",
-        "1",
-        -1.0,
-        1.0,
-        (0.02,),
-        negligible=ACCURACY,
-        meaning="change of the input in the interval, as a share of what was stated",
-    )
+    """Strength of a wrong gain of a sensor."""
+    return gain("change of the gain in the interval, as a share of the reading", SENSOR_ACCURACY)
 
 
 def added(unit: str, largest: float) -> TermParameter:

@@ -18,6 +18,7 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings, set_aside
 from diagnosis.models.coil_network.runs import ZERO, deviation
+from diagnosis.models.fabric.scatter import MEMORY
 
 #: Probability that noise alone is taken for a departure of the model.
 LEVEL = 0.001
@@ -27,8 +28,6 @@ QUANTILE = 3.09
 WHITE = 2.33
 #: Deviations by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
 ALONE = 5.0
-#: Time over which scatter of contacts is remembered, as a share of the recording; as of `models.fabric.scatter`.
-MEMORY = 0.5
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
 

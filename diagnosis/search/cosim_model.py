@@ -302,8 +302,7 @@ class CompiledModel(CosimModel):
         known = self._known
         keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
         new = {key: one for key, one in zip(keys, wanted) if key not in known}
-        for key, row in zip(new, self._new_rows(list(new.values()))):
-            known[key] = row
+        known.update(zip(new, self._new_rows(list(new.values()))))
         self.runs += len(new)
         found = [known[key] for key in keys]
         for key in list(known)[:-KEPT]:

@@ -17,23 +17,13 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
-from tests.systems.rigs import TANK, held, write_recording
+from tests.systems.rigs import held, tank, write_recording
 
 STEP, COUNT = 2.0, 400
-SCENARIO = """\
-title: A tank
-time: {stop: 800 s, macro_step: 2 s, output_step: 2 s}
-components:
-  pump: {kind: programme, outputs: {flow: {unit: m^3/s, constant: 0.01 m^3/s}}}
-  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
-connections:
-  - pump.flow -> tank.inflow
-"""
 
 
 def _recordings(folder: Path, starts: Sequence[float], leak: float = 0.02) -> list[Path]:
-    TANK.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    tank(folder, "800 s", "2 s")
     found = []
     for number, start in enumerate(starts):
         rng = np.random.default_rng(number)
@@ -46,7 +36,10 @@ def _recordings(folder: Path, starts: Sequence[float], leak: float = 0.02) -> li
         columns = {"t": STEP * np.arange(COUNT), "u": inflow, "h": level}
         found.append(
             write_recording(
-                folder / f"run_{number + 1}", columns, {"pump.flow": ("u", "m^3/s")}, {"tank.level": ("h", "m", "2 mm")}
+                folder / f"run_{number + 1}",
+                columns,
+                {"pump.inflow": ("u", "m^3/s")},
+                {"tank.level": ("h", "m", "2 mm")},
             )
         )
     return found

@@ -13,17 +13,8 @@ from cosim.scenario import load_scenario
 from diagnosis.check.check import check_recordings
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
-from tests.systems.rigs import TANK, held, write_recording
+from tests.systems.rigs import held, tank, write_recording
 
-SCENARIO = """\
-title: A tank
-time: {stop: 100 s, macro_step: 500 ms, output_step: 500 ms}
-components:
-  pump: {kind: programme, outputs: {inflow: {unit: m^3/s, constant: 0.01 m^3/s}}}
-  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
-connections:
-  - pump.inflow -> tank.inflow
-"""
 STEP, COUNT = 0.5, 200
 #: Numbers in feet for each in metres.
 FEET = 1.0 / 0.3048
@@ -33,8 +24,7 @@ def _recordings(
     folder: Path, factor: float, start: float = 0.4, pump: float = 1.0, seeds: tuple[int, ...] = (0, 1)
 ) -> list[Path]:
     """Levels in steps of the inflow, 5 % off; written as so many times what they are, and stated in m."""
-    TANK.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    tank(folder, "100 s", "500 ms")
     found = []
     for one, seed in enumerate(seeds):
         rng = np.random.default_rng(seed)

@@ -46,6 +46,17 @@ connections:
 """
 
 
+TANK_SCENARIO = """\
+title: A tank
+time: {stop: STOP, macro_step: STEP, output_step: STEP}
+components:
+  pump: {kind: programme, outputs: {inflow: {unit: m^3/s, constant: 0.01 m^3/s}}}
+  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
+connections:
+  - pump.inflow -> tank.inflow
+"""
+
+
 def drive(seed: int, size: float) -> Array:
     """Six sines below and above the resonance [V], shape (COUNT,)."""
     rng = np.random.default_rng(seed)
@@ -98,6 +109,14 @@ def oscillator(folder: Path, integrator: str = "cvode") -> Path:
     OSCILLATOR.build(folder)
     path = folder / "scenario.yaml"
     path.write_text(OSCILLATOR_SCENARIO.replace("INTEGRATOR", integrator), encoding="utf-8")
+    return path
+
+
+def tank(folder: Path, stop: str, step: str) -> Path:
+    """The FMU of a tank with its scenario, whose end and steps are given; returns the scenario."""
+    TANK.build(folder)
+    path = folder / "scenario.yaml"
+    path.write_text(TANK_SCENARIO.replace("STOP", stop).replace("STEP", step), encoding="utf-8")
     return path
 
 

@@ -14,17 +14,8 @@ from diagnosis.models.build import model_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
-from tests.systems.rigs import TANK, held, write_recording
+from tests.systems.rigs import held, tank, write_recording
 
-SCENARIO = """\
-title: A tank
-time: {stop: 200 s, macro_step: 500 ms, output_step: 500 ms}
-components:
-  pump: {kind: programme, outputs: {inflow: {unit: m^3/s, constant: 0.01 m^3/s}}}
-  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}
-connections:
-  - pump.inflow -> tank.inflow
-"""
 STEP, COUNT = 0.5, 400
 #: Samples between which the pump of the second recording gives 15 % more, and those between which it hardly runs.
 WRONG, IDLE = (100, 241), (150, 237)
@@ -46,8 +37,7 @@ def _recording(folder: Path, number: int, wrong: tuple[int, int] | None) -> Path
 
 
 def test_ends_are_tried_where_the_input_runs_again(tmp_path: Path) -> None:
-    TANK.build(tmp_path)
-    (tmp_path / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    tank(tmp_path, "200 s", "500 ms")
     recordings = [load_recording(_recording(tmp_path, n, WRONG if n == 1 else None)) for n in range(2)]
     model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), recordings, catalogue()))
     (term,) = [t for t in model.faults() if str(t) == "input_gain_in_interval at pump.inflow (run_1)"]
