@@ -1,14 +1,17 @@
-"""Laws that complete a description: free-knot splines of every quantity, at once or behind a delay.
+"""Laws that complete a description: free-knot splines of every quantity, at once or delayed, and hysteresis.
 
 The laws without a name of `diagnosis.laws.library` are few, so that one of them can be told from a law with a name.
 Where everything that was tried leaves more than noise, a sum of terms of one systematic basis describes what is left:
 at every rate and input each quantity through a piecewise linear function with two free knots, constant outside them, so
-that it does not run away beyond what was recorded; and the same behind a first-order delay. Products of two quantities
-are laws of the library already. Coil networks have the same basis (`diagnosis.candidates.unnamed_completing`).
+that it does not run away beyond what was recorded; and the same behind a first-order delay. What depends on the course
+and not on time is the elastoplastic (stop) operator of each quantity: it follows a turn over a width, then stays.
+Products of two quantities are laws of the library already. Coil networks have the same basis but for hysteresis
+(`diagnosis.candidates.unnamed_completing`).
 
 Source: D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343 (splines with free knots); J. H. Friedman, Annals of
 Statistics 19 (1991) 1-67 (sums of such functions); K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11
-(1966) 546-550 (a function of one variable, then a linear memory).
+(1966) 546-550 (a function of one variable, then a linear memory); M. Brokate, J. Sprekels, Hysteresis and Phase
+Transitions, Springer 1996, section 2.1 (the stop operator).
 """
 
 from __future__ import annotations
@@ -21,6 +24,9 @@ _SOURCE = (
     "D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343; J. H. Friedman, Annals of Statistics 19 (1991) 1-67; "
     "K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11 (1966) 546-550"
 )
+_STOP_SOURCE = "M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer 1996, section 2.1 (stop operator)"
+#: Widths after a turn over which hysteresis is passed through, in sizes of the quantity.
+_TURNS = (0.1, 0.6)
 #: Where the first knot begins, and how far the second one is from it, in sizes of the quantity: three pieces that
 #: together span what it reaches.
 _ONSETS, _WIDTH = (-1.2, -0.2, 0.6), 0.8
@@ -74,3 +80,21 @@ def completing() -> Iterator[Law]:
             is_named=False,
             is_completing=True,
         )
+        yield _hysteresis(role, prefix, symbol, words, strength)
+
+
+def _hysteresis(role: Role, prefix: str, symbol: str, words: str, strength: Number) -> Law:
+    """The stop operator: the follower is dragged along at both ends of the width, behind half a reading."""
+    ahead, back = f"max({symbol} - follower - width, 0 * {symbol})", f"min({symbol} - follower + width, 0 * {symbol})"
+    return Law(
+        f"{prefix}_hysteresis",
+        f"hysteresis of {words}",
+        role,
+        f"a * min(max(({symbol} - follower) / width, -1), 1)",
+        (strength, Number("width", symbol, "half of the way between the two ends after a turn", _TURNS, 4.0, 0.01)),
+        _STOP_SOURCE,
+        constants={"step": ("reading", 0.5)},
+        states=(OwnState("follower", f"({ahead} + {back}) / step", symbol, symbol),),
+        is_named=False,
+        is_completing=True,
+    )

@@ -10,7 +10,8 @@ from enum import Enum
 class Role(Enum):
     """Quantity that a law is added to, with the symbols that its formula may use.
 
-    `rate` stands for the unit and the size of what the law is added to.
+    `rate` stands for the unit and the size of what the law is added to, `reading` for the time between two readings: no
+    state of a law needs to follow faster.
     """
 
     #: Derivative of a velocity v that is the derivative of a position x.

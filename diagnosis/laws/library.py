@@ -55,7 +55,22 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
-    return [*found, *_with_memory(), *_corrections()]
+    return [*found, _beside_a_state(), *_with_memory(), *_corrections()]
+
+
+def _beside_a_state() -> Law:
+    """A hidden second state that takes part in what a state does, as `second_mass` in a temperature."""
+    time = Number("settling_time", "s/rate", "time in which it follows", (0.3, 3.0), 1000.0, 0.01)
+    return Law(
+        "rate_hidden_state",
+        "hidden state beside a state",
+        Role.STATE,
+        "a * (s - inside)",
+        (Number("a", "rate/s", "strength", (-0.3, 0.3), 1000.0, None), time),
+        _FORM,
+        states=(OwnState("inside", "(s - inside) / settling_time", "s", "s"),),
+        is_named=False,
+    )
 
 
 #: An output behind a delay of one reading, and the derivative of the output that follows from it.

@@ -1,4 +1,4 @@
-"""What a sensor with a lag, a late clock, another gain, a bias, a drift or a limited range reads of a course."""
+"""What a sensor reads that has a lag, hysteresis, a late clock, another gain, a bend, a bias, a drift, or a range."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.signal import lfilter
 from scipy.special import ndtr
 
 from cosim.unit.protocol import Array
@@ -40,10 +41,15 @@ def read(
     values = series.values
     for lag in (v[0] for name, v in own if name == "sensor_lag"):
         values = lagging(values, lag, step)
-    outputs = Series(series.times[::every], values[::every], series.is_flow, series.unit)
+    values = values[::every]
+    for half, travel in (v for name, v in own if name == "sensor_hysteresis"):
+        values = values - half * turned(values, travel)
+    outputs = Series(series.times[::every], values, series.is_flow, series.unit)
     found = sample(outputs, channel.times - sum_of("sensor_clock_offset"))
     middle = MIDDLES.get(channel.unit, 0.0)
     found = np.asarray(middle + sum_of("sensor_bias") + (1.0 + sum_of("sensor_gain")) * (found - middle))
+    for bend, centre in (v for name, v in own if name == "sensor_bend"):
+        found = found + bend * (found - centre) ** 2
     if drift := sum_of("sensor_drift"):
         found = found + drift * (channel.times - channel.times[:1])
     for name, amounts in own:
@@ -85,11 +91,21 @@ def lagging(values: Array, lag: float, step: float) -> Array:
     ratio = step / lag
     kept = math.exp(-ratio)
     mean = (1.0 - kept) / ratio  # share of the last step's rise that has not come through
-    found, reads = np.empty_like(values), float(values[0])
-    before = reads
-    for i, now in enumerate(values.tolist()):
-        if i:
-            reads = kept * reads + (1.0 - kept) * before + (1.0 - mean) * (now - before)
-            before = now
-        found[i] = reads
+    found, _ = lfilter([1.0 - mean, mean - kept], [1.0, -kept], values, zi=[mean * float(values[0])])
+    return np.asarray(found)
+
+
+def turned(values: Array, travel: float) -> Array:
+    """Where a sensor is in its loop of hysteresis, -1 to 1, shape as given: the stop operator, from its middle on.
+
+    After a turn it goes from one end to the other over twice the travel (M. Brokate, J. Sprekels, Hysteresis and Phase
+    Transitions, Springer 1996, section 2.1).
+
+    >>> turned(np.array([0.0, 1.0, 5.0, 4.0, 0.0]), 2.0).tolist()
+    [0.0, 0.5, 1.0, 0.5, -1.0]
+    """
+    found, at = np.empty_like(values), 0.0
+    for i, move in enumerate(np.diff(values, prepend=values[:1]).tolist()):
+        at = min(max(at + move / travel, -1.0), 1.0)
+        found[i] = at
     return found

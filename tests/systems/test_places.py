@@ -219,3 +219,13 @@ connections: [drive.power -> boiler.power, water.temperature -> boiler.cold, air
     found = _fits(text, tmp_path)
     losses = {name: fit.placed.formula for (name, _), fit in found.items() if name.startswith("heat_loss")}
     assert losses == {"heat_loss_of_cold": "-loss * (T - cold)", "heat_loss_of_room": "-loss * (T - room)"}
+
+
+def test_any_state_may_have_a_hidden_one_beside_it_and_a_temperature_has_it_by_name(folder: Path) -> None:
+    tank = _fits(_TANK, folder)["rate_hidden_state", "der(h)"]
+    assert tank.placed.formula == "a * (h - inside)"
+    assert [(s.rate, s.start) for s in tank.placed.states] == [("(h - inside) / settling_time", "h")]
+    assert [p.unit for p in tank.term.parameters] == ["1/s", "s"]
+    lump = _fits(_LUMP, folder)
+    assert ("second_mass", "der(T)") in lump
+    assert ("rate_hidden_state", "der(T)") not in lump

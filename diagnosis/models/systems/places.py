@@ -247,7 +247,7 @@ def _fit(
     if any(v in taken for v in fresh.values()):
         return None
     names = {**{s: q.name for s, q in symbols.items()}, **fresh}
-    scale = _Scale(symbols, target, to.startswith("der("), steps[0])
+    scale = _Scale(symbols, target, to.startswith("der("), steps)
     try:
         constants = {
             fresh[n]: PhysicalValue(float(f"{share * scale.size(of):.3g}"), scale.unit(of))
@@ -318,12 +318,15 @@ def _used(placed: Placed) -> tuple[tuple[str, str], ...]:
 class _Scale:
     """Units and characteristic sizes of products of symbols."""
 
-    def __init__(self, symbols: Mapping[str, Quantity], target: Quantity, is_rate: bool, sample_step: float) -> None:
+    def __init__(
+        self, symbols: Mapping[str, Quantity], target: Quantity, is_rate: bool, steps: tuple[float, float]
+    ) -> None:
         seconds = registry().Quantity(1.0, "s")
         units = {s: registry().Quantity(1.0, parse_unit(q.unit)) for s, q in symbols.items()}
         sizes = {s: q.size for s, q in symbols.items()}
         units["rate"] = registry().Quantity(1.0, parse_unit(target.unit)) / seconds
-        sizes["rate"] = target.rate if is_rate else target.size / sample_step
+        sizes["rate"] = target.rate if is_rate else target.size / steps[0]
+        units["reading"], sizes["reading"] = seconds, max(steps)
         if "T" in symbols:
             units["T_abs"], sizes["T_abs"] = registry().Quantity(1.0, "K"), 300.0
         self._units, self._sizes = units, sizes

@@ -22,12 +22,25 @@ BIASES, WIDEST_BIAS = (0.1, -0.1), 5.0
 DRIFTS, MOST_DRIFT = (0.3, -0.3), 10.0
 #: Where the end of a sensor's range is looked for: below the largest reading, in shares of all that it reads.
 ENDS = (0.0, 0.1, 0.25)
+#: Half of the width of a loop of hysteresis with which a search begins, in typical departures of the channel; what half
+#: of the way is through it after a turn, and the largest of both.
+LOOPS, TRAVELS, MOST_LOOP = (0.1, -0.1), (0.1, 0.5), 2.0
+#: Departure from a straight line at a typical departure of the channel, in such, with which a search begins, and the
+#: largest; where a characteristic touches the straight line, in shares of what the channel reads.
+BENDS, MOST_BEND, CENTRES = (0.05, -0.05), 1.0, (0.0, 0.5, 1.0)
 _SOURCE = "JCGM 200:2012, International Vocabulary of Metrology, "
+_LOOP_SOURCE = "Brokate and Sprekels, Hysteresis and Phase Transitions, Springer 1996, section 2.1 (stop operator)"
 _BIAS_CONFUSED = {
     "a start value": "the end of a run decides",
     "input_offset": "a recording at another level of that input, or without it",
 }
 _DRIFT_CONFUSED = {"ambient drift": "a second sensor beside it decides"}
+_LOOP_CONFUSED = {
+    "sensor_lag": "slow and fast courses decide: a loop is as wide in both",
+    "input_play": "another sensor behind the same actuator decides",
+}
+_BEND_SOURCE = "Fraden, Handbook of Modern Sensors, Springer 2016, section 3.1 (nonlinearity)"
+_BEND_CONFUSED = {"a law of what it measures": "a second sensor of another kind beside it decides"}
 _RANGE_CONFUSED = {"upper_stop, lower_stop, input_saturation": "another sensor of the same quantity decides"}
 
 
@@ -68,7 +81,7 @@ def reach_of(recordings: Sequence[Recording]) -> dict[str, Reach]:
 
 
 def sensor_laws_of(channels: Mapping[str, Reach], sample_step: float, macro_step: float) -> list[UnitLaw]:
-    """Gain, lag, clock, bias, drift and range of every channel.
+    """Gain, lag, clock, bias, hysteresis, linearity, drift and range of every channel.
 
     Args:
         channels: Their names, with what they read.
@@ -88,9 +101,11 @@ def sensor_laws_of(channels: Mapping[str, Reach], sample_step: float, macro_step
 def _of_readings(channel: str, reach: Reach) -> list[UnitLaw]:
     """Laws whose numbers are of the unit that the channel reads."""
 
-    def law(identifier: str, name: str, formula: str, numbers: tuple[TermParameter, ...], section: str) -> UnitLaw:
+    def law(
+        identifier: str, name: str, formula: str, numbers: tuple[TermParameter, ...], section: str, of: str = _SOURCE
+    ) -> UnitLaw:
         term = Term(identifier, channel, "measurement", numbers, law=formula)
-        return UnitLaw(ComponentTerm(term, channel, ()), name, _SOURCE + section, _CONFUSED[identifier])
+        return UnitLaw(ComponentTerm(term, channel, ()), name, of + section, _CONFUSED[identifier])
 
     found = [
         law("sensor_bias", "bias of a sensor", "value = truth + bias", (_bias(reach),), "4.20 (instrument bias)"),
@@ -109,6 +124,10 @@ def _of_readings(channel: str, reach: Reach) -> list[UnitLaw]:
             "4.7 (measuring interval)",
         ),
     ]
+    loop = "value = truth - half_width * turned; turned follows truth with a slope of 1/travel and stays within -1 to 1"
+    found.append(law("sensor_hysteresis", "hysteresis of a sensor", loop, _loop(reach), "", _LOOP_SOURCE))
+    bent = "value = truth + bend * (truth - centre)^2"
+    found.append(law("sensor_bend", "sensor that is not linear", bent, _bend(reach), "", _BEND_SOURCE))
     if reach.duration > 0.0:
         what = "value = truth + drift * t, t from the first reading of a recording"
         found.append(law("sensor_drift", "drift of a sensor", what, (_drift(reach),), "4.21 (instrumental drift)"))
@@ -120,6 +139,8 @@ _CONFUSED: Mapping[str, Mapping[str, str]] = {
     "sensor_drift": _DRIFT_CONFUSED,
     "sensor_clipping": _RANGE_CONFUSED,
     "sensor_clipping_below": _RANGE_CONFUSED,
+    "sensor_hysteresis": _LOOP_CONFUSED,
+    "sensor_bend": _BEND_CONFUSED,
 }
 
 
@@ -134,6 +155,54 @@ def _bias(reach: Reach) -> TermParameter:
         negligible=reach.noise,
         meaning="change of every reading",
     )
+
+
+def _loop(reach: Reach) -> tuple[TermParameter, ...]:
+    """Half of the width of the loop, to either side (a reading that is behind, or ahead), and half of the way."""
+    most = MOST_LOOP * reach.size
+    half = TermParameter(
+        "half_width",
+        reach.unit,
+        -most,
+        most,
+        tuple(share * reach.size for share in LOOPS),
+        negligible=reach.noise,
+        meaning="half of the difference between readings that rise and that fall",
+    )
+    travel = TermParameter(
+        "travel",
+        reach.unit,
+        min(reach.noise, 0.01 * reach.size),
+        most,
+        tuple(share * reach.size for share in TRAVELS),
+        meaning="half of the way after a turn from one end of the loop to the other",
+    )
+    return half, travel
+
+
+def _bend(reach: Reach) -> tuple[TermParameter, ...]:
+    """Curvature of its characteristic, and the reading at which it is right with its slope."""
+    per = 1.0 / reach.size
+    bend = TermParameter(
+        "bend",
+        "1" if reach.unit in ("", "1") else f"1/({reach.unit})",
+        -MOST_BEND * per,
+        MOST_BEND * per,
+        tuple(share * per for share in BENDS),
+        negligible=reach.noise * per**2,
+        meaning="departure from a straight line per square of the distance from the centre",
+    )
+    whole = reach.most - reach.least
+    centre = TermParameter(
+        "centre",
+        reach.unit,
+        reach.least - whole,
+        reach.most + whole,
+        tuple(reach.least + share * whole for share in CENTRES),
+        meaning="reading at which it is right",
+        is_reading=True,
+    )
+    return bend, centre
 
 
 def _drift(reach: Reach) -> TermParameter:
