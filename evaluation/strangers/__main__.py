@@ -27,6 +27,7 @@ from evaluation.strangers import (
     second_set,
     seventh_set,
     sixth_set,
+    tenth_set,
     third_set,
 )
 from evaluation.strangers.first_set import Rng
@@ -42,6 +43,7 @@ SETS = {
     "seventh": seventh_set.CASES,
     "eighth": eighth_set.CASES,
     "ninth": ninth_set.CASES,
+    "tenth": tenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
