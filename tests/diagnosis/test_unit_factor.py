@@ -54,6 +54,10 @@ def test_factors_are_those_of_the_units() -> None:
     assert FACTORS["1 pound-force is 4.448 N"] == pytest.approx(0.45359237 * 9.80665)
     assert FACTORS["1 psi is 6.895 kPa"] == pytest.approx(0.45359237 * 9.80665 / 0.0254**2 / 1000)
     assert FACTORS["1 rad/s is 9.549 rpm"] == pytest.approx(30 / math.pi)
+    assert FACTORS["1 kPa is 7.501 mmHg"] == pytest.approx(760 / 101.325, rel=1e-6)  # an atmosphere is 760 mm
+    assert FACTORS["1 inHg is 3.386 kPa"] == pytest.approx(25.4 * 101.325 / 760, rel=1e-6)
+    assert FACTORS["1 inch of water is 249.1 Pa"] == pytest.approx(0.0254 * 1000.0 * 9.80665, rel=1e-4)
+    assert FACTORS["1 oz is 28.35 g"] == pytest.approx(453.59237 / 16)
     assert FACTORS["1 hp is 745.7 W"] == pytest.approx(550 * 0.3048 * 0.45359237 * 9.80665)
     for told, factor in FACTORS.items():  # the last number in the words is that factor
         number = [float(w) for w in told.split() if w.replace(".", "").isdigit()][-1]
