@@ -229,3 +229,20 @@ def test_any_state_may_have_a_hidden_one_beside_it_and_a_temperature_has_it_by_n
     lump = _fits(_LUMP, folder)
     assert ("second_mass", "der(T)") in lump
     assert ("rate_hidden_state", "der(T)") not in lump
+
+
+def test_a_speed_without_an_angle_has_no_law_whose_size_is_a_way(tmp_path: Path) -> None:
+    """A flywheel states how fast it turns and not how far: friction that gives way over an angle has no size there."""
+    model = OdeModel("flywheel", {"J": (0.1, "kg*m^2")}, {"torque": "N*m"}, {"w": ("rad/s", "0", "torque/J")}, {})
+    model.build(tmp_path)
+    text = """
+title: A flywheel
+time: {stop: 2 s, macro_step: 10 ms, output_step: 10 ms}
+components:
+  drive: {kind: programme, outputs: {torque: {unit: N*m, points: [[0 s, 1 N*m], [1 s, -1 N*m]]}}}
+  flywheel: {kind: fmu, fmu: flywheel.fmu, integrator: cvode}
+connections: [drive.torque -> flywheel.torque]
+"""
+    found = {name for name, to in _fits(text, tmp_path) if to == "der(w)"}
+    assert {"dry_friction", "viscous_damping", "rate_hysteresis"} <= found
+    assert not {"presliding_friction", "maxwell_element", "stiffness"} & found

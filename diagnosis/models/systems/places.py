@@ -239,7 +239,9 @@ def _fit(
     numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
     numbers |= {d.name for d in law.delays}
     formulas = (law.formula, *(s.rate for s in law.states), *((law.reaction,) if law.reaction else ()))
+    products = (*(n.of for n in law.numbers), *(of for of, _ in law.constants.values()), *(s.of for s in law.states))
     needed = {n for f in formulas for n in names_in(f)} - numbers
+    needed |= {n for of in products for n in names_in(of)} - _SCALES
     if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
     taken = {*own.states, *own.inputs, *own.outputs, "time"}
@@ -313,6 +315,10 @@ def _used(placed: Placed) -> tuple[tuple[str, str], ...]:
     """Numbers that the formula of a law without states of its own uses."""
     used = names_in(placed.formula)
     return tuple((name, unit) for name, unit in placed.numbers if name in used)
+
+
+#: Symbols of products that every place has.
+_SCALES = {"rate", "reading", "T_abs"}
 
 
 class _Scale:
