@@ -131,6 +131,7 @@ class Law:
         reaction: What is added to the derivative of `reacts_on` with it, in the same symbols: what one part loses the
             other one gets, as a share that inertias or capacities decide.
         reacts_on: Symbol of the other part.
+        is_series: Whether it is a term of a power series: of a quantity far from 0 the series is about a typical value.
         is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """
 
@@ -147,4 +148,5 @@ class Law:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     reaction: str = ""
     reacts_on: str = ""
+    is_series: bool = False
     is_completing: bool = False

@@ -43,12 +43,15 @@ def _generic() -> list[Law]:
     found = [_law("constant", "constant rate", Role.STATE, "a", "rate")]
     for name, (formula, power) in _FORMS.items():
         own = formula.replace("o", "s"), power.replace("o", "s")
-        found.append(_law(f"rate_{name}", "law of its own state", Role.STATE, f"a * {own[0]}", f"rate/({own[1]})"))
-        found.append(
-            _law(f"coupling_{name}", "law of another quantity", Role.PAIR, f"a * {formula}", f"rate/({power})")
-        )
-        found.append(_law(f"port_{name}", "law of an output at an input", Role.PORT, f"a * {formula}", f"u/({power})"))
-    found.append(_law("rate_of_product", "law of a product", Role.PAIR, "a * s * o", "rate/s/o"))
+        forms = [
+            _law(f"rate_{name}", "law of its own state", Role.STATE, f"a * {own[0]}", f"rate/({own[1]})"),
+            _law(f"coupling_{name}", "law of another quantity", Role.PAIR, f"a * {formula}", f"rate/({power})"),
+            _law(f"port_{name}", "law of an output at an input", Role.PORT, f"a * {formula}", f"u/({power})"),
+        ]
+        # A slope stays one about 0: where a law with a name is the same, only that one is tried.
+        found += [replace(law, is_series=name != "linear") for law in forms]
+    product = _law("rate_of_product", "law of a product", Role.PAIR, "a * s * o", "rate/s/o")
+    found.append(replace(product, is_series=True))
     sign = {"rounding": ("s", 0.01)}
     found.append(
         _law("rate_of_sign", "law of the sign of its own state", Role.STATE, "a * tanh(s / rounding)", "rate", sign)
@@ -136,9 +139,13 @@ def _corrections() -> list[Law]:
     """Laws at an output: static ones, and correction states, which follow an input or output behind a delay."""
     found = [
         _law("output_offset", "offset of an output", Role.OUTPUT, "a", "y"),
-        _law("output_squared", "distortion of an output with its square", Role.OUTPUT, "a * y ** 2", "1/y"),
-        _law("output_cubed", "distortion of an output with its cube", Role.OUTPUT, "a * y ** 3", "1/y**2"),
     ]
+    for name, word, exponent in (("squared", "square", 2), ("cubed", "cube", 3)):
+        of = f"1/y**{exponent - 1}"
+        law = _law(
+            f"output_{name}", f"distortion of an output with its {word}", Role.OUTPUT, f"a * y ** {exponent}", of
+        )
+        found.append(replace(law, is_series=True))
     for name, (formula, power) in {"linear": ("o", "o"), "squared": ("o ** 2", "o**2")}.items():
         strength = Number("a", f"y/({power})", "strength", (0.05, -0.05), 1000.0, None)
         state = OwnState("correction", f"(a * {formula} - correction) / settling_time", f"a * {formula}", "y")
@@ -152,6 +159,7 @@ def _corrections() -> list[Law]:
                 _FORM,
                 states=(state,),
                 is_named=False,
+                is_series=name == "squared",
             )
         )
     return found

@@ -246,3 +246,42 @@ connections: [drive.torque -> flywheel.torque]
     found = {name for name, to in _fits(text, tmp_path) if to == "der(w)"}
     assert {"dry_friction", "viscous_damping", "rate_hysteresis"} <= found
     assert not {"presliding_friction", "maxwell_element", "stiffness"} & found
+
+
+_WARM = """
+title: A warm lump
+time: {stop: 600 s, macro_step: 2 s, output_step: 2 s}
+components:
+  drive: {kind: programme, outputs: {power: {unit: W, points: [[0 s, 20 W], [300 s, 0 W]]}}}
+  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
+  warm: {kind: fmu, fmu: warm.fmu, integrator: cvode}
+connections: [drive.power -> warm.power, room.temperature -> warm.room]
+"""
+
+
+@pytest.mark.parametrize(("unit", "start"), [("K", 300.0), ("degC", 26.85), ("degF", 80.33)])
+def test_powers_of_an_absolute_temperature_are_about_where_it_is(tmp_path: Path, unit: str, start: float) -> None:
+    """The square of 300 K that move by 10 K is a constant and a slope: it is counted from 300 K, in any unit."""
+    model = OdeModel(
+        "warm",
+        {"C": (50.0, "J/K"), "loss": (0.4, "W/K"), "T_0": (start, unit)},
+        {"power": "W", "room": unit},
+        {"T": (unit, "T_0", "(power - loss * (T - room)) / C")},
+        {"temperature": (unit, "T")},
+    )
+    model.build(tmp_path)
+    found = _fits(_WARM, tmp_path)
+    square = found["rate_squared", "der(T)"].placed
+    assert square.formula == "a * (T - s_0) ** 2"
+    assert square.constants["s_0"].number == pytest.approx(300.0, abs=0.05)
+    assert square.constants["s_0"].unit == "K"
+    assert found["rate_squared", "der(T)"].term.parameters[0].unit == "1/K/s"
+    onset = found["rate_spline", "der(T)"].term.parameters[1]
+    assert 250.0 < onset.starts[0] < 300.0 < onset.starts[-1] < 380.0
+
+
+def test_powers_of_what_moves_about_zero_are_about_zero(folder: Path) -> None:
+    found = _fits(OSCILLATOR_SCENARIO.replace("INTEGRATOR", "cvode"), folder)
+    assert found["quadratic_drag", "der(v)"].placed.formula == "-drag * abs(v) * v"
+    assert found["rate_squared", "der(v)"].placed.formula == "a * v ** 2"
+    assert not found["rate_squared", "der(v)"].placed.constants

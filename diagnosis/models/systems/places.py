@@ -12,7 +12,7 @@ import numpy as np
 
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
 from diagnosis.laws.law import Law, Number
 from diagnosis.models.systems.derivative_outputs import derivatives_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
@@ -28,6 +28,9 @@ from diagnosis.search.problem import Term, TermParameter
 PROBES = 5
 #: Seed of these points.
 SEED = 20
+#: A quantity that is farther from 0 than so many times what it moves has its power series from where it is: a curvature
+#: comes with a slope of twice, and a constant of the square, of that else.
+FAR = 5.0
 
 
 @dataclass(frozen=True)
@@ -124,7 +127,9 @@ def _quantities(
     keys: Sequence[tuple[str, str]],
     courses: Sequence[Mapping[tuple[str, str], Array]],
     step: float,
+    is_difference: bool = False,
 ) -> dict[str, Quantity]:
+    """In the unit of each variable; a temperature, and what two of them are apart by, in kelvin."""
     found = {}
     for name, key in zip(names, keys):
         if name not in fmu.units or not _is_nameable(name):
@@ -139,14 +144,9 @@ def _quantities(
         size = size or max(abs(middle), 1.0)
         unit = fmu.units[name]
         if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
-            unit, size = (
-                "K",
-                size
-                * float(
-                    registry().Quantity(1.0, parse_unit(unit)).to_base_units().magnitude
-                    - registry().Quantity(0.0, parse_unit(unit)).to_base_units().magnitude
-                ),
-            )
+            factor, offset = conversion(unit, "K")
+            unit, size, rate = "K", factor * size, factor * rate
+            middle = factor * middle + (0.0 if is_difference else offset)
         found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9))
     return found
 
@@ -161,7 +161,7 @@ def _apart(
             continue
         keys = [(own.component, f"state {n}") for n in (one, other)]
         gaps = [{keys[0]: c[keys[0]] - c[keys[1]]} for c in courses]
-        gap = _quantities(fmu, (one,), (keys[0],), gaps, step)[one]
+        gap = _quantities(fmu, (one,), (keys[0],), gaps, step, is_difference=True)[one]
         found[one, other] = replace(gap, name=f"({one} - {other})")
         found[other, one] = replace(gap, name=f"({other} - {one})", middle=-gap.middle)
     return found
@@ -249,12 +249,14 @@ def _fit(
     if any(v in taken for v in fresh.values()):
         return None
     names = {**{s: q.name for s, q in symbols.items()}, **fresh}
+    references = _references(law, symbols, taken) if law.is_series else {}
+    names |= {s: f"({names[s]} - {reference})" for s, (reference, _) in references.items()}
     scale = _Scale(symbols, target, to.startswith("der("), steps)
     try:
         constants = {
             fresh[n]: PhysicalValue(float(f"{share * scale.size(of):.3g}"), scale.unit(of))
             for n, (of, share) in law.constants.items()
-        }
+        } | dict(references.values())
         placed = Placed(
             own.component,
             to,
@@ -292,6 +294,23 @@ def _fit(
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)
+
+
+def _references(
+    law: Law, symbols: Mapping[str, Quantity], taken: Collection[str]
+) -> dict[str, tuple[str, PhysicalValue]]:
+    """Symbols of a power series that is counted from where the quantity is, with a constant's name and value each.
+
+    The square of an absolute temperature that moves by a hundredth of itself is a large constant and a slope, which
+    nothing in the model takes back: a simulation with it runs away before its curvature is seen.
+    """
+    found = {}
+    for symbol in sorted(names_in(law.formula) | {n for s in law.states for n in names_in(s.rate)}):
+        q = symbols.get(symbol)
+        name = f"{symbol}_0"
+        if q is not None and abs(q.middle) > FAR * q.size and name not in taken:
+            found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
+    return found
 
 
 def _reaction(
