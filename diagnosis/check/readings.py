@@ -119,6 +119,10 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
         f"{compared.units.text(seen, channel.unit)}, {max(ratio, 1 / ratio):.3g} times {way}"
     )
     remedy = f"correct `channels.{channel.name}.noise`, or leave it out: then it is estimated"
+    if is_small:
+        remedy = (
+            f"does the noise of neighbouring readings correlate, as behind a filter? Then it is right; else {remedy}"
+        )
     return [
         Doubt(
             compared.recording.title,

@@ -58,6 +58,7 @@ def adequacy(
             worst.limit,
             worst.scatter,
             worst.is_noise_stated,
+            correlation=worst.correlation,
         ),
         rejected=(sum(c.is_rejected for c in now.channels), len(now.channels)),
         day=day,

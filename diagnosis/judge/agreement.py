@@ -2,7 +2,8 @@
 
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
 Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
-Degrees of freedom of a sum of squares that are not independent: F. E. Satterthwaite, Biometrics 2 (1946) 110-114.
+Degrees of freedom of a sum of squares that are not independent: F. E. Satterthwaite, Biometrics 2 (1946) 110-114; of
+an autoregressive process of first order: M. S. Bartlett, J. Royal Statistical Society 98 (1935) 536-543.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ QUANTILE = 3.09
 WHITE = 2.33
 #: Deviations by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
 ALONE = 5.0
+#: Largest correlation of the noise of neighbouring readings: what lasts for more than some ten of them is no noise.
+MOST_ALIKE = 0.9
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
 
@@ -51,6 +54,7 @@ class ChannelAgreement:
         tested: Chi-square per reading that is compared with the limit, where that is another: with what the error of
             fitted numbers explains, and its price, see `diagnosis.judge.parameter_error`.
         is_noise_stated: Whether the recording states the noise; else it was estimated from neighbouring readings.
+        correlation: Of the noise of neighbouring readings, where these differ by less than is stated; else 0.
     """
 
     channel: str
@@ -65,6 +69,7 @@ class ChannelAgreement:
     lasting: float | None = None
     tested: float | None = None
     is_noise_stated: bool = True
+    correlation: float = 0.0
 
     @property
     def statistic(self) -> float:
@@ -174,22 +179,40 @@ def _lasting(own: Array, scatter: float) -> float:
     return float(np.sqrt(np.mean(own[~is_alone] ** 2)))
 
 
-def _independent(recordings: Sequence[Sequence[tuple[int, float]]]) -> float:
-    """How many independent squares have the mean of all, and its variance.
+def _correlation(scatter: float, count: int, share: float) -> float:
+    """Correlation of the noise of neighbouring readings, 0 to 1, where they differ by less than the stated noise says.
 
-    White noise is independent. What contacts scatter by is remembered for `MEMORY` of a recording, and moves all of
-    its channels: that they do so together is the worst case.
+    A filter in a sensor does that. Of an autoregressive noise of first order neighbours differ by 2 (1 - correlation)
+    of its variance. By chance white noise does so too: half of the mean square of n differences scatters by sqrt(3/n).
 
     Args:
-        recordings: Of each, samples and the share of their variance that is such scatter, by channel.
+        scatter: Of neighbouring residuals, in deviations of the noise.
+        count: Residuals.
+        share: Share of the variance of the noise that is remembered for long, as contacts are.
+    """
+    ratio = scatter**2 / max(1.0 - share, 1e-9)
+    return 0.0 if ratio >= 1.0 - WHITE * math.sqrt(3.0 / max(count, 1)) else min(1.0 - ratio, MOST_ALIKE)
+
+
+def _independent(recordings: Sequence[Sequence[tuple[int, float, float]]]) -> float:
+    """How many independent squares have the mean of all, and its variance.
+
+    White noise is independent; of noise with a correlation c from one reading to the next, n squares count as
+    n (1 - c^2)/(1 + c^2). What contacts scatter by is remembered for `MEMORY` of a recording, and moves all of its
+    channels: that they do so together is the worst case.
+
+    Args:
+        recordings: Of each, samples, the share of their variance that is such scatter, and the correlation of
+            neighbouring readings of the rest, by channel.
     """
     rate = 2.0 / MEMORY
     # mean of exp(-2 |s - t| / memory) over all pairs of instants of a recording
     remembered = 2.0 / rate - 2.0 / rate**2 * (1.0 - math.exp(-rate))
-    samples = sum(count for own in recordings for count, _ in own)
-    white = sum(count * (1.0 - share**2) for own in recordings for count, share in own)
-    shared = sum(sum(count * share for count, share in own) ** 2 for own in recordings)
-    squared = sum(count * share**2 for own in recordings for count, share in own)  # each with itself
+    samples = sum(count for own in recordings for count, _, _ in own)
+    alike = [(count, share, (1.0 + c**2) / (1.0 - c**2)) for own in recordings for count, share, c in own]
+    white = sum(min(count * factor, count**2) * (1.0 - share**2) for count, share, factor in alike)
+    shared = sum(sum(count * share for count, share, _ in own) ** 2 for own in recordings)
+    squared = sum(count * share**2 for own in recordings for count, share, _ in own)  # each with itself
     return samples**2 / (white + max(remembered * shared, squared))
 
 
@@ -208,7 +231,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
     counted = ~wild
     numbers = [n for n in range(len(readings.channels)) if np.any(counted & (readings.channel == n))]
     found, squares, error = [], 0.0, 0.0
-    shares: dict[int, float] = {}
+    shares: dict[int, tuple[float, float]] = {}
     for n in numbers:
         channel, own = readings.channels[n], residuals[counted & (readings.channel == n)]
         count = len(own)
@@ -216,8 +239,9 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         total = float(own @ own - unknown / (1.0 + count * unknown) * own.sum() ** 2)
         own_error = 0.0 if channel.is_deviation_given else NOISE_ERROR / np.sqrt(count)
         noise, scatter = deviation(channel), _scatter(own)
-        shares[n] = (channel.scatter / noise) ** 2 if noise > 0.0 else 0.0
-        free = _independent([[(count, shares[n])]])
+        share = (channel.scatter / noise) ** 2 if noise > 0.0 else 0.0
+        shares[n] = share, _correlation(scatter, count, share) if channel.is_deviation_given else 0.0
+        free = _independent([[(count, *shares[n])]])
         limit = float(chdtri(free, LEVEL / len(numbers))) / free * (1.0 + 2.0 * QUANTILE * own_error)
         found.append(
             ChannelAgreement(
@@ -233,6 +257,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
                 noise * _lasting(own, scatter),
                 None if tested is None else float(tested.channels[n]) / count,
                 channel.is_deviation_given,
+                shares[n][1],
             )
         )
         squares += total
@@ -240,7 +265,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
     samples = sum(c.samples for c in found)
     if not samples:
         return Agreement(0.0, 1.0, 0, int(wild.sum()), ())
-    own_shares = [(readings.of_channel[n], (c.samples, shares[n])) for n, c in zip(numbers, found)]
+    own_shares = [(readings.of_channel[n], (c.samples, *shares[n])) for n, c in zip(numbers, found)]
     recordings = [[own for of, own in own_shares if of == r] for r in dict.fromkeys(of for of, _ in own_shares)]
     free = _independent(recordings)
     limit = float(chdtri(free, LEVEL)) / free + 2.0 * QUANTILE * float(np.sqrt(error)) / samples

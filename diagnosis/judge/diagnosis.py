@@ -348,6 +348,7 @@ class Left:
         is_noise_stated: Whether the recording states this noise; else it was estimated from neighbouring readings.
         by_rows: Root mean square change of it where inputs of its recording changed anywhere within the row before
             their own; 0 where that was not asked [unit].
+        correlation: Of the noise of neighbouring readings, where these differ by less than is stated; else 0.
     """
 
     recording: str
@@ -360,6 +361,7 @@ class Left:
     scatter: float = 0.0
     is_noise_stated: bool = True
     by_rows: float = 0.0
+    correlation: float = 0.0
 
 
 @dataclass(frozen=True)

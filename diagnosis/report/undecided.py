@@ -69,10 +69,10 @@ def remainder(left: Remainder, units: Units = IN_SI) -> str:
 
 #: What the residuals were divided by.
 _NOISE = {
-    "stated": "noise as stated",
-    "estimated": "noise as estimated from neighbouring readings",
-    "both": "noise as stated or, where it is not, as estimated from neighbouring readings",
-    "": "noise",
+    "stated": "white noise as stated",
+    "estimated": "white noise as estimated from neighbouring readings",
+    "both": "white noise as stated or, where it is not, as estimated from neighbouring readings",
+    "": "white noise",
 }
 
 

@@ -106,7 +106,7 @@ def test_a_channel_that_rises_by_no_more_than_chance_is_told_too():
 
 
 def test_noise_is_rejected_in_one_of_a_thousand_and_the_limit_is_that_of_chi_square():
-    limit = agreement(np.zeros(COUNT), readings()).limit
+    limit = agreement(np.random.default_rng(0).standard_normal(COUNT), readings()).limit
     assert 1.0 - chdtr(COUNT, COUNT * limit) == pytest.approx(LEVEL, rel=1e-6)
     rejected = sum(
         agreement(np.random.default_rng(seed).standard_normal(3 * COUNT), readings(3)).is_rejected
@@ -124,7 +124,8 @@ def test_a_model_that_is_wrong_by_half_the_noise_is_rejected():
 
 
 def test_a_noise_that_was_estimated_has_an_error_of_its_own():
-    given, estimated = (agreement(np.zeros(COUNT), readings(1, g)).limit for g in (True, False))
+    white = np.random.default_rng(0).standard_normal(COUNT)
+    given, estimated = (agreement(white, readings(1, g)).limit for g in (True, False))
     assert estimated > given + 0.3  # 2 * 3.09 * 1.2 / sqrt(400)
 
 
