@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.signal import lfilter
@@ -34,7 +34,13 @@ def read(
         every: Values from one that is an output to the next.
     """
     own = [(t.identifier, v) for t, v in terms.items() if t.place == channel.name and t.unit == "measurement"]
+    with np.errstate(over="ignore", invalid="ignore"):  # a simulation that runs away is infinite, and no finding
+        return _reading(channel, own, series, step, every)
 
+
+def _reading(
+    channel: Channel, own: Sequence[tuple[str, tuple[float, ...]]], series: Series, step: float, every: int
+) -> Array:
     def sum_of(identifier: str) -> float:
         return sum(v[0] for name, v in own if name == identifier)
 

@@ -214,7 +214,7 @@ def test_the_summary_says_what_would_decide_and_what_is_left() -> None:
     assert isinstance(stream, io.StringIO)
     assert "next     Staircase for 60 s would decide. Scenario: out/next_experiment/scenario.yaml" in stream.getvalue()
     assert (
-        "left in  coil[4,4].temperature, 30.0 to 42.0 s: standardised sum of residuals at least 7.70; white noise"
+        "left in  coil[4,4].temperature, 30.0 to 42.0 s: standardised sum of residuals at least 7.70; white"
         in stream.getvalue()
     )
 

@@ -64,3 +64,15 @@ def test_its_unit_is_one_over_that_of_the_reading(unit: str, expected: str) -> N
     assert bend.lower == -bend.upper
     assert centre.lower < -4.0
     assert centre.upper > 6.0
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_course_that_runs_away_is_read_without_a_warning(tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    channel = load_recording(oscillator_recordings(tmp_path, lambda x, v: 0.0)[0]).channels["rig.position"]
+    times = np.linspace(float(channel.times[0]), float(channel.times[-1]), 5)
+    course = Series(times, np.array([0.0, 1e200, np.inf, -np.inf, np.nan]), False, "m")
+    every = sensor_laws_of({"rig.position": Reach("m", 2.0, -4.0, 6.0, 0.01, 10.0)}, 0.1, 0.1)
+    laws = {t: tuple(p.starts[0] for p in t.parameters) for t in (law.place.term for law in every)}
+    assert {"sensor_bend", "sensor_clipping", "sensor_hysteresis"} <= {t.identifier for t in laws}
+    assert not np.isfinite(read(channel, laws, course, float(times[1] - times[0]))).all()
