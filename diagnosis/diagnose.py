@@ -32,7 +32,7 @@ from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import findings, is_small, recalibration, verdict, why_open
+from diagnosis.judge.judge import findings, is_settled, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.opposing import opposed
 from diagnosis.judge.recordings import used
@@ -166,8 +166,7 @@ def diagnose(
         outcome, model, judge = _searched(given, moved[1], settings, on_progress)
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
-    is_open = accepted.agreement.is_rejected and not is_small(accepted)
-    if judge is not None and is_open and given.can_be_searched_again:
+    if judge is not None and not is_settled(accepted) and given.can_be_searched_again:
         ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
         for other, own in ways:
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)

@@ -230,6 +230,19 @@ def is_small(accepted: Accepted) -> bool:
     return left.chi_square < BURIED or left.excess < MOST_LEFT * recalibrated.excess
 
 
+def is_settled(accepted: Accepted) -> bool:
+    """Whether no other way to describe the training is asked for.
+
+    That is where unfitted readings do not reject the model, or where little is left (`is_small`) and the laws are of
+    the rig. A law of a sensor or an input that acts in every recording describes much of what a rig does too: while
+    readings reject the model with it, it is no answer, however little is left.
+    """
+    if not accepted.agreement.is_rejected:
+        return True
+    is_stopgap = any(t.unit in MEASURED and t.recording is None for t in accepted.explanation.terms)
+    return is_small(accepted) and not is_stopgap
+
+
 def bears_names(accepted: Accepted) -> bool:
     """Whether a law may be called by its name though something is left of unfitted readings.
 
