@@ -35,6 +35,11 @@ class Role(Enum):
     COUPLED_TEMPERATURE = "rate of a temperature beside another one"
     #: Derivative of a level, a volume or a pressure h beside another one h_2; d is what they are apart by.
     COUPLED_LEVEL = "rate of a level beside another one"
+    #: Derivative of a state s that another one r of its unit acts on, over a third quantity o; d is what s and r are
+    #: apart by.
+    MODULATED = "rate of a state over its difference to another one and a third quantity"
+    #: Derivative of a state s over its difference to an input r of its unit, and a third quantity o.
+    MODULATED_BY_INPUT = "rate of a state over its difference to an input and a third quantity"
     #: An input u.
     INPUT = "input"
     #: An input u of an FMU that hides its states, over an output o.
@@ -131,7 +136,7 @@ class Law:
         reaction: What is added to the derivative of `reacts_on` with it, in the same symbols: what one part loses the
             other one gets, as a share that inertias or capacities decide.
         reacts_on: Symbol of the other part.
-        is_series: Whether it is a term of a power series: of a quantity far from 0 the series is about a typical value.
+        series_of: Symbols of quantities of which it is a power series: of one far from 0 it is about a typical value.
         is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """
 
@@ -148,5 +153,5 @@ class Law:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     reaction: str = ""
     reacts_on: str = ""
-    is_series: bool = False
+    series_of: tuple[str, ...] = ()
     is_completing: bool = False

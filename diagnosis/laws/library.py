@@ -49,9 +49,9 @@ def _generic() -> list[Law]:
             _law(f"port_{name}", "law of an output at an input", Role.PORT, f"a * {formula}", f"u/({power})"),
         ]
         # A slope stays one about 0: where a law with a name is the same, only that one is tried.
-        found += [replace(law, is_series=name != "linear") for law in forms]
+        found += [replace(law, series_of=() if name == "linear" else (of,)) for law, of in zip(forms, ("s", "o", "o"))]
     product = _law("rate_of_product", "law of a product", Role.PAIR, "a * s * o", "rate/s/o")
-    found.append(replace(product, is_series=True))
+    found += [replace(product, series_of=("s", "o")), *_modulated()]
     sign = {"rounding": ("s", 0.01)}
     found.append(
         _law("rate_of_sign", "law of the sign of its own state", Role.STATE, "a * tanh(s / rounding)", "rate", sign)
@@ -59,6 +59,17 @@ def _generic() -> list[Law]:
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
     return [*found, _beside_a_state(), *_with_memory(), *_corrections()]
+
+
+def _modulated() -> list[Law]:
+    """An exchange that is there, and that a third quantity drives: heat that a flow carries, a valve, a clutch."""
+    words = "exchange that grows or falls with a third quantity"
+    ratio = Number("ratio", "d/d", "what the other part gets, as a multiple", (0.3, 1.0, 3.0), 1e3, 1e-3)
+    inside = _law("modulated_exchange", words, Role.MODULATED, "-a * d * o", "rate/d/o")
+    outside = _law("modulated_loss", words, Role.MODULATED_BY_INPUT, "-a * (s - r) * o", "rate/s/o")
+    numbers = (*inside.numbers, ratio)
+    inside = replace(inside, numbers=numbers, reaction="ratio * a * d * o", reacts_on="r")
+    return [replace(law, series_of=("o",)) for law in (inside, outside)]
 
 
 def _beside_a_state() -> Law:
@@ -145,7 +156,7 @@ def _corrections() -> list[Law]:
         law = _law(
             f"output_{name}", f"distortion of an output with its {word}", Role.OUTPUT, f"a * y ** {exponent}", of
         )
-        found.append(replace(law, is_series=True))
+        found.append(replace(law, series_of=("y",)))
     for name, (formula, power) in {"linear": ("o", "o"), "squared": ("o ** 2", "o**2")}.items():
         strength = Number("a", f"y/({power})", "strength", (0.05, -0.05), 1000.0, None)
         state = OwnState("correction", f"(a * {formula} - correction) / settling_time", f"a * {formula}", "y")
@@ -159,7 +170,7 @@ def _corrections() -> list[Law]:
                 _FORM,
                 states=(state,),
                 is_named=False,
-                is_series=name == "squared",
+                series_of=("o",) if name == "squared" else (),
             )
         )
     return found

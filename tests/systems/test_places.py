@@ -285,3 +285,36 @@ def test_powers_of_what_moves_about_zero_are_about_zero(folder: Path) -> None:
     assert found["quadratic_drag", "der(v)"].placed.formula == "-drag * abs(v) * v"
     assert found["rate_squared", "der(v)"].placed.formula == "a * v ** 2"
     assert not found["rate_squared", "der(v)"].placed.constants
+
+
+def test_an_exchange_may_be_driven_by_a_third_quantity_where_there_is_one(tmp_path: Path) -> None:
+    """Water in a hose warms a wall: heat goes with the flow. Two walls that do not touch exchange nothing."""
+    model = OdeModel(
+        "hose",
+        {"UA": (0.2, "1/s")},
+        {"flow": "kg/s", "inlet": "K"},
+        {
+            "T_water": ("K", "300", "flow*(inlet - T_water)/(1.0) - UA*(T_water - T_wall)"),
+            "T_wall": ("K", "300", "UA*(T_water - T_wall)"),
+            "T_far": ("K", "300", "0.01*(300.0 - T_far)"),
+        },
+        {"temperature": ("K", "T_wall")},
+    )
+    model.build(tmp_path)
+    text = """
+title: A hose
+time: {stop: 600 s, macro_step: 1 s, output_step: 1 s}
+components:
+  pump: {kind: programme, outputs: {flow: {unit: kg/s, points: [[0 s, 0.1 kg/s], [300 s, 0.3 kg/s]]}}}
+  tap: {kind: programme, outputs: {temperature: {unit: K, points: [[0 s, 320 K], [200 s, 305 K]]}}}
+  hose: {kind: fmu, fmu: hose.fmu, integrator: cvode}
+connections: [pump.flow -> hose.flow, tap.temperature -> hose.inlet]
+"""
+    found = _fits(text, tmp_path)
+    law = found["modulated_exchange_of_T_wall_of_flow", "der(T_water)"]
+    assert law.placed.formula == "-a * (T_water - T_wall) * flow"
+    assert law.reaction is not None
+    assert (law.reaction.to, law.reaction.formula) == ("der(T_wall)", "ratio * a * (T_water - T_wall) * flow")
+    assert law.term.parameters[0].unit in ("1/kg", "1.0/kg")
+    assert found["modulated_loss_of_inlet_of_flow", "der(T_wall)"].placed.formula == "-a * (T_wall - inlet) * flow"
+    assert not [n for n, _ in found if n.startswith("modulated_exchange") and "T_far" in n.split("_of_")[1]]

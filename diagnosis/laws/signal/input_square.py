@@ -10,5 +10,5 @@ LAW = Law(
     numbers=(Number("bend", "1/u", "change of the factor per size of the input", (0.05, -0.05), 3.0, None),),
     source="Taylor series of a characteristic",
     is_named=False,
-    is_series=True,
+    series_of=("u",),
 )

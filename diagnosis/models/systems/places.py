@@ -98,6 +98,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.derivatives_read = derivatives_read(systems[0], fmu, own)
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
         own.apart = _apart(fmu, own, courses, step)
+        own.acted_on_by = _acting(systems[0], fmu, own)
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -142,12 +143,13 @@ def _quantities(
         slopes = [np.gradient(v, step) for v in values if len(v) > 1]
         rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
         size = size or max(abs(middle), 1.0)
-        unit = fmu.units[name]
+        unit, stated = fmu.units[name], None
         if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
+            stated = middle, size
             factor, offset = conversion(unit, "K")
             unit, size, rate = "K", factor * size, factor * rate
             middle = factor * middle + (0.0 if is_difference else offset)
-        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9))
+        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9), stated)
     return found
 
 
@@ -184,8 +186,7 @@ def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str
         return {}, {}
     rng = np.random.default_rng(SEED)
     names = list(fmu.states)
-    middle = np.array([own.states[n].middle for n in names])
-    size = np.array([own.states[n].size for n in names])
+    middle, size = np.array([own.states[n].in_fmu for n in names]).T
     points = middle + size * rng.standard_normal((PROBES, len(names)))
     rates = np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
     velocities: dict[str, str] = {}
@@ -199,6 +200,24 @@ def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str
             if _are_equal(rates[:, i], points[:, j] - points[:, k], points[:, [j, k]]):
                 twists[position] = names[j], names[k]
     return velocities, twists
+
+
+def _acting(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, frozenset[str]]:
+    """State to the other states that its derivative depends on, at any of some random points."""
+    if not fmu.states or set(fmu.states) != set(own.states):
+        return {}
+    rng = np.random.default_rng(SEED)
+    names = list(fmu.states)
+    middle, size = np.array([own.states[n].in_fmu for n in names]).T
+    found: dict[str, set[str]] = {n: set() for n in names}
+    for _ in range(PROBES):
+        point = middle + size * rng.standard_normal(len(names))
+        rates = system.rates(own.component, system.start / 1e9, point)
+        for j, name in enumerate(names):
+            moved = system.rates(own.component, system.start / 1e9, point + size * (np.arange(len(names)) == j))
+            for i in np.flatnonzero(np.abs(moved - rates) > 1e-9 * (np.abs(moved) + np.abs(rates))):
+                found[names[int(i)]].add(name)
+    return {n: frozenset(others - {n}) for n, others in found.items()}
 
 
 def _are_equal(rates: Array, values: Array, parts: Array) -> bool:
@@ -249,7 +268,7 @@ def _fit(
     if any(v in taken for v in fresh.values()):
         return None
     names = {**{s: q.name for s, q in symbols.items()}, **fresh}
-    references = _references(law, symbols, taken) if law.is_series else {}
+    references = _references(law, symbols, taken)
     names |= {s: f"({names[s]} - {reference})" for s, (reference, _) in references.items()}
     scale = _Scale(symbols, target, to.startswith("der("), steps)
     try:
@@ -286,11 +305,11 @@ def _fit(
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
     beside = ""
-    if law.reacts_on:
-        beside = symbols[law.reacts_on].name
+    if law.reacts_on or "r" in symbols:
+        beside = symbols[law.reacts_on or "r"].name
     elif "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
         beside = symbols["T_a"].name  # which of them are the surroundings
-    others = [beside] if beside else [q.name for symbol, q in symbols.items() if symbol == "o"]
+    others = [n for n in (beside, symbols["o"].name if "o" in symbols else "") if n]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)
@@ -305,10 +324,9 @@ def _references(
     nothing in the model takes back: a simulation with it runs away before its curvature is seen.
     """
     found = {}
-    for symbol in sorted(names_in(law.formula) | {n for s in law.states for n in names_in(s.rate)}):
-        q = symbols.get(symbol)
-        name = f"{symbol}_0"
-        if q is not None and abs(q.middle) > FAR * q.size and name not in taken:
+    for symbol in law.series_of:
+        q, name = symbols[symbol], f"{symbol}_0"
+        if abs(q.middle) > FAR * q.size and name not in taken:
             found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
     return found
 

@@ -15,6 +15,7 @@ class Quantity:
         size: How far it moves in the recordings as the model has them, in that unit.
         middle: Value about which it moves.
         rate: How fast it changes, per second.
+        stated: Middle and size in the unit that the FMU states, where that is another one.
     """
 
     name: str
@@ -22,6 +23,12 @@ class Quantity:
     size: float
     middle: float
     rate: float
+    stated: tuple[float, float] | None = None
+
+    @property
+    def in_fmu(self) -> tuple[float, float]:
+        """Middle and size in the unit of the FMU."""
+        return self.stated or (self.middle, self.size)
 
 
 @dataclass
@@ -38,6 +45,7 @@ class Places:
         derivatives_read: State to the outputs that are its derivative, times a factor in their units, plus a constant.
         output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
+        acted_on_by: State to the other states that its derivative depends on.
         untried: Where no law can be tried, and why.
     """
 
@@ -50,4 +58,5 @@ class Places:
     twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
     derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
     output_units: dict[str, str] = field(default_factory=dict)
+    acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
     untried: list[str] = field(default_factory=list)

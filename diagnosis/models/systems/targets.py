@@ -29,12 +29,30 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
         yield from _coupled(own, role, free)
     elif role in (Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
         yield from _at_ports(own, role)
+    elif role in (Role.MODULATED, Role.MODULATED_BY_INPUT):
+        yield from _modulated(own, role, free)
     elif role is Role.PAIR:
         for name, q in free.items():
             others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
             yield from ((f"der({name})", q, {"s": q, "o": other}) for other in others)
     else:
         yield from _single(own, role, free)
+
+
+def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
+    """States and what they exchange something with, over every other quantity; two states once."""
+    for name, q in free.items():
+        if role is Role.MODULATED:
+            acting = own.acted_on_by.get(name, frozenset())
+            later = list(free)[list(free).index(name) + 1 :]
+            partners = [own.states[n] for n in later if n in acting and (name, n) in own.apart]
+        else:
+            partners = [i for i in own.inputs.values() if i.unit == q.unit and q.unit not in ("", "1")]
+        for r in partners:
+            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name not in (name, r.name)]
+            for o in others:
+                gap = {"d": own.apart[name, r.name]} if role is Role.MODULATED else {}
+                yield f"der({name})", q, {"s": q, "r": r, "o": o, **gap}
 
 
 def _at_ports(own: Places, role: Role) -> Iterator[Target]:
