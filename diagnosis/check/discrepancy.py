@@ -131,9 +131,12 @@ def likelihoods(at: Thinned, columns: Array, order: int, noise: float) -> Likeli
     every, variances, kept = [], [], []
     for ratio in RATIOS:
         whitener = Whitener(at, float(ratio), order)
-        left = _left(whitener(at.values[None])[0], whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape))
-        squares = np.sum(left**2, axis=-1)
-        variance = np.maximum(squares / degrees, 0.25 * noise**2)
+        with np.errstate(over="ignore", invalid="ignore"):  # a simulation that runs away explains nothing
+            white = whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape)
+            left = _left(whitener(at.values[None])[0], white)
+            squares = np.sum(left**2, axis=-1)
+        squares = np.where(np.isfinite(squares), squares, np.inf)
+        variance = np.maximum(np.where(np.isfinite(squares), squares, 0.0) / degrees, 0.25 * noise**2)
         constant = whitener.log_determinant + whitener.log_trend
         every.append(degrees * np.log(variance) + squares / variance + constant)
         variances.append(variance)

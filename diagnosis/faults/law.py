@@ -69,6 +69,16 @@ SCALED = FaultLaw(
         "sensor_offset_in_interval": "readings of other sizes within the interval decide",
     },
 )
+RISE = FaultLaw(
+    "sensor_rise_in_interval",
+    "sensor that showed another share of the rise for a while",
+    f"reading = first + (truth - first) * (1 + gain * box(t)); {_INTERVAL}; first: first reading of the recording",
+    "gain",
+    {
+        "sensor_gain": "readings before and after the interval decide",
+        "sensor_offset_in_interval": "readings of other sizes within the interval decide",
+    },
+)
 STUCK = FaultLaw(
     "sensor_stuck_in_interval",
     "sensor that was stuck for a while",
@@ -118,9 +128,9 @@ def gain(
     return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=negligible, meaning=meaning)
 
 
-def sensor_gain() -> TermParameter:
-    """Strength of a wrong gain of a sensor."""
-    return gain("change of the gain in the interval, as a share of the reading", SENSOR_ACCURACY)
+def sensor_gain(of: str = "the reading") -> TermParameter:
+    """Strength of a wrong gain of a sensor, of its reading or of the departure from its first one."""
+    return gain(f"change of the gain in the interval, as a share of {of}", SENSOR_ACCURACY)
 
 
 def added(unit: str, largest: float) -> TermParameter:

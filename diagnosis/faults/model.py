@@ -8,13 +8,25 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.faults.law import AGAIN, OCCASIONS, OF_INPUTS, OFFSET, SCALED, STUCK, WHOLLY, fault_term, sensor_gain
+from diagnosis.faults.law import (
+    AGAIN,
+    OCCASIONS,
+    OF_INPUTS,
+    OFFSET,
+    RISE,
+    SCALED,
+    STUCK,
+    WHOLLY,
+    FaultLaw,
+    fault_term,
+    sensor_gain,
+)
 from diagnosis.faults.readings import Readings, readings_of
 from diagnosis.faults.scan import input_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Point, Term, strength_slopes
+from diagnosis.search.problem import Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import Projection, Scoring
 from diagnosis.search.structure import structure
 
@@ -22,9 +34,10 @@ from diagnosis.search.structure import structure
 _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     OFFSET.identifier: Readings.with_offset,
     SCALED.identifier: Readings.with_gain,
+    RISE.identifier: Readings.with_gain,
     STUCK.identifier: Readings.with_held,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, SCALED, STUCK, *OF_INPUTS)}
+_LAWS = {law.identifier: law for law in (OFFSET, SCALED, RISE, STUCK, *OF_INPUTS)}
 #: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
 #: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
 _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
@@ -51,8 +64,8 @@ class FaultyModel(WrappedModel):
         for readings in self.readings:
             for again in range(OCCASIONS):
                 label = readings.label + (AGAIN if again else "")
-                kinds = [(OFFSET, readings.offset()), (STUCK, WHOLLY)]
-                for law, strength in [*kinds, (SCALED, sensor_gain())] if readings.has_gain else kinds:
+                kinds = [(OFFSET, readings.offset()), (STUCK, WHOLLY), *_gains_of(readings)]
+                for law, strength in kinds:
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
 
@@ -97,7 +110,7 @@ class FaultyModel(WrappedModel):
             for term, (strength, begin, end) in faults:
                 if term.identifier == STUCK.identifier:
                     seen *= 1.0 - strength * readings.box(begin, end)
-                elif term.identifier == SCALED.identifier:
+                elif term.identifier in (SCALED.identifier, RISE.identifier):
                     seen *= 1.0 + strength * readings.box(begin, end)
             if found.shape[1] and np.any(seen != 1.0):
                 own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
@@ -204,6 +217,14 @@ class FaultyModel(WrappedModel):
         if readings is not None:
             return readings.edges
         return max((r.edges for r in self.readings if r.recording == term.recording), key=len)
+
+
+def _gains_of(readings: Readings) -> Iterator[tuple[FaultLaw, TermParameter]]:
+    """A gain of the reading, or of its rise where its zero is far away; none of a sensor that shows one value."""
+    if readings.has_gain:
+        yield SCALED, sensor_gain()
+    elif len(readings.measured) and np.ptp(readings.measured) > 0.0:
+        yield RISE, sensor_gain("the departure from its first reading")
 
 
 def _acted(readings: Readings, plain: Array, faults: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:

@@ -76,11 +76,16 @@ class Readings:
     def with_gain(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor reads too much by a share within an interval."""
         box = amount * self.box(begin, end)
-        return np.asarray(plain - box * self.simulated(plain))
+        return np.asarray(plain - box * self.rise(plain))
 
-    def simulated(self, plain: Array) -> Array:
-        """What is simulated at the samples, in deviations of the noise."""
-        return np.asarray(self.measured / self.deviation - plain)
+    def rise(self, plain: Array) -> Array:
+        """What is simulated at the samples, beyond what a gain is counted from, in deviations of the noise."""
+        return np.asarray((self.measured - self.origin) / self.deviation - plain)
+
+    @property
+    def origin(self) -> float:
+        """What a gain is counted from: 0, or the first reading of what has its zero elsewhere, SI."""
+        return 0.0 if self.has_gain or not len(self.measured) else float(self.measured[0])
 
     @property
     def has_gain(self) -> bool:

@@ -84,7 +84,7 @@ def _unit(base: Fit, readings: Readings, term: Term) -> Array:
     """What a fault of strength 1 adds to the plain residuals where it acts, shape (samples,)."""
     if term.identifier == OFFSET.identifier:
         return np.full(len(readings.measured), -1.0 / readings.deviation)
-    return -readings.simulated(readings.plain(base.residuals[readings.own]))
+    return -readings.rise(readings.plain(base.residuals[readings.own]))
 
 
 def _box(

@@ -6,8 +6,8 @@ from diagnosis.judge.diagnosis import Finding
 from diagnosis.judge.unit_factors import factor_between
 from diagnosis.report.display import number
 
-#: Laws whose only number is the change of a factor.
-GAINS = ("input_gain", "sensor_gain")
+#: Laws whose first number is the change of a factor.
+GAINS = ("input_gain", "sensor_gain", "sensor_gain_in_interval", "input_gain_in_interval")
 #: Widest 95 % interval of a factor that points to one of these, relative to it: a wider one points to many.
 CLEAR = 0.05
 
@@ -18,9 +18,9 @@ def unit_factor(finding: Finding) -> str:
     Args:
         finding: Any; asked is of gains of inputs and sensors.
     """
-    if finding.effect not in GAINS or len(finding.parameters) != 1:
+    if finding.effect not in GAINS or not finding.parameters:
         return ""
-    (change,) = finding.parameters
+    change = finding.parameters[0]
     low, high = 1.0 + change.lower, 1.0 + change.upper
     if not 0.0 < low < high < (1.0 + CLEAR) * low:
         return ""
