@@ -186,6 +186,10 @@ class AddedTermEntry(Strict):
 
     to: StrictStr = Field(description="der(state) of a Model Exchange FMU, or the name of an input or output.")
     formula: StrictStr = Field(description="In the FMU's variables, `time` and the parameters; units are checked.")
+    is_share: bool = Field(
+        default=False,
+        description="The formula is a pure number: a share of the derivative as the FMU has it (der(state) alone).",
+    )
     parameters: dict[str, AnyQuantity] = {}
     states: dict[str, AddedStateEntry] = Field(
         default={}, description="States of its own: what it adds may depend on the past."

@@ -36,6 +36,7 @@ class _Term:
         factor: From SI base units to those of the target.
         own: Its own states, where it has some.
         delayed: Inputs as they were some time ago.
+        is_share: Whether it is a share of the derivative as the FMU has it.
     """
 
     target: str
@@ -44,9 +45,10 @@ class _Term:
     factor: float
     own: OwnStates | None = None
     delayed: Delayed = field(default_factory=lambda: Delayed({}, {}))
+    is_share: bool = False
 
     def amount(self, values: Mapping[str, AnyArray]) -> Any:
-        """What is added, in the unit of the target."""
+        """What is added, in the unit of the target; a share as it is."""
         own = {} if self.own is None else self.own.values
         known = {**self.parameters, **own, **self.delayed.values, **values}
         return self.factor * np.asarray(self.formula.value(known))
@@ -211,11 +213,19 @@ class AddedTerms:
             parameters[name] = np.asarray(factor * value.number + offset)
         delayed = self._delayed_inputs(given, units, parameters, key)
         own = self._own_states(given, units, parameters, delayed, key)
+        if given.is_share and not match:
+            raise InputError(
+                self.table.archive.path,
+                f"{key}.is_share",
+                f"`{target}` is no derivative, of which a term may be a share",
+                "leave it out, or add to der(state)",
+            )
         try:
-            formula = Formula(given.formula, units, f"({unit})/s" if match else unit)
+            formula = Formula(given.formula, units, "1" if given.is_share else f"({unit})/s" if match else unit)
         except FormulaError as error:
             raise InputError(self.table.archive.path, f"{key}.formula", str(error), "correct the formula") from error
-        term = _Term(target, formula, parameters, 1.0 / to_base(unit)[0], own, delayed)
+        factor = 1.0 if given.is_share else 1.0 / to_base(unit)[0]
+        term = _Term(target, formula, parameters, factor, own, delayed, given.is_share)
         if match:
             self.derivatives.append(term)
         elif self.table.all[target].variable.causality is Causality.INPUT:
@@ -462,7 +472,10 @@ class AddedTerms:
         if self.derivatives or self.owners:
             self._read()
             environment = self._environment(time, states)
-            for term in self.derivatives:
+            for term in (t for t in self.derivatives if t.is_share):  # before anything is added to what the FMU has
+                places = self.states[term.target]
+                rates[places] *= 1.0 + np.broadcast_to(self._amount(term, environment), places.shape)
+            for term in (t for t in self.derivatives if not t.is_share):
                 places = self.states[term.target]
                 rates[places] += np.broadcast_to(self._amount(term, environment), places.shape)
             if self.owners:
@@ -513,6 +526,7 @@ def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
             {n: PhysicalValue.parse(v) for n, v in t.parameters.items()},
             {n: AddedState(s.rate, s.start, s.unit) for n, s in t.states.items()},
             {n: AddedDelay(d.of, d.by) for n, d in t.delays.items()},
+            t.is_share,
         )
         for t in given
     )

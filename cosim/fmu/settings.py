@@ -63,6 +63,7 @@ class AddedTerm:
         parameters: Numbers with units.
         states: Its own states.
         delays: Delayed inputs.
+        is_share: Whether the formula is a share of the derivative as the FMU has it: a capacity that is larger, say.
     """
 
     to: str
@@ -70,6 +71,7 @@ class AddedTerm:
     parameters: Mapping[str, PhysicalValue] = field(default_factory=dict)
     states: Mapping[str, AddedState] = field(default_factory=dict)
     delays: Mapping[str, AddedDelay] = field(default_factory=dict)
+    is_share: bool = False
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,9 @@ def lines() -> Iterator[str]:
 
 def _row(law: Law) -> str:
     name = f"**{law.name}** `{law.identifier}`" if law.is_named else f"`{law.identifier}` (no name)"
-    formula = f"`{law.formula}`" + "".join(f"; `d{s.name}/dt = {s.rate}`, from `{s.start}`" for s in law.states)
+    formula = f"`{law.formula}`{' of the derivative as it is' if law.is_share else ''}" + "".join(
+        f"; `d{s.name}/dt = {s.rate}`, from `{s.start}`" for s in law.states
+    )
     formula += "".join(f"; `{d.name}(t) = {d.of}(t - {d.by})`" for d in law.delays)
     formula += f"; to the other part `{law.reaction}`" if law.reaction else ""
     numbers = "; ".join(

@@ -136,6 +136,7 @@ class Law:
         reaction: What is added to the derivative of `reacts_on` with it, in the same symbols: what one part loses the
             other one gets, as a share that inertias or capacities decide.
         reacts_on: Symbol of the other part.
+        is_share: Whether the formula is a share of the derivative as the FMU has it, and a pure number.
         series_of: Symbols of quantities of which it is a power series: of one far from 0 it is about a typical value.
         is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """
@@ -153,5 +154,6 @@ class Law:
     confused_with: Mapping[str, str] = field(default_factory=dict)
     reaction: str = ""
     reacts_on: str = ""
+    is_share: bool = False
     series_of: tuple[str, ...] = ()
     is_completing: bool = False

@@ -58,7 +58,7 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
-    return [*found, _beside_a_state(), *_with_memory(), *_corrections()]
+    return [*found, *_scaled(), _beside_a_state(), *_with_memory(), *_corrections()]
 
 
 def _modulated() -> list[Law]:
@@ -70,6 +70,14 @@ def _modulated() -> list[Law]:
     numbers = (*inside.numbers, ratio)
     inside = replace(inside, numbers=numbers, reaction="ratio * a * d * o", reacts_on="r")
     return [replace(law, series_of=("o",)) for law in (inside, outside)]
+
+
+def _scaled() -> list[Law]:
+    """A capacity or an inertia that changes: the whole derivative grows or falls, by its state or another quantity."""
+    own = _law("rate_scaled", "capacity or inertia that changes with its state", Role.STATE, "a * s", "1/s")
+    other = _law("rate_scaled", "capacity or inertia that changes with another quantity", Role.PAIR, "a * o", "1/o")
+    other = replace(other, identifier="rate_scaled_by_another")
+    return [replace(law, is_share=True, series_of=(of,)) for law, of in ((own, "s"), (other, "o"))]
 
 
 def _beside_a_state() -> Law:

@@ -30,6 +30,10 @@ ROUGH = 0.03
 OUTDONE = 1.6
 #: Equations of which a generic law is fitted all the same where what is best leaves structure.
 EQUATIONS = 3
+#: Combinations of the first values of a law that is tried whatever the straight line says of it.
+STARTS, TRIED_STARTS = 32, 3
+#: Share of the sum of squares of all residuals by which a law changes them that does something.
+FELT = 0.01
 #: Instants from which a fit may begin where the model does not say which.
 INSTANTS = 40
 #: How far from where a fit ended its instants are tried [s].
@@ -81,12 +85,48 @@ def grow(
             best = min(tried.values(), key=lambda f: f.cost)
             for candidate in _unnamed_equations(left_out, best, model):
                 tried[frozenset((*explanation.terms, candidate.term))] = fitted_with(model, explanation.fit, candidate)
+        if not explanation.terms and tried and settings.trials:
+            others = _tried_all_the_same(model, explanation.fit, hopeful, tried, settings.trials)
+            tried |= others
+            laws |= set(others)
         if tried:  # straight lines may have pointed elsewhere than where the best was found
             (there,) = min(tried, key=lambda k: tried[k].cost) - set(explanation.terms)
             laws |= {k for k in tried for t in k - set(explanation.terms) if t.is_named and t.place == there.place}
         grown |= _continued(model, explanation.fit.cost, tried, laws)
         grown |= _with_faults(model, explanation, faults.ranked, margin)
     return list(grown.values()), scorings[0]
+
+
+def _tried_all_the_same(
+    model: Model, before: Fit, ranked: Sequence[Score], tried: Mapping[frozenset[Term], Fit], most: int
+) -> dict[frozenset[Term], Fit]:
+    """Other laws with a name, each from the best of all its starts; none where a law that was tried leaves noise."""
+    best = min(tried.values(), key=lambda f: f.cost)
+    if structure(best.residuals, model.layout).is_noise:
+        return {}
+    known = {t for key in tried for t in key}
+    left = [s.term for s in ranked if s.term.is_named and s.term not in known][:most]
+    return {
+        frozenset({term}): fit_best(model, _best_starts(model, before, term), STEPS, before)
+        for term in counted(left, "other laws with a name fitted")
+    }
+
+
+def _best_starts(model: Model, before: Fit, term: Term) -> list[Point]:
+    """The best of every combination of a law's first values, from where the base is and from where it is believed.
+
+    A law that does nothing at its first values has no slope there: such points are left out while there are others.
+    """
+    every = itertools.islice(itertools.product(*(p.starts for p in term.parameters)), STARTS)
+    bases = [before.point, nominal_of(before)] if is_strained(before) else [before.point]
+    points = [(base.plus(term, values), base) for values in every for base in bases]
+    plain = dict(zip(map(id, bases), model.residuals(bases)))
+    found = model.residuals([p for p, _ in points])
+    moved = [float(np.sum((r - plain[id(base)]) ** 2)) for r, (_, base) in zip(found, points)]
+    least = FELT * float(before.residuals @ before.residuals)
+    cost = costs_at(model, before, [p for p, _ in points])
+    order = sorted(range(len(points)), key=lambda n: (not moved[n] > least, cost[n]))
+    return [points[n][0] for n in order[:TRIED_STARTS] if np.isfinite(cost[n])] or [points[0][0]]
 
 
 def interval_scores(model: Model, base: Fit, projection: Projection) -> Scoring:

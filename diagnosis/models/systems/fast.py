@@ -131,7 +131,7 @@ class FastSystem:
     def _added_of(self, number: int, law: Placed) -> AddedLayout:
         fmu = self.fmus[law.component]
         if law.to.startswith("der("):
-            name, kind = law.to[4:-1], Kind.RATE
+            name, kind = law.to[4:-1], Kind.SHARE if law.is_share else Kind.RATE
             if name not in fmu.states:
                 raise NotFast(f"{law.component} has no state {name}")
             target = fmu.states[name]
@@ -144,7 +144,7 @@ class FastSystem:
             if name not in fmu.inputs or fmu.inputs[name].stop - fmu.inputs[name].start != 1:
                 raise NotFast(f"{law.component} has no input {name}")
             target = fmu.inputs[name].start
-        scale = 1.0 / to_base(fmu.units[name])[0]
+        scale = 1.0 if kind is Kind.SHARE else 1.0 / to_base(fmu.units[name])[0]
         delays, delayed = self._delays(number, law)
         found = AddedLayout(
             kind=kind,

@@ -28,6 +28,7 @@ class Kind(IntEnum):
     RATE = 0
     INPUT = 1
     OUTPUT = 2
+    SHARE = 3
 
 
 class AccessLayout(ctypes.Structure):

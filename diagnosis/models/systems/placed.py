@@ -53,6 +53,7 @@ class Placed:
         constants: Names to values with units of what is not fitted.
         states: Its own states.
         delays: Delayed inputs.
+        is_share: Whether the formula is a share of the derivative as the FMU has it.
     """
 
     component: str
@@ -62,6 +63,7 @@ class Placed:
     constants: Mapping[str, PhysicalValue] = field(default_factory=dict)
     states: tuple[PlacedState, ...] = ()
     delays: tuple[PlacedDelay, ...] = ()
+    is_share: bool = False
 
     def entry(self, values: tuple[float, ...]) -> AddedTermEntry:
         """The same in a scenario, with values of its numbers."""
@@ -69,7 +71,14 @@ class Placed:
         states = {s.name: AddedStateEntry(rate=s.rate, start=s.start, unit=s.unit) for s in self.states}
         delays = {d.name: AddedDelayEntry(of=d.of, by=d.by) for d in self.delays}
         parameters = {**numbers, **self.constants}
-        return AddedTermEntry(to=self.to, formula=self.formula, parameters=parameters, states=states, delays=delays)
+        return AddedTermEntry(
+            to=self.to,
+            formula=self.formula,
+            is_share=self.is_share,
+            parameters=parameters,
+            states=states,
+            delays=delays,
+        )
 
 
 def placed_of(component: str, entry: AddedTermEntry) -> tuple[Placed, tuple[float, ...]]:
@@ -78,5 +87,5 @@ def placed_of(component: str, entry: AddedTermEntry) -> tuple[Placed, tuple[floa
     states = tuple(PlacedState(name, s.rate, s.start, s.unit) for name, s in entry.states.items())
     delays = tuple(PlacedDelay(name, d.of, d.by) for name, d in entry.delays.items())
     units = tuple((n, v.unit) for n, v in numbers.items())
-    placed = Placed(component, entry.to, entry.formula, units, {}, states, delays)
+    placed = Placed(component, entry.to, entry.formula, units, {}, states, delays, entry.is_share)
     return placed, tuple(v.number for v in numbers.values())

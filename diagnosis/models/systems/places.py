@@ -261,6 +261,8 @@ def _fit(
     products = (*(n.of for n in law.numbers), *(of for of, _ in law.constants.values()), *(s.of for s in law.states))
     needed = {n for f in formulas for n in names_in(f)} - numbers
     needed |= {n for of in products for n in names_in(of)} - _SCALES
+    if law.is_share and own.derivatives_read.get(target.name):
+        return None  # an output that reads the derivative would have to read the share of it too
     if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
     taken = {*own.states, *own.inputs, *own.outputs, "time"}
@@ -287,6 +289,7 @@ def _fit(
                 for s in law.states
             ),
             tuple(PlacedDelay(fresh[d.name], symbols[d.of].name, fresh[d.by]) for d in law.delays),
+            law.is_share,
         )
         placed = replace(placed, numbers=_used(placed)) if law.reaction else placed
         _check(own, placed, to)
@@ -301,7 +304,9 @@ def _fit(
     domain = domain_of(target.unit, own)
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
     label = f"{own.component}.{target.name}"
-    what = f"{to} += {placed.formula}" + "".join(f", der({s.name}) = {s.rate}" for s in placed.states)
+    what = f"{to} {'*= 1 +' if law.is_share else '+='} {placed.formula}" + "".join(
+        f", der({s.name}) = {s.rate}" for s in placed.states
+    )
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
     beside = ""
@@ -398,7 +403,8 @@ def _check(own: Places, placed: Placed, to: str) -> None:
     units |= {s.name: s.unit for s in placed.states}
     units |= {d.name: units[d.of] for d in placed.delays}
     target = to[4:-1] if to.startswith("der(") else to
-    Formula(placed.formula, units, f"({units[target]})/s" if to.startswith("der(") else units[target])
+    rate = "1" if placed.is_share else f"({units[target]})/s"
+    Formula(placed.formula, units, rate if to.startswith("der(") else units[target])
     for state in placed.states:
         Formula(state.rate, units, f"({state.unit})/s")
         Formula(state.start, units, state.unit)

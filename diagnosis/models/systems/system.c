@@ -26,7 +26,7 @@ typedef int (*StepFmi3)(void *, double, double, bool, bool *, bool *, bool *, do
 
 enum { WARNING = 1, MOST_SWEEPS = 100, MOST_EVENTS = 1000, MOST_OWN = 2, BISECTIONS = 50 };
 enum { COPY, PUT, GET, STEP };
-enum { RATE, INPUT, OUTPUT };
+enum { RATE, INPUT, OUTPUT, SHARE };
 enum { DONE = 0, FAILED = 1 };
 
 /* What is practically the same instant [s]: a tenth of the resolution of simulated time. */
@@ -57,7 +57,7 @@ typedef struct {
 } Delay;
 
 typedef struct {
-    int64_t kind;   /* RATE, INPUT or OUTPUT */
+    int64_t kind;   /* RATE, INPUT, OUTPUT or SHARE (of the FMU's own rate) */
     int64_t target; /* number of the state or of the input */
     double scale;   /* from SI base units to those of the target */
     Law amount;
@@ -319,6 +319,13 @@ static int derivatives(Unit *u, double time, double *x, double *rates)
     }
     if (u->states && ((Vector)u->get_derivatives)(u->component, rates, (size_t)u->states) > WARNING) {
         return FAILED;
+    }
+    for (int64_t i = 0; i < u->added_count; ++i) { /* before anything is added to what the FMU has */
+        const Added *a = u->added + i;
+        if (a->kind == SHARE) {
+            const double *own = x + u->states + a->first;
+            rates[a->target] *= 1.0 + a->amount(u->environment, a->values, own, a->delayed);
+        }
     }
     for (int64_t i = 0; i < u->added_count; ++i) {
         const Added *a = u->added + i;
