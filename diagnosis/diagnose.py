@@ -23,7 +23,7 @@ from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
-from diagnosis.judge.adequacy import adequacy, moved_day
+from diagnosis.judge.adequacy import adequacy, moved_day, with_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts
 from diagnosis.judge.form import companions, share_at_place
@@ -195,7 +195,7 @@ def diagnose(
     doubts = without_explained_starts(doubts, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
-    right = adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter)
+    right = with_day(adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter), fits)
     estimated = with_instants(model.parameters, titles)
     estimated |= with_instants(() if judge is None else judge.parameters, [r.title for r in held_out])
     right = with_input_rows(right, scenario, both, estimated)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.agreement import Agreement
-from diagnosis.judge.diagnosis import Adequacy, Left, Met, Moved
+from diagnosis.judge.diagnosis import Adequacy, ChannelFit, Left, Met, Moved
 from diagnosis.judge.held_out import root_mean_square
 from diagnosis.judge.unfitted import Predicted, Readings
 from diagnosis.models.coil_network.runs import deviation
@@ -74,6 +75,24 @@ def adequacy(
         needs_parameter_error=now.needs_parameter_error,
         noises_stated=(sum(c.is_deviation_given for c in readings.channels), len(readings.channels)),
     )
+
+
+def with_day(found: Adequacy, fits: Sequence[ChannelFit]) -> Adequacy:
+    """The same with what estimating the day's own numbers takes from the scenario as it is.
+
+    Single wild readings are in the rows of `fits` before and after alike.
+
+    Args:
+        found: How right the accepted model is.
+        fits: Every channel with the numbers of the day as written down.
+    """
+    rows = [f for f in fits if f.is_held_out and f.samples]
+    count = sum(f.samples for f in rows)
+    if not count:
+        return found
+    written = {s: sum(f.samples * f.chi_square[s] for f in rows) / count for s in ("before", "after")}
+    fall = {stage: value - found.chi_square[stage] for stage, value in written.items()}
+    return replace(found, by_day=max(fall["before"] - fall["after"], 0.0))
 
 
 def met(predicted: Predicted, readings: Readings) -> tuple[Met, ...]:

@@ -442,6 +442,7 @@ class Adequacy:
         needs_parameter_error: Whether noise alone would reject the model, and noise with the error of the fitted
             parameters does not.
         noises_stated: How many channels state their noise, of how many: each channel of each recording of the basis.
+        by_day: Chi-square per reading that estimating the day's own numbers takes from the scenario as it is.
     """
 
     basis: str
@@ -464,6 +465,13 @@ class Adequacy:
     met: tuple[Met, ...] = ()
     needs_parameter_error: bool = False
     noises_stated: tuple[int, int] = (0, 0)
+    by_day: float = 0.0
+
+    @property
+    def needs_day(self) -> bool:
+        """Whether the scenario as it is meets the readings only with the day's own numbers estimated."""
+        before = self.chi_square["before"]
+        return before <= self.limit < before + self.by_day
 
 
 @dataclass(frozen=True)

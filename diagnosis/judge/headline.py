@@ -57,7 +57,7 @@ def headline(
     assert adequacy is not None, "only a recording fault is reported without a simulation"
     first = {
         Verdict.CONSISTENT: f"The model as it is agrees with the {_basis(adequacy)} within "
-        f"{_noise(adequacy, is_fitted=False)}.",
+        f"{_noise(adequacy, is_fitted=False)}{_OWN if adequacy.needs_day else ''}.",
         Verdict.RECALIBRATED: f"The model agrees with the {_basis(adequacy)} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
         Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(named.measured, doubts)}.",
@@ -269,6 +269,9 @@ def how_right(adequacy: Adequacy, is_amended: bool, units: Units = IN_SI, has_fa
 def _percent(share: float) -> str:
     """A share of the mismatch; what is nearly all of it is not called all."""
     return "more than 99 %" if share > ALL else f"{100.0 * share:.0f} %"
+
+
+_OWN = " once what each of them has of its own (its start, say) is estimated"
 
 
 def _course(adequacy: Adequacy) -> str:

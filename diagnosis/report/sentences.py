@@ -110,7 +110,9 @@ def improvement(diagnosis: Diagnosis) -> str:
             where = f"; where findings show most: {_course(own)}" if own else ""
             right = diagnosis.adequacy
             is_fitted = len({mean.get(stage) for stage in STAGES}) > 1
-            if is_held_out and is_fitted and right is not None and right.day:  # what judged is not what the rows hold
+            if (
+                is_held_out and is_fitted and right is not None and (right.day or right.needs_day)
+            ):  # what judged is not what the rows hold
                 name += ", numbers of the day as written down"
                 where += f"; with those numbers estimated, as judged: {_course(right.chi_square)}"
             return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"

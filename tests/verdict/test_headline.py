@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from rich.console import Console
 
-from diagnosis.judge.diagnosis import Standing, Verdict
+from diagnosis.judge.adequacy import with_day
+from diagnosis.judge.diagnosis import ChannelFit, Standing, Verdict
 from diagnosis.judge.headline import headline, how_right, notes
 from diagnosis.report.network import Network
 from diagnosis.report.page import page
@@ -184,3 +186,24 @@ def test_cannot_tell_says_of_accepted_findings_that_they_are_not_identified() ->
     shown = " ".join(console.export_text().split())
     assert "note Accepted, as it improves the prediction" in shown
     assert "what improves the prediction, not identified: " in shown
+
+
+def test_a_model_that_agrees_once_the_start_of_a_day_is_estimated_says_so() -> None:
+    """Rows of fits have chi-square 3.2 with what is written down; 0.9 was judged, and 0.5 in both after a fit."""
+    chi = {"before": 0.9, "recalibrated": 0.5, "after": 0.5}
+    met = replace(ADEQUACY, is_rejected=False, is_nominal_rejected=False, chi_square=chi, day=(), wild=0)
+    rows = [
+        ChannelFit("third", True, "lump.temperature", "K", {}, {"before": 3.2, "after": 0.5}, {}, samples=100),
+        ChannelFit("first", False, "lump.temperature", "K", {}, {"before": 9.0, "after": 0.5}, {}, samples=100),
+    ]
+    found = with_day(met, rows)
+    assert found.by_day == pytest.approx(2.3)
+    told = headline(Verdict.CONSISTENT, [], found)
+    assert told.endswith(
+        "once what each of them has of its own (its start, say) is estimated within what is stated of it."
+    )
+    wild = with_day(met, [replace(rows[0], chi_square={"before": 1.9, "after": 1.5})])  # wild readings, in both
+    assert headline(Verdict.CONSISTENT, [], wild) == (
+        "The model as it is agrees with the held-out recordings within the stated noise of the sensors."
+    )
+    assert with_day(met, [rows[1]]).by_day == 0.0
