@@ -275,6 +275,7 @@ def test_powers_of_an_absolute_temperature_are_about_where_it_is(tmp_path: Path,
     assert square.formula == "a * (T - s_0) ** 2"
     assert square.constants["s_0"].number == pytest.approx(300.0, abs=0.05)
     assert square.constants["s_0"].unit == "K"
+    assert found["rate_squared", "der(T)"].term.law == "der(T) += a * (T - s_0) ** 2, s_0 = 300 K"
     assert found["rate_squared", "der(T)"].term.parameters[0].unit == "1/K/s"
     onset = found["rate_spline", "der(T)"].term.parameters[1]
     assert 250.0 < onset.starts[0] < 300.0 < onset.starts[-1] < 380.0

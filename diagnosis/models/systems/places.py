@@ -309,6 +309,7 @@ def _fit(
     )
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
+    what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
     beside = ""
     if law.reacts_on or "r" in symbols:
         beside = symbols[law.reacts_on or "r"].name
