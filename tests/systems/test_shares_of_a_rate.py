@@ -96,6 +96,7 @@ def test_a_temperature_may_have_latent_heat_and_takes_no_energy_from_nowhere(tmp
     assert law.placed.is_share
     assert [p.unit for p in law.term.parameters] == ["1", "K", "K"]
     assert law.term.parameters[0].lower == 0.0
+    assert [p.is_reading for p in law.term.parameters] == [False, True, False]  # 48 degC, and a width of 2 K
     assert law.term.law.startswith("der(T) *= 1 + ")
     assert found["rate_scaled", "der(T)"].placed.is_share
 

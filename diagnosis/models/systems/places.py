@@ -426,6 +426,7 @@ def _parameter(
         starts,
         negligible=_negligible(number, scale, symbols, macro_step),
         meaning=number.meaning,
+        is_reading=bool(number.origin),
     )
 
 
