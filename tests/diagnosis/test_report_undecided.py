@@ -67,11 +67,11 @@ def test_the_top_of_the_page_says_what_is_left_why_and_what_would_decide(tmp_pat
     text = page_of(unexplained(), [series()], tmp_path)
     top = text[: text.index("Channels")]
     for part in (
-        "coil[2,5].temperature (steps), 30.0 to 42.0 s: standardised sum of residuals at least 7.70; noise alone stays",
+        "coil[2,5].temperature (steps), 30.0 to 42.0 s: standardised sum of residuals at least 7.70; white noise alone",
         "driven alone, coil[2,5] departs most (thermal)",
         "Repeat the recording in which most is left: what comes back",
         "out/amended/scenario.yaml (recalibrated, nothing added)",
-        "noise alone stays below the limit in 99 of 100",
+        "white noise alone stays below the limit in 99 of 100",
     ):
         assert part in top, part
     assert "Amended model" not in text

@@ -133,8 +133,8 @@ def test_reasons_are_told_in_the_units_of_the_recording():
 def test_what_is_left_is_told_in_the_units_of_the_recording():
     left = Remainder("string[1].current", 60.0, 90.0, 7.7, 4.9, "A", -0.0123)
     assert remainder(left, MINE) == (
-        "string[1].current, 1.00 to 1.50 min: -12.3 mA on average, standardised sum of residuals at least 7.70; noise "
-        "alone stays below 4.90 in 99 of 100 recordings"
+        "string[1].current, 1.00 to 1.50 min: -12.3 mA on average, standardised sum of residuals at least 7.70; white "
+        "noise alone stays below 4.90 in 99 of 100 recordings"
     )
     plain = Remainder("every temperature", 60.0, 90.0, 7.7, 4.9)
     assert remainder(plain).startswith(
