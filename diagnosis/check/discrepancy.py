@@ -136,7 +136,7 @@ def likelihoods(at: Thinned, columns: Array, order: int, noise: float) -> Likeli
             left = _left(whitener(at.values[None])[0], white)
             squares = np.sum(left**2, axis=-1)
         squares = np.where(np.isfinite(squares), squares, np.inf)
-        variance = np.maximum(np.where(np.isfinite(squares), squares, 0.0) / degrees, 0.25 * noise**2)
+        variance = np.maximum(np.where(squares < np.inf, squares, 0.0) / degrees, 0.25 * noise**2)
         constant = whitener.log_determinant + whitener.log_trend
         every.append(degrees * np.log(variance) + squares / variance + constant)
         variances.append(variance)

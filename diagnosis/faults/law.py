@@ -59,25 +59,23 @@ OFFSET = FaultLaw(
         "sensor_drift": "readings within the interval decide: a drift grows",
     },
 )
+_GAIN_CONFUSED = {
+    "sensor_gain": "readings before and after the interval decide",
+    "sensor_offset_in_interval": "readings of other sizes within the interval decide",
+}
 SCALED = FaultLaw(
     "sensor_gain_in_interval",
     "sensor whose gain was off for a while",
     f"reading = truth * (1 + gain * box(t)); {_INTERVAL}",
     "gain",
-    {
-        "sensor_gain": "readings before and after the interval decide",
-        "sensor_offset_in_interval": "readings of other sizes within the interval decide",
-    },
+    _GAIN_CONFUSED,
 )
 RISE = FaultLaw(
     "sensor_rise_in_interval",
     "sensor that showed another share of the rise for a while",
     f"reading = first + (truth - first) * (1 + gain * box(t)); {_INTERVAL}; first: first reading of the recording",
     "gain",
-    {
-        "sensor_gain": "readings before and after the interval decide",
-        "sensor_offset_in_interval": "readings of other sizes within the interval decide",
-    },
+    _GAIN_CONFUSED,
 )
 STUCK = FaultLaw(
     "sensor_stuck_in_interval",

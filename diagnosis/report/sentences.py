@@ -110,9 +110,8 @@ def improvement(diagnosis: Diagnosis) -> str:
             where = f"; where findings show most: {_course(own)}" if own else ""
             right = diagnosis.adequacy
             is_fitted = len({mean.get(stage) for stage in STAGES}) > 1
-            if (
-                is_held_out and is_fitted and right is not None and (right.day or right.needs_day)
-            ):  # what judged is not what the rows hold
+            is_of_day = right is not None and bool(right.day or right.needs_day)
+            if is_held_out and is_fitted and right is not None and is_of_day:  # what judged is not what the rows hold
                 name += ", numbers of the day as written down"
                 where += f"; with those numbers estimated, as judged: {_course(right.chi_square)}"
             return f"chi-square per sample ({name}), all channels: {_course(mean)}{where}"

@@ -17,7 +17,7 @@ from diagnosis.search.problem import Model, Point, Term, TermParameter, has_ridg
 from diagnosis.search.ridge import along_ridge
 from diagnosis.search.score import SHARE, Projection, Score, Scoring, score
 from diagnosis.search.structure import structure
-from diagnosis.search.switches import costs_at, is_strained, nominal_of, switch_scores
+from diagnosis.search.switches import costs_at, costs_of, is_strained, nominal_of, switch_scores
 
 #: A term is refitted if the straight line promises this share of the margin (some strengths are far from straight).
 HOPEFUL = 0.4
@@ -119,14 +119,14 @@ def _best_starts(model: Model, before: Fit, term: Term) -> list[Point]:
     """
     every = itertools.islice(itertools.product(*(p.starts for p in term.parameters)), STARTS)
     bases = [before.point, nominal_of(before)] if is_strained(before) else [before.point]
-    points = [(base.plus(term, values), base) for values in every for base in bases]
-    plain = dict(zip(map(id, bases), model.residuals(bases)))
-    found = model.residuals([p for p, _ in points])
-    moved = [float(np.sum((r - plain[id(base)]) ** 2)) for r, (_, base) in zip(found, points)]
+    points = [base.plus(term, values) for values in every for base in bases]
+    found = model.residuals([*bases, *points])
+    plain, with_it = found[: len(bases)], found[len(bases) :]
+    moved = [float(np.sum((r - plain[n % len(bases)]) ** 2)) for n, r in enumerate(with_it)]
     least = FELT * float(before.residuals @ before.residuals)
-    cost = costs_at(model, before, [p for p, _ in points])
+    cost = costs_of(with_it, before, points)
     order = sorted(range(len(points)), key=lambda n: (not moved[n] > least, cost[n]))
-    return [points[n][0] for n in order[:TRIED_STARTS] if np.isfinite(cost[n])] or [points[0][0]]
+    return [points[n] for n in order[:TRIED_STARTS] if np.isfinite(cost[n])] or [points[0]]
 
 
 def interval_scores(model: Model, base: Fit, projection: Projection) -> Scoring:

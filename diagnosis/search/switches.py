@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cosim.unit.protocol import Array
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import cost
 from diagnosis.search.problem import Model, Point, Term, strength_slopes
@@ -31,9 +32,13 @@ def costs_at(model: Model, base: Fit, points: Sequence[Point]) -> list[float]:
     found: list[float] = []
     for begin in range(0, len(points), BATCH):  # many recordings have many instants, and residuals take memory
         part = points[begin : begin + BATCH]
-        values = model.residuals(part)
-        found += [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(values, part)]
+        found += costs_of(model.residuals(part), base, part)
     return found
+
+
+def costs_of(residuals: Array, base: Fit, points: Sequence[Point]) -> list[float]:
+    """The same of residuals at hand, shape (points, residuals)."""
+    return [cost(v, p.base, base.widths) if np.isfinite(v).all() else np.inf for v, p in zip(residuals, points)]
 
 
 def nominal_of(base: Fit) -> Point:

@@ -94,11 +94,12 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         if not fmu.is_model_exchange:
             outputs = [n for n, a in fmu.outputs.items() if a.size == 1]
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
-        own.velocity_of, own.twist_of = _kinematics(systems[0], fmu, own)
+        probed = _probed(systems[0], fmu, own)
+        own.velocity_of, own.twist_of = _kinematics(*probed)
         own.derivatives_read = derivatives_read(systems[0], fmu, own)
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
         own.apart = _apart(fmu, own, courses, step)
-        own.acted_on_by = _acting(systems[0], fmu, own)
+        own.acted_on_by = _acting(systems[0], own, *probed)
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -177,18 +178,21 @@ def _is_nameable(name: str) -> bool:
         return False
 
 
-def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str, str], dict[str, tuple[str, str]]]:
-    """Positions with the states that are their derivatives, and states whose derivative is a difference of two others.
-
-    The equations are asked at random points.
-    """
-    if len(fmu.states) < 2 or set(fmu.states) != set(own.states):
-        return {}, {}
-    rng = np.random.default_rng(SEED)
+def _probed(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[list[str], Array, Array]:
+    """States, random points of them, and their derivatives there, shape (points, states); none where one is unknown."""
+    if not fmu.states or set(fmu.states) != set(own.states):
+        return [], np.zeros((0, 0)), np.zeros((0, 0))
     names = list(fmu.states)
     middle, size = np.array([own.states[n].in_fmu for n in names]).T
-    points = middle + size * rng.standard_normal((PROBES, len(names)))
-    rates = np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+    points = middle + size * np.random.default_rng(SEED).standard_normal((PROBES, len(names)))
+    return names, points, np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+
+
+def _kinematics(names: Sequence[str], points: Array, rates: Array) -> tuple[dict[str, str], dict[str, tuple[str, str]]]:
+    """Positions with the states that are their derivatives, and states whose derivative is a difference of two others.
+
+    The equations are asked at random points, see `_probed`.
+    """
     velocities: dict[str, str] = {}
     twists: dict[str, tuple[str, str]] = {}
     for i, position in enumerate(names):
@@ -202,20 +206,16 @@ def _kinematics(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str
     return velocities, twists
 
 
-def _acting(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, frozenset[str]]:
-    """State to the other states that its derivative depends on, at any of some random points."""
-    if not fmu.states or set(fmu.states) != set(own.states):
-        return {}
-    rng = np.random.default_rng(SEED)
-    names = list(fmu.states)
-    middle, size = np.array([own.states[n].in_fmu for n in names]).T
+def _acting(
+    system: FastSystem, own: Places, names: Sequence[str], points: Array, rates: Array
+) -> dict[str, frozenset[str]]:
+    """State to the other states that its derivative depends on, at any of some random points, see `_probed`."""
     found: dict[str, set[str]] = {n: set() for n in names}
-    for _ in range(PROBES):
-        point = middle + size * rng.standard_normal(len(names))
-        rates = system.rates(own.component, system.start / 1e9, point)
-        for j, name in enumerate(names):
-            moved = system.rates(own.component, system.start / 1e9, point + size * (np.arange(len(names)) == j))
-            for i in np.flatnonzero(np.abs(moved - rates) > 1e-9 * (np.abs(moved) + np.abs(rates))):
+    for j, name in enumerate(names):
+        step = own.states[name].in_fmu[1] * (np.arange(len(names)) == j)
+        for point, here in zip(points, rates):
+            moved = system.rates(own.component, system.start / 1e9, point + step)
+            for i in np.flatnonzero(np.abs(moved - here) > 1e-9 * (np.abs(moved) + np.abs(here))):
                 found[names[int(i)]].add(name)
     return {n: frozenset(others - {n}) for n, others in found.items()}
 

@@ -41,18 +41,16 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
 
 def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
     """States and what they exchange something with, over every other quantity; two states once."""
-    for name, q in free.items():
-        if role is Role.MODULATED:
-            acting = own.acted_on_by.get(name, frozenset())
-            later = list(free)[list(free).index(name) + 1 :]
-            partners = [own.states[n] for n in later if n in acting and (name, n) in own.apart]
-        else:
-            partners = [i for i in own.inputs.values() if i.unit == q.unit and q.unit not in ("", "1")]
-        for r in partners:
-            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name not in (name, r.name)]
-            for o in others:
-                gap = {"d": own.apart[name, r.name]} if role is Role.MODULATED else {}
-                yield f"der({name})", q, {"s": q, "r": r, "o": o, **gap}
+    if role is Role.MODULATED:
+        pairs = [(q, r) for q, r in _pairs(free.values()) if r.name in own.acted_on_by.get(q.name, ())]
+        partners = [(q, r, {"d": own.apart[q.name, r.name]}) for q, r in pairs if (q.name, r.name) in own.apart]
+    else:
+        named = [q for q in free.values() if q.unit not in ("", "1")]
+        partners = [(q, r, {}) for q in named for r in own.inputs.values() if r.unit == q.unit]
+    for q, r, gap in partners:
+        for o in (*own.states.values(), *own.inputs.values()):
+            if o.name not in (q.name, r.name):
+                yield f"der({q.name})", q, {"s": q, "r": r, "o": o, **gap}
 
 
 def _at_ports(own: Places, role: Role) -> Iterator[Target]:
