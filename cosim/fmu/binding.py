@@ -123,6 +123,7 @@ class Binding(ABC):
         self.messages: list[str] = []
         #: Parameters and start values that were given, by name of the variable.
         self.given: dict[str, Access] = {}
+        self._functions: dict[tuple[Any, ...], Callable[..., int]] = {}
         description = archive.description
         kind = description.coSimulation if interface == "co_simulation" else description.modelExchange
         if kind is None:
@@ -203,9 +204,12 @@ class Binding(ABC):
 
     def function(self, name: str, *argtypes: Any) -> Callable[..., int]:
         """The library's function `fmi2<name>` or `fmi3<name>`, unchecked; addresses are passed as integers."""
-        found = self.fmu.dll[self.prefix + name]  # an object of its own: fmpy's argument types stay as they are
-        found.argtypes, found.restype = [ctypes.c_void_p, *argtypes], ctypes.c_int
-        return found  # type: ignore[no-any-return]
+        key = name, *argtypes
+        if key not in self._functions:  # a search asks for them before each of its simulations
+            found = self.fmu.dll[self.prefix + name]  # an object of its own: fmpy's argument types stay as they are
+            found.argtypes, found.restype = [ctypes.c_void_p, *argtypes], ctypes.c_int
+            self._functions[key] = found
+        return self._functions[key]
 
     def checked(self, name: str, *argtypes: Any) -> Callable[..., None]:
         """The library's function with the component bound and its status checked."""

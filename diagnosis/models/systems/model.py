@@ -40,6 +40,8 @@ AGREED = 1e-3
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
 SEARCHED_AGAIN = 30_000
+#: Points whose numbers are kept.
+MOST_PLAIN = 64
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
 
@@ -78,6 +80,8 @@ class SystemModel(CompiledModel):
         batches: Batches | None = None,
     ) -> None:
         super().__init__(scenario, recordings, free, (), batches)
+        #: What points without laws change, by their numbers and recording.
+        self._plain: dict[tuple[bytes, int | None], Changes] = {}
         #: Law to what it adds, by the numbers that the compiled code has for each, and its place.
         self._found: dict[Term, tuple[range, Fit]] = {}
         placed: list[Placed] = []
@@ -118,7 +122,14 @@ class SystemModel(CompiledModel):
     def _numbers_at(self, point: Point, number: int | None) -> Changes:
         """What a point changes beside laws."""
         faults = {t: v for t, v in point.terms.items() if t.recording is not None}
-        return super().changes_at(Point(point.base, faults), number)
+        if faults:
+            return super().changes_at(Point(point.base, faults), number)
+        key = point.base.tobytes(), number
+        if key not in self._plain:  # a law is tried with many of its values where nothing else moves
+            if len(self._plain) >= MOST_PLAIN:
+                del self._plain[next(iter(self._plain))]
+            self._plain[key] = super().changes_at(Point(point.base), number)
+        return self._plain[key]
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI; None where the simulation stopped."""
