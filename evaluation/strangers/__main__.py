@@ -20,6 +20,7 @@ import numpy as np
 from evaluation.command import run_cosim
 from evaluation.strangers import (
     eighth_set,
+    eleventh_set,
     fifth_set,
     first_set,
     fourth_set,
@@ -44,6 +45,7 @@ SETS = {
     "eighth": eighth_set.CASES,
     "ninth": ninth_set.CASES,
     "tenth": tenth_set.CASES,
+    "eleventh": eleventh_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
