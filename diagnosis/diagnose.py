@@ -32,7 +32,7 @@ from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import findings, is_settled, recalibration, verdict, why_open
+from diagnosis.judge.judge import evident, findings, is_settled, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.opposing import opposed
 from diagnosis.judge.recordings import used
@@ -199,6 +199,7 @@ def diagnose(
     estimated = with_instants(model.parameters, titles)
     estimated |= with_instants(() if judge is None else judge.parameters, [r.title for r in held_out])
     right = with_input_rows(right, scenario, both, estimated)
+    found = evident(found, right, outcome.margin)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from diagnosis.judge.agreement import Agreement, agreement
+from diagnosis.judge.agreement import Agreement, agreement, times_white
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
 from diagnosis.judge.of_a_day import hidden_fault
@@ -28,7 +28,8 @@ RIVALS, BEHIND = 5, 30.0
 #: Root mean square by which predictions with and without a law differ, in deviations of the noise, below which the
 #: readings do not show it.
 SHOWN = 0.02
-
+#: Share of the largest gain of any channel from which a term shows in a channel.
+SHOWS = 0.1
 
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
@@ -147,6 +148,8 @@ def accept(
     if headline.terms and can_compare:
         on_progress("comparing explanations on readings that they were not fitted to")
         headline, rivals = _most_probable(judge, outcome)
+    plain = agreement(training.predict(outcome.base.point, is_fitted=False).residuals, training.readings)
+    alike = {} if plain.is_rejected else plain.alike
     reasons: dict[Term, tuple[str, ...]] = {}
     gains: dict[Term, Gain] = {}
     others: dict[Term, Fit] = {}
@@ -156,6 +159,9 @@ def accept(
         on_progress(f"judging {what} by readings that were not fitted")
         others = {t: _others(judge.model, outcome, current, t) for t in current.terms}
         judged = {t: _judged(judge, current, t, others[t], is_local(t)) for t in current.terms}
+        for t in (t for t in current.terms if is_local(t)):  # readings beside those that were fitted have their noise
+            if why := _of_noise(model, outcome.margin, current, others[t], alike):
+                judged[t] = judged[t][0], (*judged[t][1], why)
         gains |= {t: found for t, (found, _) in judged.items()}
         failing = [t for t, (_, why) in judged.items() if why]
         if not failing:
@@ -294,6 +300,28 @@ def _judged(
     if hidden:
         reasons.append(hidden)
     return found, tuple(reasons)
+
+
+def _of_noise(model: Model, margin: float, current: Explanation, without: Fit, alike: Mapping[str, float]) -> str:
+    """Why what is judged by its own recording may be noise; empty where it is not.
+
+    Args:
+        model: Of the training recordings.
+        margin: What a term must gain.
+        current: Explanation with the term.
+        without: The fit without it.
+        alike: Correlations of neighbouring readings, where the training readings do not reject the recalibrated model.
+    """
+    fall = loss(without.residuals) - loss(current.fit.residuals)
+    own = np.bincount(np.asarray(model.layout.channel, dtype=int), fall, minlength=len(model.layout.names))
+    names = [n for n, amount in zip(model.layout.names, own) if amount > SHOWS * own.max()]
+    times = times_white(alike, names)
+    if times <= 1.0 or float(own.sum()) > margin * times:
+        return ""
+    return (
+        "the training readings do not reject the model without it, and noise that is alike from one reading to the "
+        "next, as it may be here, gains as much"
+    )
 
 
 def _worse(channels: Sequence[str]) -> str:

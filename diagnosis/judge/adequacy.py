@@ -74,6 +74,7 @@ def adequacy(
         met=met(accepted.after, readings),
         needs_parameter_error=now.needs_parameter_error,
         noises_stated=(sum(c.is_deviation_given for c in readings.channels), len(readings.channels)),
+        alike=accepted.training.alike,
     )
 
 

@@ -9,7 +9,7 @@ an autoregressive process of first order: M. S. Bartlett, J. Royal Statistical S
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -146,12 +146,36 @@ class Agreement:
         return max(self.channels, key=lambda c: c.statistic / c.limit, default=None)
 
     @property
+    def alike(self) -> dict[str, float]:
+        """Correlation of the stated noise of neighbouring readings by channel, called as in the layout of a search."""
+        is_one = len({c.recording for c in self.channels}) == 1
+        named = {c.channel if is_one else f"{c.channel} ({c.recording})": c.correlation for c in self.channels}
+        return {name: correlation for name, correlation in named.items() if correlation > 0.0}
+
+    @property
     def excess(self) -> float:
         """Sum of squares beyond what noise gives, at least 0.
 
         Of what is printed as root mean square: a zero that is off counts, so that shares agree with the rows of fits.
         """
         return max(sum(c.samples * (c.multiple**2 - 1.0) for c in self.channels), 0.0)
+
+
+def times_white(alike: Mapping[str, float], channels: Sequence[str]) -> float:
+    """By how much the variance of a mean of many readings is larger than if their noise were white, at least.
+
+    Of an autoregressive noise of first order with a correlation c it is (1 + c)/(1 - c) (Bartlett 1935), and by so much
+    a search that counts every reading as one of its own overrates a gain.
+
+    Args:
+        alike: Channel to the correlation of neighbouring readings, see `Agreement.alike`.
+        channels: The least correlated of these counts.
+
+    >>> times_white({"a": 0.5, "b": 0.8}, ["a", "b"]), times_white({"a": 0.5}, ["a", "b"])
+    (3.0, 1.0)
+    """
+    least = min((alike.get(name, 0.0) for name in channels), default=0.0)
+    return (1.0 + least) / (1.0 - least)
 
 
 def _scatter(own: Array) -> float:

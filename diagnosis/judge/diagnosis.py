@@ -443,6 +443,8 @@ class Adequacy:
             parameters does not.
         noises_stated: How many channels state their noise, of how many: each channel of each recording of the basis.
         by_day: Chi-square per reading that estimating the day's own numbers takes from the scenario as it is.
+        alike: Channel of the training to the correlation of neighbouring readings, where these differ by less than the
+            stated noise says: behind a filter noise does so, and a missing effect smaller than that noise too.
     """
 
     basis: str
@@ -466,6 +468,7 @@ class Adequacy:
     needs_parameter_error: bool = False
     noises_stated: tuple[int, int] = (0, 0)
     by_day: float = 0.0
+    alike: dict[str, float] = field(default_factory=dict)
 
     @property
     def needs_day(self) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
 from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
-from diagnosis.report.display import clean, moved, number, user_unit
+from diagnosis.report.display import clean, listed, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
 
 #: Faults seen by the check that are listed in one sentence.
@@ -101,6 +101,11 @@ def notes(
     if adequacy.day:
         told.append(
             f"That takes for granted: {day_of(adequacy, units)}. The rows of fits of each channel are without it."
+        )
+    if adequacy.alike and verdict in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
+        told.append(
+            f"Neighbouring readings of {listed(list(adequacy.alike), TOLD)} differ by less than their stated noise "
+            "says. Noise behind a filter does so; a missing effect smaller than that noise would not be seen."
         )
     if adequacy.wild:
         one = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import OF_INPUTS
 from diagnosis.judge.acceptance import Accepted
+from diagnosis.judge.agreement import times_white
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
     MOVED,
@@ -67,6 +69,8 @@ STRAINED = 4.0
 AT_BOUND = 0.99
 #: Parameters that are named in one sentence.
 NAMED = 6
+#: Why nothing is concluded from what is suggested.
+_UNCONFIRMED = "what the training recordings suggest is not confirmed by readings that it was not fitted to"
 #: Why a law has no name beside one that has none.
 _BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
 #: Factor on an interval from which it is said that a number depends on a law that is not identified.
@@ -168,13 +172,14 @@ def why_open(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
         )
     if any(not f.is_accepted for f in found):
-        reasons.append("what the training recordings suggest is not confirmed by readings that it was not fitted to")
+        reasons.append(_UNCONFIRMED)
     unexplained = ", and no law that was tried explains what is left"
     if not searched.has_physics or any(not f.is_accepted for f in found):  # a suggested law may explain it
         unexplained = ""
     reasons += _rejections(adequacy, unexplained)
     is_open = adequacy.is_rejected or adequacy.is_training_rejected
-    if not is_open and abs(outcome.base_structure.z) > EVIDENT * outcome.base_structure.limit:
+    left = outcome.base_structure
+    if not is_open and abs(left.z) / math.sqrt(times_white(adequacy.alike, (left.channels,))) > EVIDENT * left.limit:
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
@@ -182,6 +187,27 @@ def why_open(
     if len(strained):
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
     return tuple(reasons)
+
+
+def evident(found: Sequence[Finding], adequacy: Adequacy, margin: float) -> tuple[Finding, ...]:
+    """Findings without suggestions that noise gives which is alike from reading to reading.
+
+    The search counts every reading as one of its own. Where no readings reject the model, and those of a suggestion's
+    channels differ from their neighbours by less than the stated noise says, its gain counts for less.
+
+    Args:
+        found: Accepted and suggested.
+        adequacy: How right the accepted model is.
+        margin: What an effect must gain.
+    """
+    if adequacy.is_rejected or adequacy.is_training_rejected:
+        return tuple(found)
+
+    def is_noise(finding: Finding) -> bool:
+        times = times_white(adequacy.alike, finding.channels)
+        return not finding.is_accepted and times > 1.0 and finding.gain <= margin * times
+
+    return tuple(f for f in found if not is_noise(f))
 
 
 def _strained(names: Sequence[str], count: int) -> str:

@@ -50,7 +50,7 @@ START = Doubt(
 #: A search in which nothing was moved far and no structure was seen, of a model that offers places for laws.
 QUIET: Any = SimpleNamespace(
     base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)),
-    base_structure=SimpleNamespace(z=0.0, limit=4.0),
+    base_structure=SimpleNamespace(z=0.0, limit=4.0, channels=""),
 )
 SEARCHED: Any = SimpleNamespace(has_physics=True, untried=())
 
