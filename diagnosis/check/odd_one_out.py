@@ -1,7 +1,8 @@
 """One recording that the scenario misses while it meets the others: what is wrong is of that recording alone.
 
-A wrong number or a law that is missing acts in all recordings. Where the scenario as it is explains nearly all of the
-others and not this one, its input, its start or its day is another one. Which of them, the readings need not show.
+A wrong number or a law that is missing acts in all recordings, if all of them reach where it acts. Where the scenario
+as it is explains nearly all of the others and not this one, its input, its start or its day is another one. Which of
+them, the readings need not show.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
         if worst.scaled >= HALF:
             text += f", of {worst.name} at most {percent(1.0 - worst.scaled)} however it is scaled and shifted"
         remedy = (
-            "a wrong number or a missing law would show in all of them: look at this recording's input, start and day"
+            "a wrong number shows in all of them, and so does a missing law unless only this one reaches where it "
+            "acts: look at this recording's input, start and day first"
         )
         z = float(np.sqrt(own / max(*others, 1e-12)))
         found.append(

@@ -186,7 +186,13 @@ def why_open(
     strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED).tolist()
     if len(strained):
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
-    return tuple(reasons)
+    # Where something is open, one recording that stands out from all others is the first thing to look at.
+    return (*(_apart(d) for d in doubts if d.kind == "odd one out" and reasons), *reasons)
+
+
+def _apart(doubt: Doubt) -> str:
+    """That one recording stands out from the others, and what to look at."""
+    return f"{doubt.recording} stands out: {doubt.statement}; {doubt.remedy}"
 
 
 def evident(found: Sequence[Finding], adequacy: Adequacy, margin: float) -> tuple[Finding, ...]:

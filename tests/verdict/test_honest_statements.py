@@ -27,7 +27,7 @@ from diagnosis.judge.judge import (
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides
-from diagnosis.search.problem import Own, Parameter, Term, TermParameter
+from diagnosis.search.problem import Own, Parameter, Point, Term, TermParameter
 from diagnosis.search.shares import own_label, titled
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT, DOUBT, LAG, diagnosis
 from tests.search.line_model import BEND, TIME, WAVE
@@ -150,6 +150,21 @@ def test_a_far_start_is_the_reason_that_is_told() -> None:
     assert why_open(outcome, [], ADEQUACY, searched, [START]) == (
         "monday does not begin as it says; coil[1].temperature: begins at 35 degC, where 21 degC is simulated",
     )
+
+
+def test_a_recording_that_stands_out_comes_first_where_something_is_open_and_opens_nothing_itself() -> None:
+    searched: Any = SimpleNamespace(has_physics=True, untried=())
+    outcome: Any = SimpleNamespace(
+        base_structure=SimpleNamespace(z=0.0, limit=4.0, channels=""),
+        base=SimpleNamespace(point=Point(np.zeros(0)), widths=np.ones(0)),
+    )
+    told = "explains 99 % of the others' and 0 % of this one's"
+    odd = Doubt("monday", "all channels", "odd one out", told, "look", False, 0.0, 9.0, 5.0)
+    quiet = replace(ADEQUACY, is_rejected=False, is_training_rejected=False, is_recalibration_worse=False)
+    first, second = why_open(outcome, [], replace(quiet, is_rejected=True), searched, [odd])
+    assert first == "monday stands out: explains 99 % of the others' and 0 % of this one's; look"
+    assert second.startswith("the readings reject the model")
+    assert why_open(outcome, [], quiet, searched, [odd]) == ()
 
 
 def test_numbers_of_a_day_carry_the_title_of_their_recording() -> None:
