@@ -85,7 +85,9 @@ def grow(
             best = min(tried.values(), key=lambda f: f.cost)
             for candidate in _unnamed_equations(left_out, best, model):
                 tried[frozenset((*explanation.terms, candidate.term))] = fitted_with(model, explanation.fit, candidate)
-        if not explanation.terms and tried and settings.trials:
+        faulty = _with_faults(model, explanation, faults.ranked, margin)
+        is_met = any(structure(e.fit.residuals, model.layout).is_noise for e in faulty.values())
+        if not explanation.terms and tried and settings.trials and not is_met:
             others = _tried_all_the_same(model, explanation.fit, hopeful, tried, settings.trials)
             tried |= others
             laws |= set(others)
@@ -93,7 +95,7 @@ def grow(
             (there,) = min(tried, key=lambda k: tried[k].cost) - set(explanation.terms)
             laws |= {k for k in tried for t in k - set(explanation.terms) if t.is_named and t.place == there.place}
         grown |= _continued(model, explanation.fit.cost, tried, laws)
-        grown |= _with_faults(model, explanation, faults.ranked, margin)
+        grown |= faulty
     return list(grown.values()), scorings[0]
 
 
