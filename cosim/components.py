@@ -266,6 +266,10 @@ class Solver(Strict):
     penetration_limit: Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)] = PhysicalValue(2.0, "mm")
 
 
+#: MuJoCo's stops and contacts need a shorter step: at 0.5 ms some starts tear (docs/engines.md).
+MUJOCO_STEP = PhysicalValue(0.25, "ms")
+
+
 class FabricComponent(Strict):
     """Interlocked links as rigid bodies, in Bullet unless another engine is named."""
 
@@ -284,11 +288,11 @@ class FabricComponent(Strict):
     @model_validator(mode="before")
     @classmethod
     def _micro_step_of_the_engine(cls, given: Any) -> Any:
-        """MuJoCo's stops and contacts need a shorter step: at 0.5 ms some starts tear (docs/engines.md)."""
+        """`MUJOCO_STEP` where no other step is given."""
         if isinstance(given, dict) and given.get("engine") == "mujoco":
             solver = given.get("solver", {})
             if isinstance(solver, dict):
-                given = {**given, "solver": {"micro_step": "0.25 ms", **solver}}
+                given = {**given, "solver": {"micro_step": str(MUJOCO_STEP), **solver}}
         return given
 
 

@@ -220,7 +220,7 @@ def noise_of(adequacy: Adequacy) -> str:
 def _noise(adequacy: Adequacy, is_fitted: bool = True) -> str:
     """What the readings agree within; of a model as it is no number was fitted."""
     noise = noise_of(adequacy)
-    noise += " and the scatter of the contacts" if adequacy.has_scatter else ""
+    noise += " and what simulations of an equal fabric differ by" if adequacy.has_scatter else ""
     return f"{noise} and the error of the fitted parameters" if is_fitted and adequacy.needs_parameter_error else noise
 
 

@@ -340,4 +340,4 @@ def test_a_fabric_whose_finding_the_held_out_recording_rejects(tmp_path: Path) -
     keeps_what_it_says(told)
     assert not told.accepted
     whole = " ".join([told.statement, *told.notes])
-    assert "scatter of the contacts" in whole or "reject" in whole
+    assert "simulations of an equal fabric differ by" in whole or "reject" in whole

@@ -115,7 +115,7 @@ def test_of_readings_that_reject_nothing_no_share_is_explained() -> None:
 def test_scatter_of_contacts_is_no_noise_of_sensors() -> None:
     fabric = replace(ADEQUACY, has_scatter=True, is_rejected=False, is_nominal_rejected=False, day=())
     told = headline(Verdict.CONSISTENT, [], fabric)
-    assert told.endswith("within the stated noise of the sensors and the scatter of the contacts.")
+    assert told.endswith("within the stated noise of the sensors and what simulations of an equal fabric differ by.")
 
 
 def test_each_gain_is_told_with_the_readings_that_judged_it() -> None:

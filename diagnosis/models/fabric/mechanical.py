@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.fabric.scatter import Bins, Whitening, calibrated_scatter
+from diagnosis.models.fabric.scatter import Bins, Whitening, calibrated_scatter, engine_covariance
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Layout, Parameter, Point, Term
 
@@ -38,6 +38,7 @@ class MechanicalModel:
         members: Ensemble about the anchor, shape (members, bins): its scatter counts as noise.
         names: Names of the channels.
         camera: What is seen of the bins; None: they are read as they are.
+        difference: What the mean of another engine differs by, shape (bins,); None: none was asked.
     """
 
     def __init__(
@@ -49,8 +50,9 @@ class MechanicalModel:
         members: Array,
         names: Sequence[str],
         camera: View | None = None,
+        difference: Array | None = None,
     ) -> None:
-        self.camera = camera
+        self.camera, self.difference = camera, difference
         self.parameters, self.surface, self.measured, self.bins, self.members = (
             parameters,
             surface,
@@ -59,6 +61,8 @@ class MechanicalModel:
             members,
         )
         self.scatter = calibrated_scatter(members, bins)
+        if difference is not None:
+            self.scatter = self.scatter + engine_covariance(difference, bins)
         self._whiten = Whitening(self.scatter, bins.noise)
         self.layout = Layout(bins.channel, bins.time, tuple(names), ("mechanical",) * len(names))
 
@@ -99,10 +103,15 @@ class MechanicalModel:
     def without_member(self, number: int, seed: int) -> MechanicalModel:
         """A null: one member of the ensemble as the recording, with sensors' noise, the others as the ensemble."""
         others = np.delete(self.members, number, axis=0)
-        noise = self.bins.noise * np.random.default_rng([seed, number]).standard_normal(len(self.measured))
         surface = self.surface.with_mean(others.mean(axis=0), self.surface.anchor)
-        measured = self.members[number] + noise
-        return MechanicalModel(self.parameters, surface, measured, self.bins, others, self.layout.names, self.camera)
+        measured = self.members[number] + self._noise(seed, number)
+        return MechanicalModel(
+            self.parameters, surface, measured, self.bins, others, self.layout.names, self.camera, self.difference
+        )
+
+    def _noise(self, *seed: int) -> Array:
+        """What sensors may add to the bins of a null."""
+        return np.asarray(self.bins.noise * np.random.default_rng(seed).standard_normal(len(self.measured)))
 
     def of_run(self, runs: Array, number: int, seed: int) -> MechanicalModel:
         """A null: one of several runs of one point as the recording, with sensors' noise, about the mean of the others.
@@ -112,10 +121,21 @@ class MechanicalModel:
             number: Of the run that is the recording.
             seed: Of the noise.
         """
-        noise = self.bins.noise * np.random.default_rng([seed, number]).standard_normal(len(self.measured))
         surface = self.surface.with_mean(np.delete(runs, number, axis=0).mean(axis=0), self.surface.anchor)
         null = copy.copy(self)
-        null.surface, null.measured = surface, runs[number] + noise
+        null.surface, null.measured = surface, runs[number] + self._noise(seed, number)
+        return null
+
+    def of_other_engine(self, run: Array, number: int, seed: int) -> MechanicalModel:
+        """A null: a run of the same fabric in another engine as the recording, with sensors' noise.
+
+        Args:
+            run: Shape (bins,).
+            number: Of the run, for the noise.
+            seed: Of the noise.
+        """
+        null = copy.copy(self)
+        null.measured = run + self._noise(seed, number, 1)
         return null
 
     def scatter_deviation(self) -> Array:

@@ -23,7 +23,15 @@ from diagnosis.models.fabric.bins import Binning
 from diagnosis.models.fabric.camera import Camera, CameraLaw
 from diagnosis.models.fabric.laws import LinkPlace, fabric_laws, link_laws, link_places
 from diagnosis.models.fabric.mechanical import MechanicalModel
-from diagnosis.models.fabric.runs import BulletRuns, ClosedRuns, FabricRuns, divided, fabric_layout, fabric_of
+from diagnosis.models.fabric.runs import (
+    BulletRuns,
+    ClosedRuns,
+    FabricRuns,
+    divided,
+    fabric_layout,
+    fabric_of,
+    in_other_engine,
+)
 from diagnosis.models.fabric.search import search_fabric
 from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
@@ -82,6 +90,9 @@ class FabricModel(ModelBase):
                 )
         self.network = _network(scenario, [p[0] for p in parts], catalogue, timeline)
         self.fabric_runs = self._simulations(scenario)
+        self._scenario = scenario
+        #: Why no other engine was asked; empty where one was, or was not asked yet.
+        self._is_alone = ""
         self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
         self._numbers = Numbers(scenario)
         self._laws: dict[Term, UnitLaw] = {u.place.term: u for u in fabric_laws(name)}
@@ -291,10 +302,32 @@ class FabricModel(ModelBase):
         Args:
             wanted: Point and number of its random start.
         """
+        return self._bins_by(self.fabric_runs, wanted)
+
+    def simulated_elsewhere(self, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
+        """The same by the other engine; empty where it is not installed or cannot simulate such a fabric."""
+        try:
+            runs = self._simulations(in_other_engine(self._scenario, self.component))
+        except InputError as error:
+            self._is_alone = str(error)
+            return []
+        found = self._bins_by(runs, wanted)
+        if not any(f is not None for f in found):
+            self._is_alone = (runs.reasons or ["it stops"])[0]
+        return found
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """What was not tried, and why: the error of the engine that simulates."""
+        if not self._is_alone:
+            return ()
+        return (f"what two engines differ by is not known and not counted as uncertainty: {self._is_alone}",)
+
+    def _bins_by(self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
         count = len(self.mechanical_recordings)
         points: dict[int, Point] = {id(p): self.network_point(p) for p, _ in wanted}
         tasks = [(n, self.fabric_parameters(p, n, s), points[id(p)]) for p, s in wanted for n in range(count)]
-        values = self.fabric_runs.make(tasks)
+        values = runs.make(tasks)
         found: list[Array | None] = []
         for first in range(0, len(values), count):
             whole = [v for v in values[first : first + count] if v is not None]

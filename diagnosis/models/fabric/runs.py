@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from cosim.assemble import assemble
-from cosim.components import CircuitComponent, FabricComponent, nanoseconds
+from cosim.components import MUJOCO_STEP, CircuitComponent, FabricComponent, Solver, nanoseconds
 from cosim.compute.batch import Batches
 from cosim.compute.result import Task
 from cosim.run_folder import resolved_scenario
@@ -52,6 +52,28 @@ def fabric_layout(scenario: Scenario, component: str) -> Layout:
     unit = assembly.system.units[component]
     assert isinstance(unit, FabricUnit)
     return layout(unit.design)
+
+
+def in_other_engine(scenario: Scenario, component: str) -> Scenario:
+    """The scenario with its fabric in the other engine, at that engine's own settings.
+
+    Args:
+        scenario: The scenario.
+        component: Name of the fabric.
+
+    Raises:
+        InputError: The other engine is not installed, or cannot simulate such a fabric.
+    """
+    given = scenario.components[component]
+    assert isinstance(given, FabricComponent)
+    own, other = given.solver, "bullet" if given.engine == "mujoco" else "mujoco"
+    solver = Solver(iterations=own.iterations, penetration_limit=own.penetration_limit, friction_anchors=True)
+    if other == "mujoco":
+        solver = Solver(micro_step=MUJOCO_STEP, iterations=own.iterations, penetration_limit=own.penetration_limit)
+    fabric = given.model_copy(update={"engine": other, "solver": solver})
+    found = scenario.model_copy(update={"components": {**scenario.components, component: fabric}})
+    assemble(found).system.terminate()
+    return found
 
 
 def divided(recording: Recording, component: str) -> tuple[Recording, Recording]:

@@ -1,4 +1,8 @@
-"""Contact scatter: how far equal fabrics differ that start a hair apart, as a covariance. It is never physics."""
+"""How far simulations of equal fabrics differ, as a covariance: from starts a hair apart, and by two engines.
+
+Neither is ever physics. Contacts scatter; and two engines that solve the same equations in other ways (hard contacts,
+soft ones) part by more than that, which is the error of solving them.
+"""
 
 from __future__ import annotations
 
@@ -64,14 +68,34 @@ def scatter_covariance(members: Array, bins: Bins) -> Array:
     if count < FEWEST:
         raise ValueError(f"{count} members are too few to tell scatter; make at least {FEWEST}")
     apart = members - members.mean(axis=0)
-    shown = apart.T @ apart / (count - 1)
+    inflation = (1.0 + 1.0 / count) * (count - 1) / (count - 3)
+    return inflation * _shrunk(apart.T @ apart / (count - 1), bins)
+
+
+def engine_covariance(difference: Array, bins: Bins) -> Array:
+    """Covariance of what a solution of the equations is off by, from what two engines differ by.
+
+    One difference tells a size and a direction, and no more: half of the covariance is along it, half remembers as much
+    for a while within a channel.
+
+    Args:
+        difference: Mean of the one less mean of the other, shape (bins,).
+        bins: What each bin is.
+
+    Returns:
+        Shape (bins, bins).
+    """
+    return _shrunk(np.outer(difference, difference), bins)
+
+
+def _shrunk(shown: Array, bins: Bins) -> Array:
+    """Half of what is shown, and half of a model that remembers the same variances for a while within a channel."""
     deviation = np.sqrt(_pooled(np.diag(shown), bins) + (1e-4 * bins.scale) ** 2)
     memory = MEMORY * max(float(np.ptp(bins.time)), 1e-9)
     lag = np.abs(bins.time[:, None] - bins.time[None, :]) / memory
     is_same = (bins.channel[:, None] == bins.channel[None, :]) & (bins.recording[:, None] == bins.recording[None, :])
     model = np.where(is_same, np.outer(deviation, deviation) * np.exp(-lag), 0.0)
-    inflation = (1.0 + 1.0 / count) * (count - 1) / (count - 3)
-    return np.asarray(inflation * (SHOWN * shown + (1.0 - SHOWN) * model))
+    return np.asarray(SHOWN * shown + (1.0 - SHOWN) * model)
 
 
 def _pooled(variance: Array, bins: Bins) -> Array:

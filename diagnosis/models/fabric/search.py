@@ -36,6 +36,7 @@ class Effort:
         repeats: Starts of every effect.
         confirmed: Starts at the point found.
         hopeful: Effects that are simulated again where they were fitted.
+        others: Starts of the nominal point in the other engine.
         has_links: Whether effects of single links are simulated at once; else those of the links of a row whose own
             effect is hopeful.
     """
@@ -44,12 +45,17 @@ class Effort:
     repeats: int
     confirmed: int
     hopeful: int = HOPEFUL
+    others: int = 4
     has_links: bool = False
 
 
 #: Greatest effort of a simulation of all recordings (`FabricModel.effort`), with what such a fabric is worth. An effort
 #: of 10,000 takes about a second of one core. It stands for the time, so that a result does not depend on the machine.
-EFFORTS = ((45e3, Effort(8, 3, 6, has_links=True)), (110e3, Effort(6, 2, 5)), (float("inf"), Effort(6, 1, 4)))
+EFFORTS = (
+    (45e3, Effort(8, 3, 6, has_links=True)),
+    (110e3, Effort(6, 2, 5, others=3)),
+    (float("inf"), Effort(6, 1, 4, others=2)),
+)
 #: Prior deviations over which the answer to a parameter is simulated. One deviation moves places less than contacts
 #: scatter: slopes were scatter then, and a fit could follow them. The answer is straight enough over a few per cent.
 STEP = 4.0
@@ -117,13 +123,15 @@ class _Plan:
         self._count = len(model.mechanical_recordings)
         self._network_point = Point(np.zeros(model.first_own))
         self._size, self._repeats, self._confirmed = effort.ensemble, effort.repeats, effort.confirmed
-        self._hopeful = effort.hopeful
+        self._hopeful, self._asked_elsewhere = effort.hopeful, effort.others
         self._first = [t for t in model.laws() if effort.has_links or self._is_wide(t)]
         self._sharpened = self._confirmed if self._repeats > 1 else 1
         effects = self._repeats * len(model.free) + sum(
             self._starts(t) * len(t.parameters[0].starts) for t in self._first
         )
-        self._left = self._count * (self._size + effects + self._hopeful * self._sharpened + self._confirmed)
+        self._left = self._count * (
+            self._size + effort.others + effects + self._hopeful * self._sharpened + self._confirmed
+        )
 
     def _starts(self, term: Term) -> int:
         """From how many starts an effect is simulated at first; there are many of single links and rows."""
@@ -172,6 +180,16 @@ class _Plan:
         #: Runs about the means of their points.
         self._apart = self._members - self._members.mean(axis=0)
         self.surface = Surface(self._members.mean(axis=0), np.zeros(len(model.free)))
+        self._ask_elsewhere(here)
+
+    def _ask_elsewhere(self, here: Point) -> None:
+        """The same fabric in the other engine: what the two differ by is an error of solving, and no physics."""
+        self._enter("the same fabric in another engine", self._asked_elsewhere)
+        runs = self.model.simulated_elsewhere([(here, s + 1) for s in range(self._asked_elsewhere)])
+        found = [m for m in runs if m is not None]
+        #: Runs of the other engine, and what their mean differs by; None where there are none.
+        self._elsewhere: list[Array] = found
+        self._difference = np.mean(found, axis=0) - self._members.mean(axis=0) if found else None
 
     def _farthest_member(self) -> float:
         """Mean square of the member that is farthest from the mean of the others, whitened by the scatter of both."""
@@ -265,15 +283,29 @@ class _Plan:
         binning, parameters = model.binning, [f.parameter for f in model.free]
         model.prepare(
             MechanicalModel(
-                parameters, self.surface, binning.measured(), binning.bins, members, binning.names, model.camera
+                parameters,
+                self.surface,
+                binning.measured(),
+                binning.bins,
+                members,
+                binning.names,
+                model.camera,
+                self._difference,
             )
         )
 
     def margin(self) -> float:
-        """Largest gain that the search finds in any member of the ensemble, which lacks nothing."""
+        """Largest gain that the search finds in any fabric that lacks nothing: a member of the ensemble, a run of the
+        other engine."""
         self._tell("the same search on nulls")
-        count = len(self._members) if len(self._members) > FEWEST else 0
-        return self._margin_of([self.model.prepared.without_member(n, self.settings.seed) for n in range(count)])
+        count, seed, whole = (
+            len(self._members) if len(self._members) > FEWEST else 0,
+            self.settings.seed,
+            self.model.prepared,
+        )
+        nulls = [whole.without_member(n, seed) for n in range(count)]
+        nulls += [whole.of_other_engine(run, n, seed) for n, run in enumerate(self._elsewhere)]
+        return self._margin_of(nulls)
 
     def margin_beside(self) -> float:
         """The same of fabrics that lack what was found and nothing else: the runs from which it was confirmed."""
