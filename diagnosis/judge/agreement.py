@@ -2,8 +2,7 @@
 
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
 Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
-Degrees of freedom of a sum of squares that are not independent: F. E. Satterthwaite, Biometrics 2 (1946) 110-114; of
-an autoregressive process of first order: M. S. Bartlett, J. Royal Statistical Society 98 (1935) 536-543.
+Noise that is alike from reading to reading: M. S. Bartlett, J. Royal Statistical Society 98 (1935) 536-543.
 """
 
 from __future__ import annotations
@@ -16,10 +15,10 @@ import numpy as np
 from scipy.special import chdtr, chdtri
 
 from cosim.unit.protocol import Array
+from diagnosis.judge.independent import independent
 from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings, set_aside
 from diagnosis.models.coil_network.runs import ZERO, deviation
-from diagnosis.models.fabric.scatter import MEMORY
 
 #: Probability that noise alone is taken for a departure of the model.
 LEVEL = 0.001
@@ -218,28 +217,6 @@ def _correlation(scatter: float, count: int, share: float) -> float:
     return 0.0 if ratio >= 1.0 - WHITE * math.sqrt(3.0 / max(count, 1)) else min(1.0 - ratio, MOST_ALIKE)
 
 
-def _independent(recordings: Sequence[Sequence[tuple[int, float, float]]]) -> float:
-    """How many independent squares have the mean of all, and its variance.
-
-    White noise is independent; of noise with a correlation c from one reading to the next, n squares count as
-    n (1 - c^2)/(1 + c^2). What contacts scatter by is remembered for `MEMORY` of a recording, and moves all of its
-    channels: that they do so together is the worst case.
-
-    Args:
-        recordings: Of each, samples, the share of their variance that is such scatter, and the correlation of
-            neighbouring readings of the rest, by channel.
-    """
-    rate = 2.0 / MEMORY
-    # mean of exp(-2 |s - t| / memory) over all pairs of instants of a recording
-    remembered = 2.0 / rate - 2.0 / rate**2 * (1.0 - math.exp(-rate))
-    samples = sum(count for own in recordings for count, _, _ in own)
-    alike = [(count, share, (1.0 + c**2) / (1.0 - c**2)) for own in recordings for count, share, c in own]
-    white = sum(min(count * factor, count**2) * (1.0 - share**2) for count, share, factor in alike)
-    shared = sum(sum(count * share for count, share, _ in own) ** 2 for own in recordings)
-    squared = sum(count * share**2 for own in recordings for count, share, _ in own)  # each with itself
-    return samples**2 / (white + max(remembered * shared, squared))
-
-
 def agreement(residuals: Array, readings: Readings, tested: Tested | None = None) -> Agreement:
     """Compare residuals with the noise.
 
@@ -265,7 +242,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         noise, scatter = deviation(channel), _scatter(own)
         share = (channel.scatter / noise) ** 2 if noise > 0.0 else 0.0
         shares[n] = share, _correlation(scatter, count, share) if channel.is_deviation_given else 0.0
-        free = _independent([[(count, *shares[n])]])
+        free = independent([[(count, *shares[n])]])
         limit = float(chdtri(free, LEVEL / len(numbers))) / free * (1.0 + 2.0 * QUANTILE * own_error)
         found.append(
             ChannelAgreement(
@@ -291,7 +268,7 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         return Agreement(0.0, 1.0, 0, int(wild.sum()), ())
     own_shares = [(readings.of_channel[n], (c.samples, *shares[n])) for n, c in zip(numbers, found)]
     recordings = [[own for of, own in own_shares if of == r] for r in dict.fromkeys(of for of, _ in own_shares)]
-    free = _independent(recordings)
+    free = independent(recordings)
     limit = float(chdtri(free, LEVEL)) / free + 2.0 * QUANTILE * float(np.sqrt(error)) / samples
     return Agreement(
         squares / samples,

@@ -93,6 +93,7 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
 
     With residuals r0, r1 that differ by delta, the sum of loss(r0) - loss(r1) is about sum(delta^2) + 2 sum(delta r1).
     If the second model is right, the last sum has expectation 0, and its variance is taken from sums over blocks.
+    A reading counts by its weight: of contacts that stay where they are, many readings tell what a few do.
     What the second model misses by single readings is evidence for neither: one that was taken while an input switched
     is missed by more or less according to the size of the switch, which any law of that input changes.
 
@@ -103,13 +104,13 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     """
     kept = ~stands_alone(with_it.residuals, readings)
     first, second = np.where(kept, without.residuals, 0.0), np.where(kept, with_it.residuals, 0.0)
-    found = _summed(first, second, readings.block)
+    found = _summed(first, second, readings.block, readings.weight)
     total = found[0] + without.prior - with_it.prior
     delta = (without.residuals - with_it.residuals) ** 2
     count = np.maximum(np.bincount(readings.channel, minlength=len(readings.channels)), 1)
     shown = float(np.sqrt(np.max(np.bincount(readings.channel, delta, len(readings.channels)) / count, initial=0.0)))
-    reverse = _summed(second, first, readings.block)
-    scatter = _scatter(loss(first) - loss(second), readings)
+    reverse = _summed(second, first, readings.block, readings.weight)
+    scatter = _scatter(readings.weight * (loss(first) - loss(second)), readings)
     worse, rising = worse_channels(without.residuals, with_it.residuals, readings)
     return Gain(total, found[1], found[2], reverse[2], scatter, shown, worse, rising)
 
@@ -171,7 +172,7 @@ def worse_channels(before: Array, after: Array, readings: Readings) -> tuple[tup
         own = readings.channel == number
         if not own.any():
             continue
-        fell, white, error = _summed(after[own], before[own], readings.block[own])
+        fell, white, error = _summed(after[own], before[own], readings.block[own], readings.weight[own])
         is_sure = fell > max(LEAST + 2.0 * np.log(count), ERRORS * max(white, error))
         if _size(after[own]) > WORSE * _size(before[own]):
             name = f"{channel.name} of {readings.titles[readings.of_channel[number]]}"
@@ -183,10 +184,10 @@ def _size(residuals: Array) -> float:
     return float(np.sqrt(np.mean(loss(residuals))))
 
 
-def _summed(first: Array, second: Array, block: Array) -> tuple[float, float, float]:
+def _summed(first: Array, second: Array, block: Array, weight: Array) -> tuple[float, float, float]:
     """Fall of the loss from the first to the second, and its standard error: white, and by blocks."""
     delta = first - second
-    cross = 2.0 * delta * np.clip(second, -HUBER, HUBER)
-    white = 2.0 * float(np.sqrt(np.sum(np.clip(delta, -HUBER, HUBER) ** 2)))
+    cross = 2.0 * weight * delta * np.clip(second, -HUBER, HUBER)
+    white = 2.0 * float(np.sqrt(np.sum(weight * np.clip(delta, -HUBER, HUBER) ** 2)))
     error = float(np.sqrt(np.sum(np.bincount(block, cross) ** 2))) if len(block) else 0.0
-    return float(np.sum(loss(first) - loss(second))), white, max(white, error)
+    return float(np.sum(weight * (loss(first) - loss(second)))), white, max(white, error)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.constancy import Constancy, columns_by_terms, constancy
 from diagnosis.judge.held_out import carried_over
+from diagnosis.judge.independent import independent
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.parameter_error import Freedom, Tested, freedom, tested
 from diagnosis.judge.recording_parameters import recording_parameters
@@ -72,6 +74,18 @@ class Readings:
 
     def __len__(self) -> int:
         return len(self.channel)
+
+    @cached_property
+    def weight(self) -> Array:
+        """For how many independent readings each one counts, at most 1: contacts that stay where they are scatter all
+        readings of a stretch alike."""
+        counts = np.bincount(self.channel, minlength=len(self.channels))
+        found = np.ones(len(self.channels))
+        for number, (channel, count) in enumerate(zip(self.channels, counts.tolist())):
+            if channel.scatter > 0.0 and count:
+                share = (channel.scatter / deviation(channel)) ** 2
+                found[number] = independent([[(count, min(share, 1.0), 0.0)]]) / count
+        return np.asarray(found[self.channel])
 
 
 def readings_of(runs: Sequence[RecordedRun], titles: Sequence[str]) -> Readings:
