@@ -81,8 +81,8 @@ def make(case: Callable[[Path, Rng], Truth], folder: Path, seed: int) -> None:
     (folder / "answer.json").write_text(json.dumps(truth.__dict__, indent=1), encoding="utf-8")
 
 
-def diagnose(folder: Path, limit: float) -> None:
-    """Ask for a diagnosis; a logger's table with decimal commas is converted first, as a user would."""
+def convert(folder: Path, limit: float) -> None:
+    """Write tables with decimal commas anew with points, as a user would."""
     truth, task = json.loads((folder / "answer.json").read_text(encoding="utf-8")), folder / "task"
     for name in (*truth["training"], *truth["held_out"]):
         table = task / name / "data.csv"
@@ -92,6 +92,12 @@ def diagnose(folder: Path, limit: float) -> None:
                 task, ["recording", "new", f"{name}/data.csv", "--scenario", "scenario.yaml", "--out", str(new)], limit
             )
             table.write_text((new / "data.csv").read_text(encoding="utf-8"), encoding="utf-8")
+
+
+def diagnose(folder: Path, limit: float) -> None:
+    """Ask for a diagnosis."""
+    convert(folder, limit)
+    truth, task = json.loads((folder / "answer.json").read_text(encoding="utf-8")), folder / "task"
     asked = ["diagnose", "scenario.yaml", "--brief", "--out", "../diagnosis"]
     for key, names in (("--recording", truth["training"]), ("--held-out", truth["held_out"])):
         for name in names:

@@ -86,6 +86,11 @@ def _coupled(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[
         for (v, v_2), distance in between.items():
             if distance is not None and (v, v_2) in own.apart:
                 yield f"der({v})", q[v], {"v": q[v], "v_2": q[v_2], "d": distance, "w": own.apart[v, v_2]}
+        placed = {frozenset(pair) for pair, distance in between.items() if distance is not None}
+        velocities = [n for n in free if n in own.velocity_of.values() or is_of(q[n], "m/s", "rad/s")]
+        for v, v_2 in _pairs(velocities):  # shafts of which only the speeds are states: what rubs between them
+            if frozenset((v, v_2)) not in placed and (v, v_2) in own.apart:
+                yield f"der({v})", q[v], {"v": q[v], "v_2": q[v_2], "w": own.apart[v, v_2]}
         return
     units, symbol = (("K",), "T") if role is Role.COUPLED_TEMPERATURE else (_LENGTHS, "h")
     alone = [n for n in free if n not in own.velocity_of.values() and is_of(q[n], *units)]
