@@ -18,7 +18,7 @@ from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.display import likelihood
-from diagnosis.search.fit import Fit, fit
+from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term
 from diagnosis.search.search import Explanation, Outcome, shrink
@@ -30,6 +30,8 @@ RIVALS, BEHIND = 5, 30.0
 SHOWN = 0.02
 #: Share of the largest gain of any channel from which a term shows in a channel.
 SHOWS = 0.1
+#: Steps of a fit of a law in the place of another.
+EXCHANGE = 20
 
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
@@ -63,6 +65,8 @@ class Accepted:
         forms: Term to the share of what is left in training that other laws at its place explain, where readings reject
             the model and that was asked.
         opposed: Term to another that it mostly cancels.
+        confused: Accepted term to laws that data often cannot tell from it, with how much more -2 log posterior of
+            training they leave in its place; asked of fabrics, whose rivals are not compared on unfitted readings.
     """
 
     headline: Explanation
@@ -84,6 +88,7 @@ class Accepted:
     without: Mapping[Term, Fit] = field(default_factory=dict)
     forms: Mapping[Term, float] = field(default_factory=dict)
     opposed: Mapping[Term, Term] = field(default_factory=dict)
+    confused: Mapping[Term, tuple[tuple[Term, float], ...]] = field(default_factory=dict)
 
 
 class _Judge:
@@ -206,6 +211,7 @@ def accept(
         {t: judge.basis(is_local(t)) for t in gains},
         strengths,
         {t: others[t] for t in current.terms},
+        confused={t: _confused(model, current, t) for t in current.terms} if model.has_scatter else {},
     )
 
 
@@ -226,6 +232,18 @@ def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Ter
         return Explanation(outcome.base)
     found = Explanation(fit(model, point, widths=explanation.fit.widths))
     return shrink(model, found, outcome.margin)
+
+
+def _confused(model: DiagnosisModel, current: Explanation, term: Term) -> tuple[tuple[Term, float], ...]:
+    """Laws of which a law says that data often cannot tell them from it, each fitted in its place."""
+    names = model.where(term)[0].confused_with
+    others = [t for t in model.terms() if t.identifier in names and t.place == term.place and t not in current.terms]
+    without, found = current.fit.point.without(term), []
+    for other in others:
+        first, *rest = other.parameters
+        starts = [without.plus(other, (size, *(p.starts[0] for p in rest))) for size in first.starts]
+        found.append((other, Explanation(fit_best(model, starts, EXCHANGE, current.fit)).demerit - current.demerit))
+    return tuple(found)
 
 
 def _most_probable(judge: _Judge, outcome: Outcome) -> tuple[Explanation, tuple[tuple[Explanation, float], ...]]:

@@ -52,6 +52,9 @@ from diagnosis.search.shares import departures, titled
 NORMAL_95 = 1.959963984540054
 #: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
 UNSEPARATED = 6.0
+#: The same of laws that are interpolated between few simulations, whose means scatter: what a fabric's search goes on
+#: with (`diagnosis.models.fabric.search`).
+INTERPOLATED = 40.0
 #: Probability beyond which another explanation is open.
 OPEN = 0.05
 #: Structure beyond so many times its limit is more than the small errors that every model of a rig has.
@@ -633,7 +636,8 @@ def _open_rivals(alternatives: Sequence[Alternative], term: Term, accepted: Acce
     best = accepted.headline
     bends = {t.identifier for e, _ in accepted.rivals if bends_into(e, best) for t in e.terms if not t.is_named}
     near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
-    return tuple(dict.fromkeys(a.effect for a in near if a.effect != term.identifier))
+    simulated = [other.identifier for other, behind in accepted.confused.get(term, ()) if behind < INTERPOLATED]
+    return tuple(dict.fromkeys([*(a.effect for a in near if a.effect != term.identifier), *simulated]))
 
 
 def _alternatives(outcome: Outcome, accepted: Accepted, term: Term) -> tuple[list[Alternative], float]:

@@ -1,0 +1,70 @@
+"""An effect of a fabric bears no name alone while one that data often cannot tell from it does as well."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diagnosis.judge.acceptance import _confused
+from diagnosis.judge.judge import INTERPOLATED, _open_rivals
+from diagnosis.models.fabric import search as fabric_search
+from diagnosis.models.fabric.mechanical import MechanicalModel
+from diagnosis.search.search import Explanation, Settings, search
+from tests.fabric_diagnosis.test_scatter_and_search import TERMS, effect, members, model
+
+TILT, PAYLOAD, WIRES, FRICTION = TERMS
+
+
+class Known:
+    """A mechanical model with the laws of its terms: a tilt is often confused with a payload and with friction."""
+
+    def __init__(self, inner: MechanicalModel) -> None:
+        self.inner = inner
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.inner, name)
+
+    def terms(self) -> list[Any]:
+        return TERMS
+
+    def where(self, term: Any) -> tuple[Any, Any]:
+        names = {"payload": "lengths decide", "friction": "speed decides", "base:link_mass": "a weight decides"}
+        return SimpleNamespace(confused_with=names if term == TILT else {}), None
+
+
+def found(likeness: float) -> tuple[Known, Explanation]:
+    """A fabric that leans, where a payload moves markers by the same pattern and by one of its own."""
+    drawn = members(9, 5)
+    own = model(drawn[8] + effect(0, 4e-3), drawn[:8])
+    alike = likeness * effect(0, 1e-3) + np.sqrt(1.0 - likeness**2) * effect(1, 1e-3)
+    own.surface.forget(PAYLOAD)
+    own.surface.add(PAYLOAD, 1.0, own.surface.mean + alike, np.zeros(1))
+    known = Known(own)
+    return known, search(known, TERMS, Settings()).best  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("likeness", "is_open"), [(0.999, True), (0.3, False)])
+def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float, is_open: bool) -> None:
+    known, best = found(likeness)
+    largest = max(best.terms, key=lambda t: best.gains[t])
+    assert largest in (TILT, PAYLOAD)
+    if largest == PAYLOAD:  # as alike as that, either may come first
+        pytest.fail("the effect itself is found here")
+    rivals = dict(_confused(known, best, TILT))  # type: ignore[arg-type]
+    assert set(rivals) == {PAYLOAD, FRICTION}
+    assert (rivals[PAYLOAD] < INTERPOLATED) is is_open
+    assert rivals[FRICTION] > INTERPOLATED
+    accepted: Any = SimpleNamespace(headline=best, rivals=(), confused={TILT: tuple(rivals.items())})
+    assert _open_rivals([], TILT, accepted) == (("payload",) if is_open else ())
+
+
+def test_an_effect_that_names_no_other_has_no_such_rival() -> None:
+    known, best = found(0.3)
+    assert _confused(known, Explanation(best.fit), WIRES) == ()  # type: ignore[arg-type]
+
+
+def test_names_are_as_open_as_the_search_goes_on() -> None:
+    assert INTERPOLATED == fabric_search.BEHIND
