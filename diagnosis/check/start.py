@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +25,8 @@ WRONG_NUMBERS = 0.5
 ELSEWHERE = 3.0
 #: Deviations by which a single reading may be off.
 GROWN = 2.0
+#: Share of what a start is off by, below which the last third of a recording is nearer to the simulation.
+NEARER = 0.75
 #: Deviations that a start is off which is said to be another one, and how many times farther than in other recordings.
 FAR, ODD = 8.0, 4.0
 #: Deviations of a start beyond which it is no start of that day: chance does that in one of 16,000.
@@ -63,9 +65,13 @@ def _others(compared: Compared) -> list[Doubt]:
 
     What stays as far off is no start: an offset of a sensor, or a number of the model.
     """
-    found: list[Doubt] = []
+    return [d for d, _, is_forgotten in _elsewhere(compared) if is_forgotten]
+
+
+def _elsewhere(compared: Compared) -> Iterator[tuple[Doubt, Beside, bool]]:
+    """Doubts about channels that begin elsewhere, and whether most later readings are near the simulation."""
     if compared.recording.beginning:
-        return found
+        return
     every = [b for b in compared.channels.values() if b.channel.unit != "K" and b.simulated is not None]
     every = [
         b
@@ -79,23 +85,20 @@ def _others(compared: Compared) -> list[Doubt]:
     for beside in every:
         off, deviation = _off(beside)
         later = float(np.median(np.abs(beside.measured - beside.simulated_there)))
-        if _grows(beside, off):
+        if _grows(beside, off) or abs(off) <= limit * deviation + beside.channel.bias_bound:
             continue
-        if abs(off) > limit * deviation + beside.channel.bias_bound and abs(off) > ELSEWHERE * later:
-            values, time = first(beside)
-            end = float(beside.channel.times[len(values) - 1])
-            mean = float(np.mean(values))
-            texts = [compared.units.text(v, beside.channel.unit, False) for v in (mean, mean - off)]
-            text = (
-                f"its first {len(values)} readings ({instant(time)} to {instant(end)} s) are {texts[0]} on average, "
-                f"where {texts[1]} is simulated, and later ones are nearer to the simulation"
-            )
-            remedy = "let the scenario start there (`overrides`), or use `begin` from where the start is forgotten"
-            z = abs(off) / deviation
-            found.append(
-                Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
-            )
-    return found
+        values, time = first(beside)
+        end = float(beside.channel.times[len(values) - 1])
+        mean = float(np.mean(values))
+        texts = [compared.units.text(v, beside.channel.unit, False) for v in (mean, mean - off)]
+        text = (
+            f"its first {len(values)} readings ({instant(time)} to {instant(end)} s) are {texts[0]} on average, "
+            f"where {texts[1]} is simulated, and later ones are nearer to the simulation"
+        )
+        remedy = "let the scenario start there (`overrides`), or use `begin` from where the start is forgotten"
+        z = abs(off) / deviation
+        doubt = Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
+        yield doubt, beside, abs(off) > ELSEWHERE * later
 
 
 def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[Doubt]:
@@ -109,10 +112,30 @@ def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[
         every: Recordings beside their simulations.
     """
     known = {d.recording for d in doubts if d.is_serious}
+    told = {(d.recording, d.subject) for d in doubts if d.kind == "start"}
+    slow = []
+    for one in (o for o in every if o.recording.title not in known):
+        for doubt, beside, is_forgotten in _elsewhere(one):
+            is_new = not is_forgotten and (doubt.recording, doubt.subject) not in told
+            if is_new and _is_nearer_at_last(beside) and _is_odd(doubt, every):
+                slow.append(replace(doubt, is_serious=True))
     return [
-        replace(d, is_serious=True) if d.kind == "start" and d.recording not in known and _is_odd(d, every) else d
-        for d in doubts
+        *(
+            replace(d, is_serious=True) if d.kind == "start" and d.recording not in known and _is_odd(d, every) else d
+            for d in doubts
+        ),
+        *slow,
     ]
+
+
+def _is_nearer_at_last(beside: Beside) -> bool:
+    """Whether the last third of the readings is nearer to the simulation than the first ones, by a quarter or more.
+
+    A slow rig has not forgotten its start by then; what an offset of a sensor does is there as at the begin.
+    """
+    off, _ = _off(beside)
+    misfit = beside.measured - beside.simulated_there
+    return bool(np.max(np.abs(misfit[-(len(misfit) // 3) :])) < NEARER * abs(off))
 
 
 def _is_odd(doubt: Doubt, every: Sequence[Compared]) -> bool:

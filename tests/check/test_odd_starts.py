@@ -58,6 +58,33 @@ def test_one_recording_that_begins_elsewhere_is_told(tmp_path: Path) -> None:
     assert told.subject == "tank.level"
 
 
+def _slow(folder: Path, starts: Sequence[float]) -> list[Path]:
+    """A tank that leaks so little that it has not forgotten its start when a recording ends."""
+    found = _recordings(folder, starts, leak=5e-4)
+    scenario = folder / "scenario.yaml"
+    text = scenario.read_text(encoding="utf-8")
+    assert text.count("integrator: cvode") == 1
+    slow = text.replace("integrator: cvode", "integrator: cvode, parameters: {leak: 5e-4 m^2/s}")
+    scenario.write_text(slow, encoding="utf-8")
+    return found
+
+
+def test_a_slow_rig_that_begins_elsewhere_is_told_though_it_never_forgets_that(tmp_path: Path) -> None:
+    (told,) = _starts(tmp_path, _slow(tmp_path, (0.4, 2.4, 0.4)))
+    assert told.is_serious
+    assert (told.recording, told.subject) == ("run_2", "tank.level")
+    assert "later ones are nearer to the simulation" in told.statement
+
+
+def test_an_offset_of_a_slow_rigs_sensor_is_no_start(tmp_path: Path) -> None:
+    """It is as large at the end as at the begin; the same of a rig that begins elsewhere in all recordings."""
+    recordings = _slow(tmp_path, (0.4, 0.4, 0.4))
+    table = pd.read_csv(recordings[1] / "data.csv")
+    table.assign(h=table["h"] + 2.0).to_csv(recordings[1] / "data.csv", index=False)
+    assert not _starts(tmp_path, recordings)
+    assert not any(d.is_serious for d in _starts(tmp_path, _slow(tmp_path, (2.4, 2.4, 2.4))))
+
+
 def test_its_diagnosis_says_so_and_searches_nothing(tmp_path: Path) -> None:
     every = [load_recording(r) for r in _recordings(tmp_path, (0.4, 0.7, 0.4))]
     scenario = load_scenario(str(tmp_path / "scenario.yaml"))
