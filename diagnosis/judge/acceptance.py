@@ -30,8 +30,8 @@ RIVALS, BEHIND = 5, 30.0
 SHOWN = 0.02
 #: Share of the largest gain of any channel from which a term shows in a channel.
 SHOWS = 0.1
-#: Steps of a fit of a law in the place of another.
-EXCHANGE = 20
+#: Steps of a fit of a law in the place of another, and shares of its fitted strength at which it is simulated.
+EXCHANGE, STRENGTHS = 20, (0.6, 1.0, 1.6)
 
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
@@ -66,7 +66,8 @@ class Accepted:
             the model and that was asked.
         opposed: Term to another that it mostly cancels.
         confused: Accepted term to laws that data often cannot tell from it, with how much more -2 log posterior of
-            training they leave in its place; asked of fabrics, whose rivals are not compared on unfitted readings.
+            training they leave in its place, 0 where unfitted readings do not tell them apart; asked of fabrics, whose
+            laws are interpolated between few simulations.
     """
 
     headline: Explanation
@@ -211,7 +212,7 @@ def accept(
         {t: judge.basis(is_local(t)) for t in gains},
         strengths,
         {t: others[t] for t in current.terms},
-        confused={t: _confused(model, current, t) for t in current.terms} if model.has_scatter else {},
+        confused={t: _confused(model, judge, current, t) for t in current.terms} if model.has_scatter else {},
     )
 
 
@@ -234,15 +235,26 @@ def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Ter
     return shrink(model, found, outcome.margin)
 
 
-def _confused(model: DiagnosisModel, current: Explanation, term: Term) -> tuple[tuple[Term, float], ...]:
-    """Laws of which a law says that data often cannot tell them from it, each fitted in its place."""
+def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: Term) -> tuple[tuple[Term, float], ...]:
+    """Laws of which a law says that data often cannot tell them from it, with what each leaves more in its place.
+
+    What is interpolated between few simulations is simulated there: a law that predicts the readings that judge as well
+    at its fitted strength, or at a smaller or larger one, leaves nothing more.
+    """
     names = model.where(term)[0].confused_with
     others = [t for t in model.terms() if t.identifier in names and t.place == term.place and t not in current.terms]
     without, found = current.fit.point.without(term), []
     for other in others:
         first, *rest = other.parameters
         starts = [without.plus(other, (size, *(p.starts[0] for p in rest))) for size in first.starts]
-        found.append((other, Explanation(fit_best(model, starts, EXCHANGE, current.fit)).demerit - current.demerit))
+        fitted = Explanation(fit_best(model, starts, EXCHANGE, current.fit))
+        strength, *shape = fitted.fit.point.terms[other]
+        sizes = [float(np.clip(share * strength, first.lower, first.upper)) for share in STRENGTHS]
+        points = [fitted.fit.point.plus(other, (size, *shape)) for size in sizes]
+        right = judge.predict(current.fit.point)
+        is_told = all(gain(judge.predict(p), right, judge.unfitted.readings).is_gain for p in points)
+        behind = fitted.demerit - current.demerit
+        found.append((other, behind if is_told else min(behind, 0.0)))
     return tuple(found)
 
 

@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diagnosis.judge.acceptance import _confused
+from diagnosis.judge.acceptance import STRENGTHS, _confused
 from diagnosis.judge.judge import INTERPOLATED, _open_rivals
+from diagnosis.judge.unfitted import Predicted
 from diagnosis.models.fabric import search as fabric_search
 from diagnosis.models.fabric.mechanical import MechanicalModel
+from diagnosis.search.problem import Point
 from diagnosis.search.search import Explanation, Settings, search
 from tests.fabric_diagnosis.test_scatter_and_search import TERMS, effect, members, model
+from tests.verdict.test_gain_and_agreement import COUNT, readings
 
 TILT, PAYLOAD, WIRES, FRICTION = TERMS
 
@@ -46,6 +49,32 @@ def found(likeness: float) -> tuple[Known, Explanation]:
     return known, search(known, TERMS, Settings()).best  # type: ignore[arg-type]
 
 
+class Judge:
+    """Readings that judge: noise is left by the model with a tilt, and ten times as much by the laws that miss them.
+
+    Args:
+        as_good: Effects that predict them as well, at the last of the strengths that are asked.
+    """
+
+    def __init__(self, *as_good: str) -> None:
+        self.unfitted = SimpleNamespace(readings=readings())
+        self.asked: list[Point] = []
+        self._as_good, self._noise = as_good, np.random.default_rng(2).standard_normal(COUNT)
+
+    def predict(self, point: Point) -> Predicted:
+        others = [t.identifier for t in point.terms if t != TILT]
+        if not others:
+            return Predicted(self._noise, self._noise)
+        self.asked.append(point)
+        is_last = sum(set(others) == {t.identifier for t in p.terms if t != TILT} for p in self.asked) == len(STRENGTHS)
+        left = self._noise * (1.0 if is_last and set(others) <= set(self._as_good) else 10.0)
+        return Predicted(left, left)
+
+
+def confused(known: Known, best: Explanation, term: Any, *as_good: str) -> tuple[tuple[Any, float], ...]:
+    return _confused(known, Judge(*as_good), best, term)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(("likeness", "is_open"), [(0.999, True), (0.3, False)])
 def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float, is_open: bool) -> None:
     known, best = found(likeness)
@@ -53,7 +82,7 @@ def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float,
     assert largest in (TILT, PAYLOAD)
     if largest == PAYLOAD:  # as alike as that, either may come first
         pytest.fail("the effect itself is found here")
-    rivals = dict(_confused(known, best, TILT))  # type: ignore[arg-type]
+    rivals = dict(confused(known, best, TILT))
     assert set(rivals) == {PAYLOAD, FRICTION}
     assert (rivals[PAYLOAD] < INTERPOLATED) is is_open
     assert rivals[FRICTION] > INTERPOLATED
@@ -63,7 +92,23 @@ def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float,
 
 def test_an_effect_that_names_no_other_has_no_such_rival() -> None:
     known, best = found(0.3)
-    assert _confused(known, Explanation(best.fit), WIRES) == ()  # type: ignore[arg-type]
+    assert confused(known, Explanation(best.fit), WIRES) == ()
+
+
+def test_what_predicts_the_readings_that_judge_as_well_is_a_rival_whatever_few_simulations_say_of_it() -> None:
+    known, best = found(0.3)
+    rivals = dict(confused(known, best, TILT, "friction"))
+    assert rivals[FRICTION] == 0.0
+    assert rivals[PAYLOAD] > INTERPOLATED
+
+
+def test_rivals_are_asked_at_their_fitted_strength_and_at_others() -> None:
+    known, best = found(0.3)
+    judge = Judge()
+    _confused(known, judge, best, TILT)  # type: ignore[arg-type]
+    sizes = [p.terms[PAYLOAD][0] for p in judge.asked if PAYLOAD in p.terms]
+    assert np.array(sizes) / sizes[1] == pytest.approx(np.array(STRENGTHS))
+    assert not any(TILT in p.terms for p in judge.asked)
 
 
 def test_names_are_as_open_as_the_search_goes_on() -> None:
