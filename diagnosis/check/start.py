@@ -90,7 +90,8 @@ def _elsewhere(compared: Compared) -> Iterator[tuple[Doubt, Beside, bool]]:
         values, time = first(beside)
         end = float(beside.channel.times[len(values) - 1])
         mean = float(np.mean(values))
-        texts = [compared.units.text(v, beside.channel.unit, False) for v in (mean, mean - off)]
+        units = compared.units_of(beside.channel.name)
+        texts = [units.text(v, beside.channel.unit, False) for v in (mean, mean - off)]
         text = (
             f"its first {len(values)} readings ({instant(time)} to {instant(end)} s) are {texts[0]} on average, "
             f"where {texts[1]} is simulated, and later ones are nearer to the simulation"
