@@ -30,8 +30,9 @@ RIVALS, BEHIND = 5, 30.0
 SHOWN = 0.02
 #: Share of the largest gain of any channel from which a term shows in a channel.
 SHOWS = 0.1
-#: Steps of a fit of a law in the place of another, and shares of its fitted strength at which it is simulated.
-EXCHANGE, STRENGTHS = 20, (0.6, 1.0, 1.6)
+#: Steps of a fit of a law in the place of another, and multiples of its fitted strength at which it is simulated:
+#: between few simulations a fit may end at one of them.
+EXCHANGE, STRENGTHS = 20, (0.5, 1.0, 2.0, 4.0, 8.0)
 
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
@@ -239,7 +240,7 @@ def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: 
     """Laws of which a law says that data often cannot tell them from it, with what each leaves more in its place.
 
     What is interpolated between few simulations is simulated there: a law that predicts the readings that judge as well
-    at its fitted strength, or at a smaller or larger one, leaves nothing more.
+    at its fitted strength, or at a smaller or larger one within its bounds, leaves nothing more.
     """
     names = model.where(term)[0].confused_with
     others = [t for t in model.terms() if t.identifier in names and t.place == term.place and t not in current.terms]
@@ -249,7 +250,7 @@ def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: 
         starts = [without.plus(other, (size, *(p.starts[0] for p in rest))) for size in first.starts]
         fitted = Explanation(fit_best(model, starts, EXCHANGE, current.fit))
         strength, *shape = fitted.fit.point.terms[other]
-        sizes = [float(np.clip(share * strength, first.lower, first.upper)) for share in STRENGTHS]
+        sizes = [share * strength for share in STRENGTHS if first.lower <= share * strength <= first.upper]
         points = [fitted.fit.point.plus(other, (size, *shape)) for size in sizes]
         right = judge.predict(current.fit.point)
         is_told = all(gain(judge.predict(p), right, judge.unfitted.readings).is_gain for p in points)

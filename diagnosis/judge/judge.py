@@ -636,8 +636,13 @@ def _open_rivals(alternatives: Sequence[Alternative], term: Term, accepted: Acce
     best = accepted.headline
     bends = {t.identifier for e, _ in accepted.rivals if bends_into(e, best) for t in e.terms if not t.is_named}
     near = [a for a in alternatives if a.probability > OPEN or (a.gain > own - UNSEPARATED and a.effect not in bends)]
-    simulated = [other.identifier for other, behind in accepted.confused.get(term, ()) if behind < INTERPOLATED]
+    simulated = [other.identifier for other in _undecided(accepted, term)]
     return tuple(dict.fromkeys([*(a.effect for a in near if a.effect != term.identifier), *simulated]))
+
+
+def _undecided(accepted: Accepted, term: Term) -> list[Term]:
+    """Laws between which and this one few simulations do not decide, see `Accepted.confused`."""
+    return [other for other, behind in accepted.confused.get(term, ()) if behind < INTERPOLATED]
 
 
 def _alternatives(outcome: Outcome, accepted: Accepted, term: Term) -> tuple[list[Alternative], float]:
@@ -646,7 +651,7 @@ def _alternatives(outcome: Outcome, accepted: Accepted, term: Term) -> tuple[lis
     size = len(others) + 1
     rivals = [(e, total) for e, total in accepted.rivals if others <= set(e.terms) and len(e.terms) == size]
     if not rivals:
-        return [], 1.0
+        return _shared([], 1.0, _undecided(accepted, term))
     chances = probabilities([total for _, total in rivals])
     worst = max(e.fit.cost for e, _ in rivals)
     found, own = [], 0.0
@@ -656,7 +661,17 @@ def _alternatives(outcome: Outcome, accepted: Accepted, term: Term) -> tuple[lis
         found.append(Alternative(other.identifier, other.place, float(gain), float(chance)))
         if other.identifier == term.identifier:
             own += float(chance)
-    return found, own
+    return _shared(found, own, _undecided(accepted, term))
+
+
+def _shared(found: list[Alternative], own: float, undecided: Sequence[Term]) -> tuple[list[Alternative], float]:
+    """The same with laws between which few simulations do not decide: each of them is as probable as the one found."""
+    if not undecided:
+        return found, own
+    parts = 1.0 + len(undecided)
+    less = [replace(a, probability=a.probability / parts) for a in found]
+    more = [Alternative(t.identifier, t.place, found[0].gain if found else 0.0, own / parts) for t in undecided]
+    return [*less, *more], own / parts
 
 
 def _doubt(outcome: Outcome) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.acceptance import STRENGTHS, _confused
-from diagnosis.judge.judge import INTERPOLATED, _open_rivals
+from diagnosis.judge.judge import INTERPOLATED, _alternatives, _open_rivals
 from diagnosis.judge.unfitted import Predicted
 from diagnosis.models.fabric import search as fabric_search
 from diagnosis.models.fabric.mechanical import MechanicalModel
@@ -53,7 +53,7 @@ class Judge:
     """Readings that judge: noise is left by the model with a tilt, and ten times as much by the laws that miss them.
 
     Args:
-        as_good: Effects that predict them as well, at the last of the strengths that are asked.
+        as_good: Effects that predict them as well, at the second of the strengths that are asked.
     """
 
     def __init__(self, *as_good: str) -> None:
@@ -66,8 +66,8 @@ class Judge:
         if not others:
             return Predicted(self._noise, self._noise)
         self.asked.append(point)
-        is_last = sum(set(others) == {t.identifier for t in p.terms if t != TILT} for p in self.asked) == len(STRENGTHS)
-        left = self._noise * (1.0 if is_last and set(others) <= set(self._as_good) else 10.0)
+        is_second = sum(set(others) == {t.identifier for t in p.terms if t != TILT} for p in self.asked) == 2
+        left = self._noise * (1.0 if is_second and set(others) <= set(self._as_good) else 10.0)
         return Predicted(left, left)
 
 
@@ -88,6 +88,9 @@ def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float,
     assert rivals[FRICTION] > INTERPOLATED
     accepted: Any = SimpleNamespace(headline=best, rivals=(), confused={TILT: tuple(rivals.items())})
     assert _open_rivals([], TILT, accepted) == (("payload",) if is_open else ())
+    alternatives, probability = _alternatives(None, accepted, TILT)  # type: ignore[arg-type]
+    assert probability == (0.5 if is_open else 1.0)
+    assert [a.effect for a in alternatives] == (["payload"] if is_open else [])
 
 
 def test_an_effect_that_names_no_other_has_no_such_rival() -> None:
@@ -107,7 +110,9 @@ def test_rivals_are_asked_at_their_fitted_strength_and_at_others() -> None:
     judge = Judge()
     _confused(known, judge, best, TILT)  # type: ignore[arg-type]
     sizes = [p.terms[PAYLOAD][0] for p in judge.asked if PAYLOAD in p.terms]
-    assert np.array(sizes) / sizes[1] == pytest.approx(np.array(STRENGTHS))
+    within = [share for share in STRENGTHS if share * sizes[1] <= PAYLOAD.parameters[0].upper]
+    assert np.array(sizes) / sizes[1] == pytest.approx(np.array(within))
+    assert len(within) >= 3
     assert not any(TILT in p.terms for p in judge.asked)
 
 
