@@ -113,12 +113,10 @@ def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[
         every: Recordings beside their simulations.
     """
     known = {d.recording for d in doubts if d.is_serious}
-    told = {(d.recording, d.subject) for d in doubts if d.kind == "start"}
     slow = []
     for one in (o for o in every if o.recording.title not in known):
         for doubt, beside, is_forgotten in _elsewhere(one):
-            is_new = not is_forgotten and (doubt.recording, doubt.subject) not in told
-            if is_new and _is_nearer_at_last(beside) and _is_odd(doubt, every):
+            if not is_forgotten and _is_nearer_at_last(beside) and _is_odd(doubt, every):
                 slow.append(replace(doubt, is_serious=True))
     return [
         *(

@@ -155,8 +155,7 @@ def accept(
     if headline.terms and can_compare:
         on_progress("comparing explanations on readings that they were not fitted to")
         headline, rivals = _most_probable(judge, outcome)
-    plain = agreement(training.predict(outcome.base.point, is_fitted=False).residuals, training.readings)
-    alike = {} if plain.is_rejected else plain.alike
+    noise = outcome.margin, _alike(outcome, training) if has_local else {}
     reasons: dict[Term, tuple[str, ...]] = {}
     gains: dict[Term, Gain] = {}
     others: dict[Term, Fit] = {}
@@ -165,10 +164,7 @@ def accept(
         what = "one effect" if len(current.terms) == 1 else f"{len(current.terms)} effects"
         on_progress(f"judging {what} by readings that were not fitted")
         others = {t: _others(judge.model, outcome, current, t) for t in current.terms}
-        judged = {t: _judged(judge, current, t, others[t], is_local(t)) for t in current.terms}
-        for t in (t for t in current.terms if is_local(t)):  # readings beside those that were fitted have their noise
-            if why := _of_noise(model, outcome.margin, current, others[t], alike):
-                judged[t] = judged[t][0], (*judged[t][1], why)
+        judged = {t: _judged(judge, current, t, others[t], is_local(t), noise) for t in current.terms}
         gains |= {t: found for t, (found, _) in judged.items()}
         failing = [t for t, (_, why) in judged.items() if why]
         if not failing:
@@ -244,7 +240,7 @@ def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: 
     """
     names = model.where(term)[0].confused_with
     others = [t for t in model.terms() if t.identifier in names and t.place == term.place and t not in current.terms]
-    without, found = current.fit.point.without(term), []
+    right, without, found = judge.predict(current.fit.point), current.fit.point.without(term), []
     for other in others:
         first, *rest = other.parameters
         starts = [without.plus(other, (size, *(p.starts[0] for p in rest))) for size in first.starts]
@@ -252,7 +248,6 @@ def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: 
         strength, *shape = fitted.fit.point.terms[other]
         sizes = [share * strength for share in STRENGTHS if first.lower <= share * strength <= first.upper]
         points = [fitted.fit.point.plus(other, (size, *shape)) for size in sizes]
-        right = judge.predict(current.fit.point)
         is_told = all(gain(judge.predict(p), right, judge.unfitted.readings).is_gain for p in points)
         behind = fitted.demerit - current.demerit
         found.append((other, behind if is_told else min(behind, 0.0)))
@@ -292,9 +287,17 @@ def _others(model: Model, outcome: Outcome, current: Explanation, term: Term) ->
 
 
 def _judged(
-    judge: _Judge, current: Explanation, term: Term, without: Fit, is_local: bool
+    judge: _Judge,
+    current: Explanation,
+    term: Term,
+    without: Fit,
+    is_local: bool,
+    noise: tuple[float, Mapping[str, float]],
 ) -> tuple[Gain, tuple[str, ...]]:
-    """What a term gains on unfitted readings over the fit without it, and why it is not accepted."""
+    """What a term gains on unfitted readings over the fit without it, and why it is not accepted.
+
+    `noise` is what a term must gain, and the correlations of `_alike`.
+    """
     found = judge.evidence(without, current.fit, is_local)
     where = judge.basis(is_local)
     reasons = []
@@ -330,18 +333,26 @@ def _judged(
     hidden = hidden_fault(judge.model, current.fit.point, term)
     if hidden:
         reasons.append(hidden)
+    if is_local and (why := _of_noise(judge.model, *noise, current, without)):
+        reasons.append(why)  # readings beside those that were fitted have their noise
     return found, tuple(reasons)
 
 
-def _of_noise(model: Model, margin: float, current: Explanation, without: Fit, alike: Mapping[str, float]) -> str:
+def _alike(outcome: Outcome, training: Unfitted) -> Mapping[str, float]:
+    """Correlations of neighbouring readings; none where the training readings reject the recalibrated model."""
+    plain = agreement(training.predict(outcome.base.point, is_fitted=False).residuals, training.readings)
+    return {} if plain.is_rejected else plain.alike
+
+
+def _of_noise(model: Model, margin: float, alike: Mapping[str, float], current: Explanation, without: Fit) -> str:
     """Why what is judged by its own recording may be noise; empty where it is not.
 
     Args:
         model: Of the training recordings.
         margin: What a term must gain.
+        alike: See `_alike`.
         current: Explanation with the term.
         without: The fit without it.
-        alike: Correlations of neighbouring readings, where the training readings do not reject the recalibrated model.
     """
     fall = loss(without.residuals) - loss(current.fit.residuals)
     own = np.bincount(np.asarray(model.layout.channel, dtype=int), fall, minlength=len(model.layout.names))

@@ -33,6 +33,17 @@ LUMP = OdeModel(
     {"T": ("K", "T_0", "(power - loss * (T - room)) / capacity")},
     {"temperature": ("K", "T")},
 )
+#: Seconds between two readings of the lump, and the temperature of its room [K].
+LUMP_STEP, ROOM = 2.0, 294.15
+LUMP_SCENARIO = """
+title: A lump
+time: {stop: 1000 s, macro_step: 2 s, output_step: 2 s}
+components:
+  drive: {kind: programme, outputs: {power: {unit: W, constant: 0 W}}}
+  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
+  lump: {kind: fmu, fmu: lump.fmu, integrator: cvode}
+connections: [drive.power -> lump.power, room.temperature -> lump.room]
+"""
 #: Seconds between two readings of the oscillator, and readings of a recording.
 STEP, COUNT = 0.005, 800
 OSCILLATOR_SCENARIO = """\
@@ -72,6 +83,15 @@ def held(rate: Callable[[Array, float], Array], start: Array, inputs: Array, ste
         end = solve_ivp(lambda _, x, u=u: rate(x, float(u)), (0.0, step), states[-1], rtol=1e-9, atol=1e-11)
         states.append(end.y[:, -1])
     return np.array(states)
+
+
+def lump_course(power: Array) -> Array:
+    """Temperature [K] of a lump whose loss and capacity are a few per cent from the model's, shape (steps,)."""
+
+    def rate(x: Array, watt: float) -> Array:
+        return np.array([(watt - 0.41 * (x[0] - ROOM)) / 49.0])
+
+    return held(rate, np.array([300.0]), power, LUMP_STEP)[:, 0]
 
 
 def write_recording(

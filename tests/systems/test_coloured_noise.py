@@ -19,18 +19,9 @@ from diagnosis.judge.judge import evident
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT
-from tests.systems.rigs import LUMP, held, write_recording
+from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, lump_course, write_recording
 
-STEP, COUNT, ROOM = 2.0, 500, 294.15
-SCENARIO = """
-title: A lump
-time: {stop: 1000 s, macro_step: 2 s, output_step: 2 s}
-components:
-  drive: {kind: programme, outputs: {power: {unit: W, constant: 0 W}}}
-  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
-  lump: {kind: fmu, fmu: lump.fmu, integrator: cvode}
-connections: [drive.power -> lump.power, room.temperature -> lump.room]
-"""
+COUNT = 500
 QUIET = replace(ADEQUACY, is_rejected=False, is_training_rejected=False, day=(), alike={"a": 0.8, "b": 0.6})
 SUGGESTED = replace(CONTACT, is_accepted=False, gain=30.0, channels=("a", "b"))
 
@@ -46,13 +37,12 @@ def _noise(rng: np.random.Generator, correlation: float) -> Array:
 def _diagnosed(folder: Path, seed: int, correlation: float, offset: float = 0.0) -> Diagnosis:
     """Three runs of a lump whose numbers are a few per cent off; in the second its thermometer may be off for 200 s."""
     LUMP.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    (folder / "scenario.yaml").write_text(LUMP_SCENARIO, encoding="utf-8")
     every = []
     for number in range(3):
         rng = np.random.default_rng([seed, number])
         power = np.repeat(rng.uniform(0.0, 30.0, 25), 20)
-        truth = held(lambda x, w: np.array([(w - 0.41 * (x[0] - ROOM)) / 49.0]), np.array([300.0]), power, STEP)[:, 0]
-        times = STEP * np.arange(COUNT)
+        times, truth = LUMP_STEP * np.arange(COUNT), lump_course(power)
         if number == 1:
             truth = truth + offset * ((times > 300.0) & (times < 500.0))
         columns = {"t": times, "P": power, "T": truth + 0.1 * _noise(rng, correlation)}

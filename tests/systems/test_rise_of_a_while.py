@@ -10,7 +10,6 @@ import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
-from cosim.unit.protocol import Array
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.faults.model import with_faults
 from diagnosis.judge.diagnosis import Estimate, Verdict
@@ -21,26 +20,10 @@ from diagnosis.search import grow
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
 from tests.diagnosis.report_examples import CONTACT
-from tests.systems.rigs import LUMP, held, write_recording
+from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, lump_course, write_recording
 
-STEP, COUNT, ROOM = 2.0, 500, 294.15
+COUNT = 500
 SHARE, BEGIN, END = 0.8, 300.0, 600.0
-SCENARIO = """
-title: A lump
-time: {stop: 1000 s, macro_step: 2 s, output_step: 2 s}
-components:
-  drive: {kind: programme, outputs: {power: {unit: W, constant: 0 W}}}
-  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}
-  lump: {kind: fmu, fmu: lump.fmu, integrator: cvode}
-connections: [drive.power -> lump.power, room.temperature -> lump.room]
-"""
-
-
-def _course(power: Array) -> Array:
-    def rate(x: Array, watt: float) -> Array:
-        return np.array([(watt - 0.41 * (x[0] - ROOM)) / 49.0])
-
-    return held(rate, np.array([300.0]), power, STEP)[:, 0]
 
 
 @pytest.fixture(scope="module")
@@ -48,12 +31,12 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Path]]:
     """Three runs with steps of power of 30 s to 60 s; the sensor of the second comes loose."""
     folder = tmp_path_factory.mktemp("rig")
     LUMP.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
+    (folder / "scenario.yaml").write_text(LUMP_SCENARIO, encoding="utf-8")
     recordings = []
     for number in range(3):
         rng = np.random.default_rng(number)
         power = np.repeat(rng.uniform(0.0, 30.0, 25), 20)
-        times, values = STEP * np.arange(COUNT), _course(power)
+        times, values = LUMP_STEP * np.arange(COUNT), lump_course(power)
         if number == 1:
             inside = (times > BEGIN) & (times < END)
             values = np.where(inside, 300.0 + SHARE * (values - 300.0), values)

@@ -19,9 +19,9 @@ from diagnosis.models.systems.places import Fit, fits, places_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import LUMP, held, write_recording
+from tests.systems.rigs import LUMP, ROOM, held, write_recording
 
-STEP, COUNT, ROOM = 2.0, 600, 294.15
+STEP, COUNT = 2.0, 600
 LATENT, MELTING, WIDTH = 4.0, 318.0, 2.5
 SCENARIO = """
 title: A lump

@@ -66,10 +66,12 @@ def in_other_engine(scenario: Scenario, component: str) -> Scenario:
     """
     given = scenario.components[component]
     assert isinstance(given, FabricComponent)
-    own, other = given.solver, "bullet" if given.engine == "mujoco" else "mujoco"
-    solver = Solver(iterations=own.iterations, penetration_limit=own.penetration_limit, friction_anchors=True)
-    if other == "mujoco":
-        solver = Solver(micro_step=MUJOCO_STEP, iterations=own.iterations, penetration_limit=own.penetration_limit)
+    kept = {"iterations": given.solver.iterations, "penetration_limit": given.solver.penetration_limit}
+    if given.engine == "mujoco":
+        other, settings = "bullet", {**kept, "friction_anchors": True}
+    else:
+        other, settings = "mujoco", {**kept, "micro_step": MUJOCO_STEP}
+    solver = Solver().model_copy(update=settings)
     fabric = given.model_copy(update={"engine": other, "solver": solver})
     found = scenario.model_copy(update={"components": {**scenario.components, component: fabric}})
     assemble(found).system.terminate()
