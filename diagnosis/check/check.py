@@ -16,6 +16,7 @@ from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.odd_one_out import odd_ones
+from diagnosis.check.other_course import other_course
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
@@ -77,10 +78,18 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += start_doubts(one)
     found = with_odd_starts(found, every)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
-    found += [replace(d, is_serious=d.is_serious and d.recording not in told) for d in odd_ones(every)]
+    found += [_odd(d, every, d.recording in told) for d in odd_ones(every)]
     if not told:  # else why it is not followed is known
         found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
+
+
+def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
+    """A doubt about a recording that stands out: why, where that is known; no serious one where it is told already."""
+    if is_told:
+        return replace(doubt, is_serious=False)
+    one = next(o for o in every if o.recording.title == doubt.recording)
+    return other_course(one, [o for o in every if o is not one]) or doubt
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

@@ -1,0 +1,192 @@
+"""A recording that stands out, whose readings follow another course of one input than the one that is stated.
+
+A slow rig forgets the switches of its input, so that readings of another run resemble what the stated course gives.
+Where the scenario meets the other recordings, that input is estimated from the readings: as a course of equal steps,
+by least squares, within the range that it has in all recordings. If it then explains every channel, and is unlike the
+stated course over most of the recording, the stated course is not the one that acted.
+
+One channel proves nothing, since some input gives it nearly any course; and a law of the rig that acts for a while,
+as a force does, leaves a course that is the stated one for the rest of the time.
+
+Source: estimation of an unknown input by constrained least squares, Maciejowski, Predictive Control with Constraints,
+Pearson 2002, chapter 2; Gauss-Newton steps for models that are not linear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import lsq_linear
+
+from cosim.run import RunStopped
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import Beside, Compared, Course, has_fabric
+from diagnosis.check.timing import percent
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.models.systems.run import run_quickly
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Input
+from diagnosis.recording.series import sample, series_of
+
+#: Steps of the estimated course.
+STEPS = 24
+#: Gauss-Newton steps, each of as many simulations.
+ROUNDS = 2
+#: Share of the variance of every channel that has to be explained: that from which the other recordings count as met.
+MET = 0.95
+#: Share of its variance that the stated course has to leave of a channel: the recording is not met at all.
+MISSED = 0.5
+#: Channels that have to answer to the input.
+CHANNELS = 2
+#: Share of an input's range by which numbers of the model that are off may take the estimate beyond it.
+BEYOND = 0.1
+#: Correlation with the stated course below which an estimate is unlike it: courses of ten levels that have nothing to
+#: do with each other stay below it in 98 of 100 draws. Share of the range by which one differs at least.
+UNLIKE, APART = 0.7, 0.2
+#: Deviations of the noise from which a channel answers to an input that goes through its range.
+ANSWERS = 10.0
+
+
+def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about the input whose stated course is not the one that acted; None where no single one is.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+        others: The other recordings of the same rig, which the scenario meets.
+    """
+    channels = {n: b for n, b in one.channels.items() if b.is_comparable and _varies(b)}
+    if one.base is None or has_fabric(one.scenario) or len(channels) < CHANNELS:
+        return None
+    if max(_left(b, b.simulated_there) for b in channels.values()) < MISSED:
+        return None
+    found = []
+    for course in one.courses:
+        alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
+        low, high = (float(f([f(c.values) for c in alike])) for f in (np.min, np.max))
+        if course.name.endswith("]") or high <= low:
+            continue  # only an output of one element can be a column; a constant everywhere has no range
+        margin = BEYOND * (high - low)
+        told = _estimated(one, channels, course, (low - margin, high + margin))
+        if told is not None:
+            found.append((course, *told))
+    return _doubt(one, *found[0]) if len(found) == 1 else None
+
+
+def _estimated(
+    one: Compared, channels: dict[str, Beside], course: Course, bounds: tuple[float, float]
+) -> tuple[float, float] | None:
+    """Least share explained of a channel, and correlation with the stated course; None if that course may have acted.
+
+    Args:
+        one: The recording.
+        channels: Its channels that are compared, by name.
+        course: Of the input, as stated.
+        bounds: Of its values.
+    """
+    knots = np.linspace(one.begin, one.end, STEPS + 1)
+    knots[0] = min(knots[0], one.scenario.time.start.to("s"))
+    held = knots if course.is_linear else knots[:-1]
+    stated = _means(course, knots) if not course.is_linear else course.at(knots)
+    values = np.clip(stated, *bounds)
+    weights = np.concatenate([np.full(len(b.times), 1.0 / _size(b)) for b in channels.values()])
+    measured = np.concatenate([b.measured for b in channels.values()])
+    step = 0.5 * (bounds[1] - bounds[0])
+    try:
+        for _ in range(ROUNDS):
+            here = _simulated(one, channels, course, held, values)
+            rows = []
+            for k in range(len(held)):
+                other = values.copy()
+                other[k] += step if values[k] + step <= bounds[1] else -step
+                rows.append((_simulated(one, channels, course, held, other) - here) / (other[k] - values[k]))
+            slopes = np.array(rows).T
+            if sum(_answers(b, part) for b, part in zip(channels.values(), _parts(channels, slopes * step))) < CHANNELS:
+                return None
+            goal = measured - here + slopes @ values
+            values = np.asarray(lsq_linear(slopes * weights[:, None], goal * weights, bounds).x)
+        after = _parts(channels, _simulated(one, channels, course, held, values))
+    except RunStopped:
+        return None
+    explained = 1.0 - max(_left(b, part) for b, part in zip(channels.values(), after))
+    likeness = _likeness(stated, values, bounds)
+    return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
+
+
+def _likeness(stated: Array, values: Array, bounds: tuple[float, float]) -> float:
+    """Correlation of two courses; where one hardly changes, 1 if they agree most of the time and else 0."""
+    width = bounds[1] - bounds[0]
+    if np.std(values - stated) < APART * width and abs(np.mean(values - stated)) < APART * width:
+        return 1.0
+    if np.ptp(stated) < APART * width or np.ptp(values) < APART * width:
+        return float(np.mean(np.abs(values - stated) < APART * width) > 0.5)
+    return float(np.corrcoef(stated, values)[0, 1])
+
+
+def _means(course: Course, knots: Array) -> Array:
+    """Means of a course between knots."""
+    fine = np.linspace(0.0, 1.0, 50, endpoint=False)
+    return np.array([float(np.mean(course.at(a + fine * (b - a)))) for a, b in pairwise(knots.tolist())])
+
+
+def _simulated(one: Compared, channels: dict[str, Beside], course: Course, times: Array, values: Array) -> Array:
+    """Simulated readings of all channels one after another, with a course in place of the stated one."""
+    assert one.base is not None
+    component, _, output = course.name.partition(".")
+    given = Input(component, output, course.unit, times, values)
+    inputs = (*(i for i in one.recording.inputs if (i.component, i.output) != (component, output)), given)
+    results = run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
+    return np.concatenate([_readings(results, b, one) for b in channels.values()])
+
+
+def _readings(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
+    series = series_of(results, beside.channel.target, one.recording.path / "recording.yaml")
+    return np.asarray(sample(series, beside.times))
+
+
+def _parts(channels: dict[str, Beside], every: Array) -> list[Array]:
+    """Rows of each channel."""
+    ends = np.cumsum([len(b.times) for b in channels.values()])
+    return np.split(every, ends[:-1])
+
+
+def _answers(beside: Beside, part: Array) -> bool:
+    """Whether a channel answers to an input that goes through half its range, in any of its steps."""
+    return bool(np.max(np.abs(part)) > ANSWERS * beside.floor)
+
+
+def _size(beside: Beside) -> float:
+    return float(np.std(beside.measured))
+
+
+def _varies(beside: Beside) -> bool:
+    return _size(beside) > ANSWERS * beside.floor
+
+
+def _left(beside: Beside, simulated: Array) -> float:
+    """Share of a channel's variance that is left beyond what says nothing."""
+    rest = float(np.mean((beside.measured - simulated) ** 2)) - beside.floor**2
+    return max(rest, 0.0) / _size(beside) ** 2
+
+
+def _doubt(one: Compared, course: Course, explained: float, likeness: float) -> Doubt:
+    lefts = {n: _left(b, b.simulated_there) for n, b in one.channels.items() if b.is_comparable and _varies(b)}
+    worst = max(lefts, key=lambda n: lefts[n])
+    origin = "recorded" if course.is_recorded else "stated"
+    mine = percent(max(1.0 - lefts[worst], 0.0))
+    text = (
+        f"with the {origin} course of {course.name} the scenario as it is explains {mine} of the "
+        f"variance of {worst}; with another one within the range of all recordings, which is unlike it "
+        f"(correlation {likeness:.2f}), at least {percent(explained)} of each channel's; the other recordings "
+        f"are met with theirs"
+    )
+    remedy = (
+        f"is the column of `inputs.{course.name}` of another run? Give the one that was logged with these readings"
+        if course.is_recorded
+        else f"was this programme of `{course.name}` played? State the one that was, under `overrides`, or its column"
+    )
+    title, z = one.recording.title, float(np.sqrt(lefts[worst] / max(1.0 - explained, 1e-6)))
+    return Doubt(title, course.name, "programme", text, remedy, True, one.begin, one.end, z)
