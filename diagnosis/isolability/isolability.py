@@ -9,6 +9,7 @@ import numpy as np
 
 from cosim.compute.steps import counted
 from diagnosis.isolability.alike import SHOWS, Alike, Effect, effects, widest
+from diagnosis.isolability.of_answers import of_answers
 from diagnosis.isolability.structure import VARIABLES, Analysis, Rig, analyse
 from diagnosis.judge.isolability import ExtraChannel, FaultClass, Isolability
 from diagnosis.models.coil_network.kernel.layout import QUANTITIES
@@ -45,6 +46,8 @@ def isolability(model: DiagnosisModel, fit: Fit, terms: Sequence[Term]) -> Isola
         fit: Recalibrated, without terms.
         terms: Effects that may be missing, at their places.
     """
+    if model.answers is not None:
+        return of_answers(model.answers)
     shown, alike = effects(model, fit, widest(terms))
     by_size = list(_by_size(shown, alike))
     network = model.coil_network

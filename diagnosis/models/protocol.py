@@ -15,6 +15,7 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.answers import Answers
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.recording import Channel
 from diagnosis.search.fit import Fit
@@ -305,6 +306,11 @@ class DiagnosisModel(Protocol):
         """Where no law can be tried, and why."""
         ...
 
+    @property
+    def answers(self) -> Answers | None:
+        """What its search simulated, with channels that nobody recorded; None where a simulation costs nothing."""
+        ...
+
     def input_terms(self) -> list[Term]:
         """Every input of every recording, as it may have been another within an interval."""
         ...
@@ -473,6 +479,11 @@ class ModelBase:
     def untried(self) -> tuple[str, ...]:
         """Nothing."""
         return ()
+
+    @property
+    def answers(self) -> Answers | None:
+        """None."""
+        return None
 
     def input_terms(self) -> list[Term]:
         """None."""

@@ -30,6 +30,7 @@ HANDED_ON = (
     "has_ridges",
     "timeline",
     "untried",
+    "answers",
     "coil_network",
     "innermost",
 )

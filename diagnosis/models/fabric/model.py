@@ -15,6 +15,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import PhysicalValue
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.models.answers import Answers
 from diagnosis.models.coil_network.kernel.places import Place
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
@@ -32,7 +33,9 @@ from diagnosis.models.fabric.runs import (
     fabric_of,
     in_other_engine,
 )
-from diagnosis.models.fabric.search import search_fabric
+from diagnosis.models.fabric.scatter import FEWEST
+from diagnosis.models.fabric.search import STEP, search_fabric
+from diagnosis.models.fabric.unmeasured import UnmeasuredBins, with_unmeasured
 from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.conditions import scenario_of
@@ -89,6 +92,11 @@ class FabricModel(ModelBase):
                     "diagnose circuit and coils with a scenario that has no fabric",
                 )
         self.network = _network(scenario, [p[0] for p in parts], catalogue, timeline)
+        found = fabric_layout(scenario, name)
+        given = scenario.components[name]
+        assert isinstance(given, FabricComponent)
+        #: The recordings with channels that nobody recorded behind their own: the same simulations give both.
+        self._wider = with_unmeasured(self.mechanical_recordings, 2 * given.rows, len(found.row))
         self.fabric_runs = self._simulations(scenario)
         self._scenario = scenario
         #: Why no other engine was asked; empty where one was, or was not asked yet.
@@ -96,7 +104,7 @@ class FabricModel(ModelBase):
         self.free: list[Free] = [f for f in free_parameters(scenario, recordings) if f.component == name]
         self._numbers = Numbers(scenario)
         self._laws: dict[Term, UnitLaw] = {u.place.term: u for u in fabric_laws(name)}
-        of_links = link_laws(name, link_places(name, fabric_layout(scenario, name)))
+        of_links = link_laws(name, link_places(name, found))
         #: Terms of rows and links to where they act.
         self.link_places: Mapping[Term, LinkPlace] = {t: place for t, (_, place) in of_links.items()}
         self._laws |= {t: law for t, (law, _) in of_links.items()}
@@ -113,14 +121,17 @@ class FabricModel(ModelBase):
         #: What each residual belongs to, those of the coil network first; known once it is prepared.
         self.layout = Layout(np.zeros(0), np.zeros(0), (), ())
         self._scatter: dict[str, float] = {}
-        given = scenario.components[name]
-        assert isinstance(given, FabricComponent)
         self._has_speed = "start_speed" in given.parameters
+        recorded = [len(r.channels) for r in self.mechanical_recordings]
+        self._unmeasured = UnmeasuredBins(self.binning, self._wider, recorded)
+        #: Points and starts that were simulated and what they gave, recorded or not; the same of the other engine.
+        self._kept: list[tuple[Point, int, Array]] = []
+        self._kept_elsewhere: list[tuple[Point, int, Array]] = []
 
     def _simulations(self, scenario: Scenario) -> FabricRuns:
         if self.network is None:
-            return ClosedRuns(scenario, self.component, self.mechanical_recordings, self.batches)
-        return BulletRuns(scenario, self.component, self.mechanical_recordings, self.network, self.batches)
+            return ClosedRuns(scenario, self.component, self._wider, self.batches)
+        return BulletRuns(scenario, self.component, self._wider, self.network, self.batches)
 
     @property
     def timeline(self) -> Timeline | None:
@@ -302,7 +313,7 @@ class FabricModel(ModelBase):
         Args:
             wanted: Point and number of its random start.
         """
-        return self._bins_by(self.fabric_runs, wanted)
+        return self._bins_by(self.fabric_runs, wanted, self._kept)
 
     def simulated_elsewhere(self, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
         """The same by the other engine; empty where it is not installed or cannot simulate such a fabric."""
@@ -311,7 +322,7 @@ class FabricModel(ModelBase):
         except InputError as error:
             self._is_alone = str(error)
             return []
-        found = self._bins_by(runs, wanted)
+        found = self._bins_by(runs, wanted, self._kept_elsewhere)
         if not any(f is not None for f in found):
             self._is_alone = (runs.reasons or ["it stops"])[0]
         return found
@@ -323,16 +334,53 @@ class FabricModel(ModelBase):
             return ()
         return (f"what two engines differ by is not known and not counted as uncertainty: {self._is_alone}",)
 
-    def _bins_by(self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
+    def _bins_by(
+        self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]], kept: list[tuple[Point, int, Array]]
+    ) -> list[Array | None]:
         count = len(self.mechanical_recordings)
         points: dict[int, Point] = {id(p): self.network_point(p) for p, _ in wanted}
         tasks = [(n, self.fabric_parameters(p, n, s), points[id(p)]) for p, s in wanted for n in range(count)]
         values = runs.make(tasks)
         found: list[Array | None] = []
-        for first in range(0, len(values), count):
+        for (point, start), first in zip(wanted, range(0, len(values), count)):
             whole = [v for v in values[first : first + count] if v is not None]
-            found.append(self.binning.bins_of(whole) if len(whole) == count else None)
+            if len(whole) < count:
+                found.append(None)
+                continue
+            recorded, others = self._unmeasured.divided(whole)
+            found.append(self.binning.bins_of(recorded))
+            kept.append((self.own_point(point), start, np.concatenate([found[-1], others])))
         return found
+
+    @property
+    def answers(self) -> Answers | None:
+        """Runs of the search at one parameter or one effect of all links, with channels that nobody recorded."""
+        nominal = {start: row for point, start, row in self._kept if _is_nominal(point)}
+        if len(nominal) < FEWEST:
+            return None
+        plain = np.array(list(nominal.values()))
+        mean = plain.mean(axis=0)
+        elsewhere = [row for point, _, row in self._kept_elsewhere if _is_nominal(point)]
+        slopes = np.zeros((len(self.free), len(mean)))
+        for i in range(len(self.free)):
+            own = [row for point, _, row in self._kept if not point.terms and _is_unit(point.base, i)]
+            if own:
+                slopes[i] = (np.mean(own, axis=0) - mean) / STEP
+        effects: dict[Term, dict[float, list[Array]]] = {}
+        for point, start, row in self._kept:
+            if start in nominal or len(point.terms) != 1 or np.any(point.base):
+                continue  # a start of the plain fabric would be in both that are compared
+            ((term, values),) = point.terms.items()
+            if term in self._laws and term not in self.link_places:
+                effects.setdefault(term, {}).setdefault(values[0], []).append(row)
+        return Answers(
+            self._unmeasured.with_scale(plain),
+            plain,
+            np.mean(elsewhere, axis=0) - mean if elsewhere else None,
+            slopes,
+            {t: {s: np.array(rows) for s, rows in own.items()} for t, own in effects.items()},
+            [f.name for f in self.free],
+        )
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI; by Bullet, never by the surface."""
@@ -342,8 +390,9 @@ class FabricModel(ModelBase):
         channels = self.mechanical_recordings[run].channels.values()
         if found is None:
             return [*first, *(np.full(len(c.times), np.inf) for c in channels)]
-        seen = self._cameras[run].seen(np.concatenate(found), point.terms)
-        return [*first, *np.split(seen, np.cumsum([len(v) for v in found])[:-1])]
+        own_channels = found[: len(channels)]
+        seen = self._cameras[run].seen(np.concatenate(own_channels), point.terms)
+        return [*first, *np.split(seen, np.cumsum([len(v) for v in own_channels])[:-1])]
 
     @property
     def has_scatter(self) -> bool:
@@ -377,6 +426,15 @@ class FabricModel(ModelBase):
     def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
         """Asked of its coils: it is not fitted where it judges, and what has an instant or a day belongs to them."""
         return self.network is not None and self.network.is_moved_by(term, values)
+
+
+def _is_nominal(point: Point) -> bool:
+    return not point.terms and not np.any(point.base)
+
+
+def _is_unit(base: Array, number: int) -> bool:
+    """Whether one parameter alone is off, by the step at which its answer is simulated."""
+    return bool(base[number] == STEP and np.count_nonzero(base) == 1)
 
 
 def _camera_of(recording: Recording) -> Camera:

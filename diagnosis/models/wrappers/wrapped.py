@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.models.answers import Answers
 from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Scaled, Spot, unscaled
 from diagnosis.models.timeline import Timeline
 from diagnosis.search.fit import Fit
@@ -152,6 +153,11 @@ class WrappedModel:
     def step_ends(self, run: int) -> Array:
         """Instants at which steps of the simulation of a recording end [s], shape (steps + 1,)."""
         return self.inner.step_ends(run)
+
+    @property
+    def answers(self) -> Answers | None:
+        """See `DiagnosisModel`."""
+        return self.inner.answers
 
     @property
     def untried(self) -> tuple[str, ...]:
