@@ -30,6 +30,7 @@ from evaluation.strangers import (
     sixth_set,
     tenth_set,
     third_set,
+    twelfth_set,
 )
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -46,6 +47,7 @@ SETS = {
     "ninth": ninth_set.CASES,
     "tenth": tenth_set.CASES,
     "eleventh": eleventh_set.CASES,
+    "twelfth": twelfth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
