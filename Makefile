@@ -14,7 +14,7 @@ export OMP_NUM_THREADS := 1
 
 comma := ,
 
-.PHONY: help run plan prove real nightly test test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
+.PHONY: help run plan prove real nightly test test-long test-slow test-wheel wheel docs check lint types imports fmus setup dev bench lock clean distclean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,8 +43,11 @@ real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=fold
 	test -d $(REAL)/recordings/paper_cooling || $(BIN)/python -m evaluation.real.paper_cooling --out $(REAL)/recordings
 	$(BIN)/python -m evaluation.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
 
-test: dev fmus  ## the test suite (about ten minutes on two cores)
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
+test: dev fmus  ## the tests that take less than four seconds each (about ten minutes on two cores)
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow and not long"
+
+test-long: dev fmus  ## tests of seconds to a minute each, listed in tests/long_tests.txt (about twenty minutes)
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "long and not slow"
 
 test-wheel: dev  ## build the wheel, install it outside the clone and use it (two minutes)
 	$(BIN)/python -m pytest -m slow tests/install

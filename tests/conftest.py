@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tools.long_tests import LIST, names
+
 ROOT = Path(__file__).resolve().parents[1]
 #: Coils of the FMUs of FMI 2.0 in the folder of all; other sizes are built one by one.
 SHIPPED_SIZES = (36, 6)
@@ -23,6 +25,13 @@ def pytest_addoption(parser):
     parser.addoption(
         "--update-golden", action="store_true", help="rewrite tests/golden; give the reason in the changelog"
     )
+
+
+def pytest_collection_modifyitems(items):
+    long = names(LIST.read_text(encoding="utf-8").splitlines())
+    for item in items:
+        if item.nodeid in long:
+            item.add_marker(pytest.mark.long)
 
 
 @pytest.fixture(scope="session")
