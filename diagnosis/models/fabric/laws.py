@@ -157,7 +157,15 @@ _LAWS = (
         "payload",
         "a mass on the last row",
         "force = payload * gravity",
-        _number("payload", "kg", 0.0, 0.2, 0.02, "20 g on the last row are seen", "mass on the last row"),
+        _number(
+            "payload",
+            "kg",
+            0.0,
+            0.2,
+            0.06,
+            "half of what the 18 links of the prototype weigh, 7.3 g each",
+            "mass on the last row",
+        ),
         {"base:link_mass": _LOAD, "supply_wire_stiffness": _HOT},
     ),
     _Law(
