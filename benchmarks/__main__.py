@@ -17,7 +17,7 @@ from benchmarks import (
     whole_run,
 )
 
-for measurement in (
+MEASUREMENTS = (
     whole_run,
     units,
     loop,
@@ -27,5 +27,8 @@ for measurement in (
     isolation,
     macro_step,
     bullet_convergence,
-):
-    measurement.main([])
+)
+
+if __name__ == "__main__":
+    for measurement in MEASUREMENTS:
+        measurement.main([])

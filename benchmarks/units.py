@@ -6,9 +6,9 @@ import statistics
 import time as clock
 
 from benchmarks.machine import heading, resident_memory, results_folder
+from cosim.algorithms.choose import PLAIN
 from cosim.assemble import assemble
 from cosim.components import FmuComponent, ProgrammeComponent, nanoseconds
-from cosim.run import ALGORITHMS
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit.quantity import PhysicalValue
 
@@ -46,7 +46,7 @@ def measure(rows: int, columns: int, steps: int) -> dict[str, float]:
     system = assembly.system
     start, macro = nanoseconds(scenario.time.start), nanoseconds(scenario.time.macro_step)
     system.initialise(start, assembly.start)
-    step = ALGORITHMS[scenario.algorithm.kind]
+    step = PLAIN[scenario.algorithm.kind]
     samples: dict[str, list[float]] = {name: [] for name in (*system.units, "algorithm and exchange")}
     for index in range(steps):
         units = dict(system.wall_time)

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import heading, results_folder
+from cosim.algorithms.choose import PLAIN
 from cosim.assemble import assemble
 from cosim.components import nanoseconds
 from cosim.observers.trace import Trace
-from cosim.run import ALGORITHMS
 from cosim.scenario import load_scenario
 from mechanics.bullet import World, woven
 from mechanics.fabric import layout
@@ -40,7 +40,7 @@ def measure(name: str, seconds_of_run: int) -> list[tuple[float, float]]:
     trace = Trace(system, list(range(start, nanoseconds(scenario.time.stop) + 1, output * macro)))
     system.initialise(start, assembly.start)
     trace.record(start)
-    step, micro = ALGORITHMS[scenario.algorithm.kind], round(macro / 1e9 / fabric.solver.micro_step)
+    step, micro = PLAIN[scenario.algorithm.kind], round(macro / 1e9 / fabric.solver.micro_step)
     pairs, index = [], 0
     for _ in range(seconds_of_run):
         sent: list[tuple[Any, Any]] = []

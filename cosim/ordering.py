@@ -21,7 +21,7 @@ def in_order(count: int, edges: Iterable[tuple[int, int]]) -> list[list[int]]:
     every command that opens a scenario would pay. What may stand in any order stands as it did with SciPy.
 
     >>> in_order(4, [(2, 1), (1, 2), (1, 0)])
-    [[3], [1, 2], [0]]
+    [[1, 2], [3], [0]]
     """
     after: list[set[int]] = [set() for _ in range(count)]
     before: list[set[int]] = [set() for _ in range(count)]

@@ -22,7 +22,7 @@ def max_curvature(points: Array) -> float:
 
     Source: paper, equation (1); circumscribed-circle (Menger) curvature.
 
-    >>> max_curvature(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]))
+    >>> round(max_curvature(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])), 12)
     1.0
     """
     if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:

@@ -44,7 +44,7 @@ def taut_weave(bar_distance: float, bar_diameter: float) -> Weave:
     Source: plane geometry, docs/decisions/0003-reading-of-l-and-d.md.
 
     >>> round(100 * taut_weave(0.033, 0.0081).pitch, 2)
-    2.59
+    2.58
     """
     if not 0 < bar_diameter < bar_distance:
         raise ValueError(f"bar_diameter {bar_diameter} m must lie between 0 and the bar distance {bar_distance} m")

@@ -36,7 +36,7 @@ def jam_distance(bar_diameter: float) -> float:
     """L at which a fabric of such bars is jammed, 3.69 d [m].
 
     >>> round(jam_distance(0.00835), 5)
-    0.03082
+    0.03081
     """
     return jammed_weave(bar_diameter).bar_distance
 

@@ -18,8 +18,9 @@ from diagnosis.judge.diagnosis import Doubt
 
 #: Share of their variance that the scenario explains of the others, all numbers as they are.
 MET = 0.95
-#: How many times more of its variance is left of a recording that stands out.
-TIMES = 10.0
+#: How many times more of its variance is left of a recording that stands out, and how much of it at least: any model
+#: leaves a hundredth (`diagnosis.check.beside.DISCREPANCY`).
+TIMES, LEAST = 10.0, 0.01
 #: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording one of whose
 #: inputs hardly is the one that acted: the same numbers explain the others.
 HALF = 0.5
@@ -43,7 +44,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
     found = []
     for number, (one, own) in enumerate(zip(every, left)):
         others = [v for i, v in enumerate(left) if i != number and v is not None]
-        if own is None or len(others) < OTHERS or max(others) > 1.0 - MET or own < TIMES * max(others):
+        if own is None or len(others) < OTHERS or max(others) > 1.0 - MET or own < max(TIMES * max(others), LEAST):
             continue
         told = f"at least {percent(1.0 - max(others))} of the variance of each other recording that can be compared"
         text = f"the scenario as it is explains {told} and {percent(max(1.0 - own, 0.0))} of this one's"

@@ -24,7 +24,7 @@ from cosim.run import RunStopped, run
 from cosim.scenario import Scenario, parse_scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import conversion
+from cosim.unit.quantity import conversion, parse_unit
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.check.sniff import Sniffed
 from diagnosis.recording.cells import how_to_write
@@ -73,6 +73,17 @@ SPELLINGS = {
     "min": ("min", "s"),
     "h": ("h", "s"),
     "1/m": ("1/m", "1/m"),
+    "pa": ("Pa", "Pa"),
+    "hpa": ("hPa", "Pa"),
+    "kpa": ("kPa", "Pa"),
+    "mbar": ("mbar", "Pa"),
+    "bar": ("bar", "Pa"),
+    "rpm": ("rpm", "rad/s"),
+    "u/min": ("rpm", "rad/s"),
+    "kg": ("kg", "kg"),
+    "l/min": ("L/min", "m^3/s"),
+    "%": ("%", "1"),
+    "percent": ("%", "1"),
 }
 #: Words and letters that stand for a quantity at the begin of a name.
 WORDS = {
@@ -92,6 +103,8 @@ WORDS = {
 MOST_POINTS = 12
 _TIMES = frozenset({"time", "t", "timestamp", "date", "datetime", "clock", "seconds", "elapsed", "zeit"})
 _NAME = re.compile(r"^\s*(?P<body>.*?)\s*[\[(]\s*(?P<unit>[^\])]*)\s*[\])]\s*$")
+#: A quantity over its unit (ISO 80000-1, 7.1.4: `p/kPa`, `n/(1/min)`), and a quantity in its unit: `p in kPa`.
+_OVER = re.compile(r"^\s*(?P<body>[^/]+?)\s*(?:/\s*\(?|\s+in\s+)(?P<unit>[^()]+?)\)?\s*$")
 
 
 @dataclass(frozen=True)
@@ -140,18 +153,50 @@ def heading(name: str) -> Heading:
     >>> heading("Strom 1 [mA]").unit
     'mA'
     """
-    bracket = _NAME.match(name)
-    body, tail = (bracket["body"], bracket["unit"]) if bracket else (name, "")
-    if not tail:
-        parts = re.split(r"[_\s]+", name.strip())
-        if len(parts) > 1 and parts[-1].lower() in SPELLINGS:
-            tail, body = parts[-1], "_".join(parts[:-1])
-    unit, si_unit = SPELLINGS.get(tail.lower(), (None, None))
-    if tail == "M":
-        unit, si_unit = None, None
+    body, tail = _divided(name)
+    unit, si = _unit(tail)
     numbers = tuple(int(n) for n in re.findall(r"\d+", body))
     word = re.sub(r"[\d\W_]+", "_", body).strip("_").lower()
-    return Heading(name, body, word, numbers, unit, si_unit)
+    return Heading(name, body, word, numbers, unit, si)
+
+
+def _divided(name: str) -> tuple[str, str]:
+    """Name of a column without its unit, and the unit as it stands; empty where there is none.
+
+    >>> _divided("p_bag/kPa"), _divided("n / (1/min)"), _divided("Druck in mbar"), _divided("x_mm"), _divided("U_1")
+    (('p_bag', 'kPa'), ('n', '1/min'), ('Druck', 'mbar'), ('x', 'mm'), ('U_1', ''))
+    """
+    bracket = _NAME.match(name)
+    if bracket and "/" not in bracket["body"]:
+        return bracket["body"], bracket["unit"].strip()
+    over = _OVER.match(name)
+    if over and _unit(over["unit"])[0] is not None:
+        return over["body"], over["unit"]
+    if bracket:
+        return bracket["body"], bracket["unit"].strip()
+    parts = re.split(r"[_\s]+", name.strip())
+    if len(parts) > 1 and parts[-1].lower() in SPELLINGS:
+        return "_".join(parts[:-1]), parts[-1]
+    return name, ""
+
+
+def _unit(tail: str) -> tuple[str | None, str | None]:
+    """A unit as recording.yaml has it and its SI unit; None where it is none that is known.
+
+    >>> _unit("mA"), _unit("ml/min"), _unit("M"), _unit("left")
+    (('mA', 'A'), ('ml/min', 'm^3/s'), (None, None), (None, None))
+    """
+    if tail == "M":  # minutes or metres, or a million
+        return None, None
+    if tail.lower() in SPELLINGS:
+        return SPELLINGS[tail.lower()]
+    if not re.fullmatch(r"[A-Za-zµ%°]+[²³]?(\^?\d)?([*/][A-Za-zµ%°]+[²³]?(\^?\d)?)*|1/[A-Za-z]+", tail):
+        return None, None
+    try:
+        parse_unit(tail)
+    except (ValueError, KeyError):
+        return None, None
+    return tail, si_unit(tail)
 
 
 def propose(scenario: Scenario, table: Sniffed, source: Path) -> Proposal:

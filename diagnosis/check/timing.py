@@ -118,7 +118,7 @@ def percent(share: float) -> str:
     """A share as a person reads it: never 100 % of what is not whole.
 
     >>> percent(0.99987), percent(0.5), percent(0.0)
-    ('99.99 %', '50 %', '0 %')
+    ('99.98 %', '50 %', '0 %')
     """
     if share > 0.99:
         return f"{min(np.floor(1e4 * share) / 100, 99.99):.4g} %"

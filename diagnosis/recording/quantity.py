@@ -97,8 +97,22 @@ class Target:
 
     @property
     def is_component(self) -> bool:
-        """Whether it is a variable of a component, named `component.variable[element]`."""
-        return self.kind not in _KINDS
+        """Whether it is a variable of a component, named `component.variable[element]`.
+
+        A component may be called `coil` or `supply`: `coil.current` names no coil of a circuit, which has a number.
+        """
+        return self.kind not in _KINDS or (not self.element and not _is_whole(self.kind, self.quantity))
+
+
+def _is_whole(kind: str, quantity: str) -> bool:
+    """Whether an element of a kind is named without a number: `supply.current`."""
+    quantities, indices = _KINDS[kind]
+    return 0 in indices and quantity in quantities
+
+
+def is_numbered(kind: str) -> bool:
+    """Whether elements of a kind have numbers: coils, strings, links, markers."""
+    return kind in _KINDS and 0 not in _KINDS[kind][1]
 
 
 def parse_quantity(name: str) -> Target:
@@ -109,13 +123,15 @@ def parse_quantity(name: str) -> Target:
 
     >>> parse_quantity("coil[2,5].temperature")
     Target(kind='coil', element=(2, 5), quantity='temperature', unit='1')
+    >>> parse_quantity("coil[2,5].temperature").is_component, parse_quantity("coil.current").is_component
+    (False, True)
     """
     match = _NAME.match(name)
     if match is None:
         raise ValueError(f"`{name}` is no name of a quantity, such as `coil[2,5].temperature` or `supply.current`")
     kind, quantity = match["kind"], match["quantity"]
     element = tuple(int(i) for i in (match["index"] or match["last"] or "").split(",") if i)
-    if kind not in _KINDS:
+    if kind not in _KINDS or not (element or _is_whole(kind, quantity)):
         return Target(kind, element, quantity)
     quantities, indices = _KINDS[kind]
     if quantity not in quantities:

@@ -12,7 +12,7 @@ import xarray as xr
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import conversion
-from diagnosis.recording.quantity import Target
+from diagnosis.recording.quantity import Target, is_numbered
 
 #: Quantities that jump with the supply: nothing is drawn between two outputs but a straight line.
 _FLOWS = frozenset({"current", "voltage", "power"})
@@ -129,8 +129,18 @@ def _variable(results: xr.Dataset, target: Target, source: Path) -> str:
     ):
         remedy = "name `string[n].voltage`, across the coils of a string"
         raise InputError(source, f"channels.{target}", "every string has a supply of its own", remedy)
+    own = f"{target.kind}.{target.quantity}"  # a component may be called `supply`
+    if own in results and not target.element:
+        return own
     there = ", ".join(str(n) for n in results)
-    raise InputError(source, f"channels.{target}", "the scenario has no such quantity", f"it has: {there}")
+    raise InputError(source, f"channels.{target}", "the scenario has no such quantity", _remedy(target, there))
+
+
+def _remedy(target: Target, there: str) -> str:
+    """What to name instead: `coil.temperature` may be meant as that of a coil of a circuit."""
+    if is_numbered(target.kind):
+        return f"write `{target.kind}[1].{target.quantity}`, counted from 1, for one of several; it has: {there}"
+    return f"it has: {there}"
 
 
 def _fits(values: xr.DataArray, target: Target) -> bool:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import yaml
 
 from cosim.scenario import load_scenario
 from diagnosis.check.check import check_recordings
@@ -32,6 +33,18 @@ def test_the_recording_with_another_run_s_input_is_named_and_nulls_and_missing_l
     assert told.recording == "run_2"
     assert told.is_serious  # nothing of its course is explained, and all of the others' is
     assert "of the variance of each other recording" in told.statement
+
+
+def test_recordings_that_are_met_within_their_noise_are_all_alike(tmp_path: Path) -> None:
+    """Nothing is left of any: ten times nothing is no more than nothing."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    for recording in recordings:
+        sidecar = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
+        for channel in sidecar["channels"].values():
+            channel["noise"] = f"0.1 {channel['unit']}"  # far more than what numbers that are off leave
+        (recording / "recording.yaml").write_text(yaml.safe_dump(sidecar), encoding="utf-8")
+    assert _doubts(tmp_path, recordings) == []
 
 
 def test_a_law_that_is_missing_in_all_recordings_makes_none_of_them_odd(tmp_path: Path) -> None:

@@ -131,7 +131,7 @@ WRONG = [
     ({"channels": channel(noise="-1 K")}, "channels.coil[1].temperature.noise", "is not positive"),
     ({"channels": channel(maximum="3 V")}, "channels.coil[1].temperature.maximum", "3 V"),
     ({"channels": {"coil[0].temperature": {"column": "T", "unit": "degC"}}}, "channels.coil[0].temperature", "from 1"),
-    ({"channels": {"coil.temperature": {"column": "T", "unit": "degC"}}}, "channels.coil.temperature", "write `coil"),
+    ({"channels": {"coil[1,2,3].temperature": {"column": "T", "unit": "K"}}}, "channels.coil[1,2,3]", "write `coil"),
     ({"channels": {"coil[1].colour": {"column": "T", "unit": "degC"}}}, "channels.coil[1].colour", "no colour"),
     ({"time": {"unit": "V"}}, "time.unit", "V cannot be converted to s"),
     ({"time": {"column": "clock"}}, "time.column", "there is no column `clock`"),
