@@ -76,10 +76,7 @@ def _elsewhere(compared: Compared) -> Iterator[tuple[Doubt, Beside, bool]]:
     every = [
         b
         for b in every
-        if not _stated(compared, b) > 0.0
-        and not _is_flow(b)
-        and not _is_driven_before(b)
-        and len(b.pick) > FEWEST_VALUES
+        if not _is_unknown(compared, b) and not _is_flow(b) and not _is_driven_before(b) and len(b.pick) > FEWEST_VALUES
     ]
     limit = normal_beyond(LEVEL / (2.0 * max(len(every), 1)))
     for beside in every:
@@ -170,6 +167,15 @@ def _stated(compared: Compared, beside: Beside) -> float:
         except ValueError:
             continue  # another quantity
     return max(found)
+
+
+def _is_unknown(compared: Compared, beside: Beside) -> bool:
+    """Whether the recording says that it does not know a number of the channel's component exactly.
+
+    A channel of another quantity may begin with it too: a pressure of steam with the temperature of its water.
+    """
+    own = beside.channel.name.split(".")[0]
+    return any(key.split(".")[0] == own for key in compared.recording.uncertain) or _stated(compared, beside) > 0.0
 
 
 def _is_driven_before(beside: Beside) -> bool:

@@ -17,6 +17,7 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
+from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import held, tank, write_recording
 
 STEP, COUNT = 2.0, 400
@@ -125,3 +126,33 @@ def test_a_number_that_is_off_moves_no_start(tmp_path: Path) -> None:
 def test_one_recording_alone_is_no_odd_one(tmp_path: Path) -> None:
     (told,) = _starts(tmp_path, _recordings(tmp_path, (0.7,)))
     assert not told.is_serious
+
+
+@pytest.mark.parametrize(("uncertain", "count"), [("", 1), ("uncertain: {tank.depth: 3 cm}\n", 0)])
+def test_a_pressure_begins_elsewhere_where_a_depth_is_said_to_be_unknown(
+    tmp_path: Path, uncertain: str, count: int
+) -> None:
+    """The unknown start is of another quantity than the channel: 3 cm of water are 290 Pa."""
+    OdeModel(
+        "tank",
+        {"depth": (0.4, "m"), "area": (0.5, "m^2"), "leak": (0.02, "m^2/s")},
+        {"inflow": "m^3/s"},
+        {"h": ("m", "depth", "(inflow - leak*h)/area")},
+        {"pressure": ("Pa", "9810.0*h")},
+    ).build(tmp_path)
+    text = (
+        "title: A tank\ntime: {stop: 800 s, macro_step: 2 s, output_step: 2 s}\ncomponents:\n"
+        "  pump: {kind: programme, outputs: {inflow: {unit: m^3/s, constant: 0.01 m^3/s}}}\n"
+        "  tank: {kind: fmu, fmu: tank.fmu, integrator: cvode}\nconnections: [pump.inflow -> tank.inflow]\n"
+    )
+    (tmp_path / "scenario.yaml").write_text(text, encoding="utf-8")
+    recordings = []
+    for number, start in enumerate((0.4, 0.46, 0.4)):
+        rng = np.random.default_rng(number)
+        inflow = np.repeat(rng.uniform(0.004, 0.016, COUNT // 20), 20)
+        level = held(lambda x, flow: np.array([(flow - 0.02 * x[0]) / 0.5]), np.array([start]), inflow, STEP)[:, 0]
+        columns = {"t": STEP * np.arange(COUNT), "u": inflow, "p": 9810.0 * level + 10.0 * rng.standard_normal(COUNT)}
+        inputs, channels = {"pump.inflow": ("u", "m^3/s")}, {"tank.pressure": ("p", "Pa", "10 Pa")}
+        recordings.append(write_recording(tmp_path / f"run_{number + 1}", columns, inputs, channels, uncertain))
+    told = _starts(tmp_path, recordings)
+    assert [d.recording for d in told if d.is_serious] == ["run_2"] * count
