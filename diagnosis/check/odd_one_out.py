@@ -30,46 +30,70 @@ OTHERS = 2
 
 @dataclass(frozen=True)
 class _Left:
-    """Shares of a channel's variance that the scenario leaves: as it is, and scaled and shifted as suits best."""
+    """What the scenario leaves of a channel: as it is, and scaled and shifted as suits best.
+
+    Args:
+        name: Of the channel.
+        as_is: Share of the variance.
+        scaled: Share of the variance.
+        size: Mean square, scaled and shifted, in the channel's unit.
+    """
 
     name: str
     as_is: float
     scaled: float
+    size: float
 
 
 def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
-    """Doubts about recordings that stand out from the others, one each; serious where little of one is explained."""
+    """Doubts about recordings that stand out from the others, one each; serious where little of one is explained.
+
+    Others are met as they are, or scaled and shifted where numbers are off. Then a recording in which little moves is
+    no odd one: more of its variance is left, and no more of its unit. It is not serious by itself.
+    """
     channels = [_left(one) for one in every]
-    left = [max((c.as_is for c in own), default=None) for own in channels]
     found = []
-    for number, (one, own) in enumerate(zip(every, left)):
-        others = [v for i, v in enumerate(left) if i != number and v is not None]
-        if own is None or len(others) < OTHERS or max(others) > 1.0 - MET or own < max(TIMES * max(others), LEAST):
+    for number, (one, own) in enumerate(zip(every, channels)):
+        others = [c for i, c in enumerate(channels) if i != number and c]
+        if not own or len(others) < OTHERS:
             continue
-        told = f"at least {percent(1.0 - max(others))} of the variance of each other recording that can be compared"
-        text = f"the scenario as it is explains {told} and {percent(max(1.0 - own, 0.0))} of this one's"
-        worst = max(channels[number], key=lambda c: c.scaled)
+        told = _told(own, others)
+        if told is None:
+            continue
+        text, is_as_it_is, z = told
+        worst = max(own, key=lambda c: c.scaled)
         if worst.scaled >= HALF:
             text += f", of {worst.name} at most {percent(1.0 - worst.scaled)} however it is scaled and shifted"
         remedy = (
             "a wrong number shows in all of them, and so does a missing law unless only this one reaches where it "
             "acts: look at this recording's input, start and day first"
         )
-        z = float(np.sqrt(own / max(*others, 1e-12)))
-        found.append(
-            Doubt(
-                one.recording.title,
-                "all channels",
-                "odd one out",
-                text,
-                remedy,
-                worst.scaled >= HALF,
-                one.begin,
-                one.end,
-                z,
-            )
-        )
+        is_serious = is_as_it_is and worst.scaled >= HALF
+        title = one.recording.title
+        found.append(Doubt(title, "all channels", "odd one out", text, remedy, is_serious, one.begin, one.end, z))
     return found
+
+
+def _told(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> tuple[str, bool, float] | None:
+    """How a recording stands out, whether with all numbers as they are, and by how much; None if it does not."""
+    mine, theirs = max(c.as_is for c in own), max(c.as_is for o in others for c in o)
+    if theirs <= 1.0 - MET and mine >= max(TIMES * theirs, LEAST):
+        told = f"at least {percent(1.0 - theirs)} of the variance of each other recording that can be compared"
+        text = f"the scenario as it is explains {told} and {percent(max(1.0 - mine, 0.0))} of this one's"
+        return text, True, float(np.sqrt(mine / max(theirs, 1e-12)))
+    mine, theirs = max(c.scaled for c in own), max(c.scaled for o in others for c in o)
+    if theirs > 1.0 - MET or mine < max(TIMES * theirs, LEAST) or not _is_larger(own, others):
+        return None
+    told = f"at least {percent(1.0 - theirs)} of the variance of each channel in each other recording"
+    text = f"scaled and shifted as suits each channel best, the scenario explains {told}, and here as little as "
+    return f"{text}{percent(1.0 - mine)}", False, float(np.sqrt(mine / max(theirs, 1e-12)))
+
+
+def _is_larger(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> bool:
+    """Whether what is left of the channel that is explained least is larger in its unit too."""
+    worst = max(own, key=lambda c: c.scaled)
+    sizes = [c.size for o in others for c in o if c.name == worst.name]
+    return bool(sizes) and worst.size >= TIMES * max(sizes)
 
 
 def _left(one: Compared) -> list[_Left]:
@@ -88,5 +112,6 @@ def _left(one: Compared) -> list[_Left]:
         as_is = max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / total
         moves = float(np.std(beside.simulated_there)) > 0.0
         followed = float(np.corrcoef(beside.measured, beside.simulated_there)[0, 1]) if moves else 0.0
-        shares.append(_Left(name, as_is, 1.0 - max(followed, 0.0) ** 2))
+        scaled = max(1.0 - max(followed, 0.0) ** 2 - beside.floor**2 / total, 0.0)
+        shares.append(_Left(name, as_is, scaled, scaled * total))
     return shares

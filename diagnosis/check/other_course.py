@@ -47,7 +47,7 @@ BEYOND = 0.1
 #: Correlation with the stated course below which an estimate is unlike it: courses of ten levels that have nothing to
 #: do with each other stay below it in 98 of 100 draws. Share of the range by which one differs at least.
 UNLIKE, APART = 0.7, 0.2
-#: Deviations of the noise from which a channel answers to an input that goes through its range.
+#: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
 
 
@@ -104,14 +104,15 @@ def _estimated(
                 other[k] += step if values[k] + step <= bounds[1] else -step
                 rows.append((_simulated(one, channels, course, held, other) - here) / (other[k] - values[k]))
             slopes = np.array(rows).T
-            if sum(_answers(b, part) for b, part in zip(channels.values(), _parts(channels, slopes * step))) < CHANNELS:
+            risen = _parts(channels, slopes.sum(axis=1) * step)
+            if sum(_answers(b, part) for b, part in zip(channels.values(), risen)) < CHANNELS:
                 return None
             goal = measured - here + slopes @ values
             values = np.asarray(lsq_linear(slopes * weights[:, None], goal * weights, bounds).x)
         after = _parts(channels, _simulated(one, channels, course, held, values))
     except RunStopped:
         return None
-    explained = 1.0 - max(_left(b, part) for b, part in zip(channels.values(), after))
+    explained = 1.0 - max(_scaled_left(b, part) for b, part in zip(channels.values(), after))
     likeness = _likeness(stated, values, bounds)
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
@@ -154,7 +155,7 @@ def _parts(channels: dict[str, Beside], every: Array) -> list[Array]:
 
 
 def _answers(beside: Beside, part: Array) -> bool:
-    """Whether a channel answers to an input that goes through half its range, in any of its steps."""
+    """Whether a channel answers to an input that is higher by half its range from the begin on."""
     return bool(np.max(np.abs(part)) > ANSWERS * beside.floor)
 
 
@@ -172,6 +173,14 @@ def _left(beside: Beside, simulated: Array) -> float:
     return max(rest, 0.0) / _size(beside) ** 2
 
 
+def _scaled_left(beside: Beside, simulated: Array) -> float:
+    """The same, scaled and shifted as suits best: numbers of the model may be off by what is stated."""
+    if not np.std(simulated) > 0.0:
+        return 1.0
+    followed = max(float(np.corrcoef(beside.measured, simulated)[0, 1]), 0.0)
+    return max(1.0 - followed**2 - beside.floor**2 / _size(beside) ** 2, 0.0)
+
+
 def _doubt(one: Compared, course: Course, explained: float, likeness: float) -> Doubt:
     lefts = {n: _left(b, b.simulated_there) for n, b in one.channels.items() if b.is_comparable and _varies(b)}
     worst = max(lefts, key=lambda n: lefts[n])
@@ -180,8 +189,8 @@ def _doubt(one: Compared, course: Course, explained: float, likeness: float) -> 
     text = (
         f"with the {origin} course of {course.name} the scenario as it is explains {mine} of the "
         f"variance of {worst}; with another one within the range of all recordings, which is unlike it "
-        f"(correlation {likeness:.2f}), at least {percent(explained)} of each channel's; the other recordings "
-        f"are met with theirs"
+        f"(correlation {likeness:.2f}), at least {percent(explained)} of each channel's, scaled and shifted as suits "
+        f"best; the other recordings are met with theirs"
     )
     remedy = (
         f"is the column of `inputs.{course.name}` of another run? Give the one that was logged with these readings"

@@ -65,3 +65,14 @@ def test_a_recording_that_is_met_in_part_stands_out_and_is_searched_all_the_same
     (told,) = _doubts(tmp_path, recordings)
     assert told.recording == "run_2"
     assert not told.is_serious
+
+
+def test_a_recording_in_which_little_moves_is_no_odd_one(tmp_path: Path) -> None:
+    """Friction that the model lacks takes most of a small motion: no more of its unit than of a large one."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -0.5 * float(np.tanh(v / 0.02)))
+    table = pd.read_csv(recordings[1] / "data.csv")
+    for name in table.columns[1:]:
+        table[name] *= 0.1
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    assert [d for d in _doubts(tmp_path, recordings) if d.is_serious] == []

@@ -105,6 +105,17 @@ def test_a_programme_that_was_not_played_is_told_of_the_recording_that_states_it
     assert "stated course" in doubt.statement
 
 
+def test_numbers_of_the_model_that_are_off_hide_no_other_run(tmp_path: Path) -> None:
+    """As it is the scenario meets no recording to 95 %; scaled and shifted it meets the others."""
+    recordings = _recordings(tmp_path, (1, 12, 3))
+    scenario = tmp_path / "scenario.yaml"
+    text = scenario.read_text(encoding="utf-8")
+    off = text.replace("integrator: cvode", "integrator: cvode, parameters: {G_out: 0.9 W/K, C_2: 1000 J/K}")
+    scenario.write_text(off, encoding="utf-8")
+    (doubt,) = _of_power(_doubts(tmp_path, recordings))
+    assert (doubt.recording, doubt.subject, doubt.is_serious) == ("run_2", "heater.power", True)
+
+
 def test_nothing_is_told_of_inputs_that_acted(tmp_path: Path) -> None:
     assert _of_power(_doubts(tmp_path, _recordings(tmp_path, (1, 2, 3)))) == []
 
