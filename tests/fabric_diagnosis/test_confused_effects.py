@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from diagnosis.judge.acceptance import STRENGTHS, _confused
+from diagnosis.judge.acceptance import STRENGTHS, _confused, _scattered
 from diagnosis.judge.judge import INTERPOLATED, _alternatives, _open_rivals
 from diagnosis.judge.unfitted import Predicted
 from diagnosis.models.fabric import search as fabric_search
@@ -118,3 +119,33 @@ def test_rivals_are_asked_at_their_fitted_strength_and_at_others() -> None:
 
 def test_names_are_as_open_as_the_search_goes_on() -> None:
     assert INTERPOLATED == fabric_search.BEHIND
+
+
+class Rejecting(Judge):
+    """A judge whose readings, of training or held out, do or do not reject a model without an effect."""
+
+    def __init__(self, does_reject: bool) -> None:
+        super().__init__()
+        self.model, self._does_reject = SimpleNamespace(has_scatter=True), does_reject
+
+    def rejects(self, point: Point) -> bool:
+        return self._does_reject
+
+
+@pytest.mark.parametrize(
+    ("does_reject", "unit", "count"), [(False, "mechanical", 1), (True, "mechanical", 0), (False, "thermal", 0)]
+)
+def test_an_effect_that_no_readings_ask_for_is_not_accepted_of_what_scatters(
+    does_reject: bool, unit: str, count: int
+) -> None:
+    """Two equal fabrics part in a direction, and a weak law of the fabric may follow it, held out too."""
+    without = SimpleNamespace(point=Point(np.zeros(1)))
+    told = _scattered(Rejecting(does_reject), replace(TILT, unit=unit), without)  # type: ignore[arg-type]
+    assert len(told) == count
+    assert not told or "reject the model without it" in told[0]
+
+
+def test_of_a_model_that_does_not_scatter_no_readings_have_to_reject_it() -> None:
+    judge = Rejecting(False)
+    judge.model = SimpleNamespace(has_scatter=False)
+    assert _scattered(judge, TILT, SimpleNamespace(point=Point(np.zeros(1)))) == []  # type: ignore[arg-type]
