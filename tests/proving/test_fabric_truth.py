@@ -9,6 +9,7 @@ import pytest
 
 from evaluation.fabrics.__main__ import main as diagnose_draw
 from evaluation.fabrics.score import page, score
+from evaluation.proving.fabric import truth
 from evaluation.proving.fabric.case import FabricCase, drawn_case, write_cases
 from evaluation.proving.fabric.truth import COLUMNS, HELD, ROWS, Specimen, drape
 from evaluation.proving.fabric.weave import Measures, weave
@@ -160,3 +161,13 @@ def test_nothing_false_is_said_of_a_small_fabric_from_another_engine(tmp_path, n
     assert not found["failed"]
     assert found["false"] == []
     assert all(said.split()[0] in allowed for said in found["said"] if "(named)" in said)
+
+
+def test_strong_damping_is_simulated_in_finer_steps(monkeypatch) -> None:
+    """In steps of a quarter of a millisecond slides that are damped by 36 N s/m ran away, and became a recording."""
+    damped = Specimen(effects={"viscous_damping": 36.0})
+    places = drape(damped, 0.08, 0.04, np.random.default_rng(1))
+    assert np.abs(places).max() < 0.3
+    monkeypatch.setattr(truth, "LIGHT", np.inf)
+    with pytest.raises(ValueError, match="runs away"):
+        drape(damped, 0.08, 0.04, np.random.default_rng(1))
