@@ -22,12 +22,14 @@ import numpy as np
 import xarray as xr
 from scipy.optimize import lsq_linear
 
+from cosim.components import nanoseconds
 from cosim.run import RunStopped
+from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
-from diagnosis.check.beside import Beside, Compared, Course, has_fabric
+from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.models.systems.run import run_quickly
+from diagnosis.models.systems.run import is_system, run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Input
 from diagnosis.recording.series import sample, series_of
@@ -47,6 +49,8 @@ BEYOND = 0.1
 #: Correlation with the stated course below which an estimate is unlike it: courses of ten levels that have nothing to
 #: do with each other stay below it in 98 of 100 draws. Share of the range by which one differs at least.
 UNLIKE, APART = 0.7, 0.2
+#: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
+MOST = 40_000
 #: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
 
@@ -59,7 +63,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         others: The other recordings of the same rig, which the scenario meets.
     """
     channels = {n: b for n, b in one.channels.items() if b.is_comparable and _varies(b)}
-    if one.base is None or has_fabric(one.scenario) or len(channels) < CHANNELS:
+    if one.base is None or not _is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
     if max(_left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
@@ -74,6 +78,13 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         if told is not None:
             found.append((course, *told))
     return _doubt(one, *found[0]) if len(found) == 1 else None
+
+
+def _is_quick(scenario: Scenario) -> bool:
+    """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
+    time = scenario.time
+    steps = (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
+    return is_system(scenario) and steps <= MOST
 
 
 def _estimated(

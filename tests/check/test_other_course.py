@@ -12,6 +12,7 @@ import yaml
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
+from diagnosis.check import other_course
 from diagnosis.check.check import check_recordings
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
@@ -103,6 +104,15 @@ def test_a_programme_that_was_not_played_is_told_of_the_recording_that_states_it
     (doubt,) = _of_power(_doubts(tmp_path, recordings))
     assert (doubt.recording, doubt.subject, doubt.is_serious) == ("run_2", "heater.power", True)
     assert "stated course" in doubt.statement
+
+
+def test_where_it_would_take_minutes_the_recording_stands_out_and_no_input_is_accused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(other_course, "MOST", COUNT - 1)
+    doubts = _doubts(tmp_path, _recordings(tmp_path, (1, 12, 3)))
+    assert _of_power(doubts) == []
+    assert [d.recording for d in doubts if d.kind == "odd one out"] == ["run_2"]
 
 
 def test_numbers_of_the_model_that_are_off_hide_no_other_run(tmp_path: Path) -> None:
