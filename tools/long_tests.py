@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 #: Seconds from which a test is long: what is shorter takes about ten minutes of two cores in all.
-LONG = 4.0
+LONG = 2.5
 #: The list: seconds and the test, as pytest calls it.
 LIST = Path(__file__).resolve().parents[1] / "tests" / "long_tests.txt"
 

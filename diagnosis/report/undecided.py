@@ -31,6 +31,11 @@ _UNJUDGED = (
     "Record another programme and hold that out: what is suggested is in the rig if it predicts that better, and "
     "stands for something else if not."
 )
+#: The same of a fabric whose readings are predicted better with what is suggested, by no more than it scatters.
+_WITHIN = (
+    "Record a motion in which it would move the fabric by more than equal fabrics differ by, with more heat or load or "
+    "of more markers: what is suggested predicts these readings better, but by no more than such fabrics differ by."
+)
 #: What would decide about a fault with begin and end, which no other recording can show.
 _OF_ONE_RECORDING = (
     "Repeat the recording of the fault with a second sensor beside the one that is suspected: a fault of a sensor does "
@@ -103,11 +108,19 @@ def what_decides(diagnosis: Diagnosis) -> str:
             return _OF_ONE_RECORDING
         if all(waits(f) for f in diagnosis.suggestions):
             return _FIRST
+        if _is_within_scatter(diagnosis):
+            return _WITHIN
         return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
         worst = diagnosis.adequacy.worst
         return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
     return "" if diagnosis.next_experiment is not None or not diagnosis.left else _of_the_rest(diagnosis)
+
+
+def _is_within_scatter(diagnosis: Diagnosis) -> bool:
+    """Whether simulations scatter and all that is suggested predicts the readings that judge better."""
+    has_scatter = diagnosis.adequacy is not None and diagnosis.adequacy.has_scatter
+    return has_scatter and all(f.held_out_gain > 0.0 for f in diagnosis.suggestions)
 
 
 def _of_the_rest(diagnosis: Diagnosis) -> str:

@@ -22,6 +22,7 @@ from diagnosis.report.page import write_html
 from diagnosis.report.section import TEMPLATES
 from diagnosis.report.series import Series
 from diagnosis.report.summary import LINES, print_summary
+from diagnosis.report.undecided import what_decides
 from diagnosis.report.user_units import Units
 from tests.diagnosis.report_examples import CONTACT, EXPERIMENT, LAG, diagnosis, series
 from tests.diagnosis.test_report import Page, read_page
@@ -210,3 +211,27 @@ def test_only_the_best_extra_channel_is_called_so(tmp_path: Path) -> None:
     text = page_of(replace(unexplained(), isolability=Isolability((), (), extra)), [], tmp_path)
     assert "it would tell force from a sensor." in text
     assert "help most" not in text
+
+
+@pytest.mark.parametrize(
+    ("gain", "has_scatter", "text"),
+    [
+        (11.5, True, "by no more than such fabrics differ by"),
+        (-300.0, True, "predicts the repeat worse too"),
+        (11.5, False, "predicts the repeat worse too"),
+    ],
+)
+def test_what_decides_where_readings_are_met_better_within_the_scatter_of_contacts(
+    gain: float, has_scatter: bool, text: str
+) -> None:
+    told = rejected()
+    (lag,) = told.findings
+    held_out = replace(told.fit[0], is_held_out=True)
+    assert told.adequacy is not None
+    told = replace(
+        told,
+        findings=(replace(lag, held_out_gain=gain),),
+        fit=(*told.fit, held_out),
+        adequacy=replace(told.adequacy, has_scatter=has_scatter),
+    )
+    assert text in what_decides(told)
