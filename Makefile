@@ -43,7 +43,7 @@ real: dev fmus  ## the diagnosis on public recordings: make real RECORDINGS=fold
 	test -d $(REAL)/recordings/paper_cooling || $(BIN)/python -m evaluation.real.paper_cooling --out $(REAL)/recordings
 	$(BIN)/python -m evaluation.real.table --recordings $(REAL)/recordings --out $(REAL)/diagnoses
 
-test: dev fmus  ## the tests that took less than 2.5 seconds each when measured (about ten minutes on two cores)
+test: dev fmus  ## the tests that took less than 2.5 seconds each when measured (twelve minutes on two cores)
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow and not long"
 
 test-long: dev fmus  ## tests of seconds to a minute each, listed in tests/long_tests.txt (about half an hour)
