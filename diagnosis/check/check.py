@@ -85,7 +85,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
 
 
 def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
-    """A doubt about a recording that stands out: why, where that is known; no serious one where it is told already."""
+    """A doubt about a recording that stands out: why, where that is known; not serious where another doubt says why."""
     if is_told:
         return replace(doubt, is_serious=False)
     one = next(o for o in every if o.recording.title == doubt.recording)

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.check.beside import Compared
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 
@@ -97,21 +98,32 @@ def _is_larger(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> bool:
 
 
 def _left(one: Compared) -> list[_Left]:
-    """What is left of each channel; empty where nothing can be compared.
-
-    Of channels that change by far more than their noise: of others the noise is the variance.
-    """
+    """What is left of each channel; empty where nothing can be compared."""
     shares = []
-    for name, beside in one.channels.items():
-        if not beside.is_comparable:
-            continue
-        total = float(np.var(beside.measured))
-        if total <= (TIMES * beside.floor) ** 2:
-            continue
-        rest = beside.measured - beside.simulated_there
-        as_is = max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / total
-        moves = float(np.std(beside.simulated_there)) > 0.0
-        followed = float(np.corrcoef(beside.measured, beside.simulated_there)[0, 1]) if moves else 0.0
-        scaled = max(1.0 - max(followed, 0.0) ** 2 - beside.floor**2 / total, 0.0)
-        shares.append(_Left(name, as_is, scaled, scaled * total))
+    for name, beside in comparable(one).items():
+        scaled = scaled_left(beside, beside.simulated_there)
+        size = scaled * float(np.var(beside.measured))
+        shares.append(_Left(name, left(beside, beside.simulated_there), scaled, size))
     return shares
+
+
+def comparable(one: Compared) -> dict[str, Beside]:
+    """Channels that change by far more than their noise: of others the noise is the variance."""
+    return {
+        name: b
+        for name, b in one.channels.items()
+        if b.is_comparable and float(np.var(b.measured)) > (TIMES * b.floor) ** 2
+    }
+
+
+def left(beside: Beside, simulated: Array) -> float:
+    """Share of a channel's variance that simulated readings leave, beyond what says nothing."""
+    rest = float(np.mean((beside.measured - simulated) ** 2)) - beside.floor**2
+    return max(rest, 0.0) / float(np.var(beside.measured))
+
+
+def scaled_left(beside: Beside, simulated: Array) -> float:
+    """The same, scaled and shifted as suits best."""
+    moves = float(np.std(simulated)) > 0.0
+    followed = float(np.corrcoef(beside.measured, simulated)[0, 1]) if moves else 0.0
+    return max(1.0 - max(followed, 0.0) ** 2 - beside.floor**2 / float(np.var(beside.measured)), 0.0)

@@ -27,6 +27,7 @@ from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.odd_one_out import comparable, left, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.systems.run import is_system, run_quickly
@@ -62,10 +63,10 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         one: A recording that stands out (`diagnosis.check.odd_one_out`).
         others: The other recordings of the same rig, which the scenario meets.
     """
-    channels = {n: b for n, b in one.channels.items() if b.is_comparable and _varies(b)}
+    channels = comparable(one)
     if one.base is None or not _is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
-    if max(_left(b, b.simulated_there) for b in channels.values()) < MISSED:
+    if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
     found = []
     for course in one.courses:
@@ -77,7 +78,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         told = _estimated(one, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    return _doubt(one, *found[0]) if len(found) == 1 else None
+    return _doubt(one, channels, *found[0]) if len(found) == 1 else None
 
 
 def _is_quick(scenario: Scenario) -> bool:
@@ -123,7 +124,7 @@ def _estimated(
         after = _parts(channels, _simulated(one, channels, course, held, values))
     except RunStopped:
         return None
-    explained = 1.0 - max(_scaled_left(b, part) for b, part in zip(channels.values(), after))
+    explained = 1.0 - max(scaled_left(b, part) for b, part in zip(channels.values(), after))
     likeness = _likeness(stated, values, bounds)
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
@@ -174,26 +175,8 @@ def _size(beside: Beside) -> float:
     return float(np.std(beside.measured))
 
 
-def _varies(beside: Beside) -> bool:
-    return _size(beside) > ANSWERS * beside.floor
-
-
-def _left(beside: Beside, simulated: Array) -> float:
-    """Share of a channel's variance that is left beyond what says nothing."""
-    rest = float(np.mean((beside.measured - simulated) ** 2)) - beside.floor**2
-    return max(rest, 0.0) / _size(beside) ** 2
-
-
-def _scaled_left(beside: Beside, simulated: Array) -> float:
-    """The same, scaled and shifted as suits best: numbers of the model may be off by what is stated."""
-    if not np.std(simulated) > 0.0:
-        return 1.0
-    followed = max(float(np.corrcoef(beside.measured, simulated)[0, 1]), 0.0)
-    return max(1.0 - followed**2 - beside.floor**2 / _size(beside) ** 2, 0.0)
-
-
-def _doubt(one: Compared, course: Course, explained: float, likeness: float) -> Doubt:
-    lefts = {n: _left(b, b.simulated_there) for n, b in one.channels.items() if b.is_comparable and _varies(b)}
+def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained: float, likeness: float) -> Doubt:
+    lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
     worst = max(lefts, key=lambda n: lefts[n])
     origin = "recorded" if course.is_recorded else "stated"
     mine = percent(max(1.0 - lefts[worst], 0.0))

@@ -46,8 +46,9 @@ def isolability(model: DiagnosisModel, fit: Fit, terms: Sequence[Term]) -> Isola
         fit: Recalibrated, without terms.
         terms: Effects that may be missing, at their places.
     """
-    if model.answers is not None:
-        return of_answers(model.answers)
+    answers = model.answers
+    if answers is not None:
+        return of_answers(answers)
     shown, alike = effects(model, fit, widest(terms))
     by_size = list(_by_size(shown, alike))
     network = model.coil_network

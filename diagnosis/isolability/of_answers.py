@@ -25,7 +25,7 @@ from diagnosis.models.answers import Answers
 from diagnosis.models.fabric.scatter import Bins, Whitening, engine_covariance, scatter_covariance
 from diagnosis.search.problem import Term
 
-#: Fewest starts of an effect from which its size is told without what contacts scatter by.
+#: Fewest starts of an effect from which its size is known without what contacts scatter by.
 STARTS = 2
 #: Effects and pairs that a sentence lists.
 LISTED = 6
@@ -135,8 +135,7 @@ def _strength(own: Mapping[float, Array]) -> float | None:
 
 def _told(answers: Answers, every: Sequence[tuple[Term, float]], extra: str) -> _Told:
     chosen = answers.chosen(extra)
-    b = answers.bins
-    bins = Bins(*(v[chosen] for v in (b.channel, b.time, b.recording, b.group, b.noise, b.scale)))
+    bins = answers.bins.only(chosen)
     members = answers.members[:, chosen]
     engines = None if answers.difference is None else engine_covariance(answers.difference[chosen], bins)
     whiten = _whitening(members, bins, engines)

@@ -11,9 +11,10 @@ import pytest
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.isolability.of_answers import _told, of_answers
-from diagnosis.models.answers import AnswerBins, Answers
+from diagnosis.models.answers import Answers
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.scatter import Bins
 from diagnosis.models.fabric.search import Effort, _Plan
 from diagnosis.search.problem import Term, TermParameter
 from diagnosis.search.search import Settings
@@ -26,14 +27,13 @@ TIME = np.repeat(np.linspace(0.0, 1.0, TIMES), CHANNELS)
 ABOVE, SIDE = (CHANNEL >= 6) & (CHANNEL < 9), CHANNEL >= 9
 EXTRA = np.where(ABOVE, "places from above", np.where(SIDE, "places from the side", "")).astype(object)
 SCATTER, NOISE = 4e-5, 1.5e-4
-BINS = AnswerBins(
+BINS = Bins(
     CHANNEL,
     TIME,
     np.zeros(len(TIME), dtype=int),
     np.where(ABOVE, 1, np.where(SIDE, 2, 0)),
     np.full(len(TIME), NOISE),
     np.full(len(TIME), 1e-2),
-    EXTRA,
 )
 
 
@@ -60,7 +60,7 @@ def answers(changes: Mapping[str, np.ndarray], seed: int = 0, slope: np.ndarray 
         for i, (name, change) in enumerate(changes.items())
     }
     slopes = np.zeros((1, len(TIME))) if slope is None else slope[None, :]
-    return Answers(BINS, runs(8, 1000 * seed), None, slopes, effects, ("fabric.link_mass",))
+    return Answers(BINS, EXTRA, runs(8, 1000 * seed), None, slopes, effects, ("fabric.link_mass",))
 
 
 def test_an_effect_that_is_seen_from_above_alone_is_not_shown_and_that_view_would_help() -> None:

@@ -375,6 +375,7 @@ class FabricModel(ModelBase):
                 effects.setdefault(term, {}).setdefault(values[0], []).append(row)
         return Answers(
             self._unmeasured.with_scale(plain),
+            self._unmeasured.extra,
             plain,
             np.mean(elsewhere, axis=0) - mean if elsewhere else None,
             slopes,

@@ -43,6 +43,11 @@ class Bins:
     noise: Array
     scale: Array
 
+    def only(self, chosen: AnyArray) -> Bins:
+        """Some of them, by a mask of shape (bins,)."""
+        every = (self.channel, self.time, self.recording, self.group, self.noise, self.scale)
+        return Bins(*(v[chosen] for v in every))
+
 
 def scatter_covariance(members: Array, bins: Bins) -> Array:
     """Covariance of one more fabric of the same kind about the mean of an ensemble, without sensors' noise.

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.unit.protocol import AnyArray, Array
-from diagnosis.models.answers import AnswerBins
+from cosim.unit.protocol import Array
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.fabric.bins import Binning
+from diagnosis.models.fabric.scatter import Bins
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel, Recording
 
@@ -95,15 +95,16 @@ class UnmeasuredBins:
             for t in c.times
         ]
         channel, time, recording, group, noise, name = (list(column) for column in zip(*rows)) if rows else [[]] * 6
-        self.bins = AnswerBins(
+        self.bins = Bins(
             np.concatenate([own.channel, np.array(channel, dtype=own.channel.dtype)]),
             np.concatenate([own.time, np.array(time, dtype=float)]),
             np.concatenate([own.recording, np.array(recording, dtype=own.recording.dtype)]),
             np.concatenate([own.group, np.array(group, dtype=own.group.dtype)]),
             np.concatenate([own.noise, np.array(noise, dtype=float)]),
             np.concatenate([own.scale, np.zeros(len(rows))]),
-            np.array([*([""] * len(own.channel)), *name], dtype=object),
         )
+        #: Group of unrecorded channels of each bin, empty where it is recorded, shape (bins,).
+        self.extra = np.array([*([""] * len(own.channel)), *name], dtype=object)
 
     def divided(self, values: Sequence[Sequence[Array]]) -> tuple[list[list[Array]], Array]:
         """Values of the recorded channels, recording by recording, and those of the others in one row."""
@@ -111,14 +112,10 @@ class UnmeasuredBins:
         others: list[Array] = [a for v, n in zip(values, self._recorded) for a in v[n:]]
         return kept, np.concatenate([np.zeros(0), *others])
 
-    def with_scale(self, members: Array) -> AnswerBins:
+    def with_scale(self, members: Array) -> Bins:
         """The bins with the size of the changes of channels that have no readings, from runs, shape (runs, bins)."""
         mean, scale = members.mean(axis=0), self.bins.scale.copy()
-        for number in np.unique(self.bins.channel[_is_extra(self.bins)]):
+        for number in np.unique(self.bins.channel[self.extra != ""]):
             own = self.bins.channel == number
             scale[own] = np.ptp(mean[own])
         return replace(self.bins, scale=scale)
-
-
-def _is_extra(bins: AnswerBins) -> AnyArray:
-    return np.asarray(bins.extra != "")
