@@ -15,6 +15,7 @@ from chainmail.camera.frames import Frames, frame_times
 from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
 from chainmail.camera.rig import FabricLayout, Rig
+from chainmail.camera.shutter import at_one_time, largest_shift, line_delays
 from chainmail.camera.sight import Sight, sight_of
 from chainmail.camera.spots import Size, places_of, size_of
 from chainmail.camera.tracks import GAP, SEEN, Tracks
@@ -23,6 +24,10 @@ from cosim.unit.protocol import AnyArray, Array
 
 #: A marker whose measured diameter is off by this factor is not what the rig describes.
 _OTHER_SIZE = 1.4
+#: From this relative difference on the sizes of the markers, measured and stated, are set side by side.
+_ODD_SIZE = 0.1
+#: Usual time that a rolling shutter takes for a picture [s]: tens of milliseconds.
+_COMMON_READOUT = 0.02
 #: A held row that moves by so much [m], while the last one moves by less than this share of it, is no held row.
 _HELD, _STILL = 5e-3, 0.3
 #: Errors of a marker's centre by pixels and blocks are others after it has moved by so many pixels.
@@ -111,22 +116,53 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     if isinstance(layout, FabricLayout):
         _check_direction(followed, layout, rig_file)
     tracks, factor = with_errors(followed)
-    moving = without_repeats(tracks, is_repeated)
+    moving = _at_one_time(without_repeats(tracks, is_repeated), rig, sight, frames.shape[0])
     tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"), radius)
     pixel = float(sight.pixel_length(_middle(frames))[0])
     notes = (
         *sight.notes,
         f"time: {said}",
-        f"markers: {2e3 * radius:.2f} mm across",
+        f"markers: {2e3 * radius:.2f} mm across{_compared(radius, rig)}",
         f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; "
         f"by its scatter over time {factor:.2f} times that",
     )
+    shift = largest_shift(tracks, _COMMON_READOUT)
+    if not rig.clock.readout.to("s") and shift > float(np.nanmedian(tracks.deviation)):
+        notes = (
+            *notes,
+            "shutter: taken to expose all lines at once. One that rolls, as in most phones and webcams, shifts the "
+            f"fastest markers by up to {1e3 * shift:.2g} mm if it takes {1e3 * _COMMON_READOUT:.0f} ms from the first "
+            "line to the last one: state `clock.readout` then",
+        )
     if cut:
         notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
     late = int(np.sum(is_repeated & (moving.state == GAP).all(axis=1)))
     if late:
         notes = (*notes, f"{late} pictures repeat the one before them while the markers move: they are gaps")
     return _finished(tracks, rig, sight, _GRAIN * pixel, notes, tuple(len(p) for p in places))
+
+
+def _at_one_time(tracks: Tracks, rig: Rig, sight: Sight, height: int) -> Tracks:
+    """Readings of a rolling shutter at the time of their picture."""
+    readout = rig.clock.readout.to("s")
+    if not readout:
+        return tracks
+    lines = np.full(tracks.state.shape, np.nan)
+    is_read = tracks.state != GAP
+    lines[is_read] = sight.pixels(tracks.places[is_read])[:, 1]
+    return at_one_time(tracks, line_delays(lines, height, readout))
+
+
+def _compared(radius: float, rig: Rig) -> str:
+    """What a size that is not the rig's says of its places."""
+    ratio = 2.0 * radius / rig.markers.diameter.to("m")
+    if abs(ratio - 1.0) < _ODD_SIZE:
+        return ""
+    which = "large" if ratio > 1.0 else "small"
+    return (
+        f"; the rig says {rig.markers.diameter}. If that is right, all distances are too {which} by "
+        f"{100.0 * abs(ratio - 1.0):.0f} %, as after another zoom or at another size of the picture"
+    )
 
 
 def _check_direction(tracks: Tracks, layout: FabricLayout, rig_file: Path) -> None:

@@ -166,6 +166,11 @@ class ClockEntry(Strict):
         default="begin", description="Which instant of the exposure a time stamp is."
     )
     exposure: NotNegativeTime = Field(description="How long a frame is exposed.")
+    readout: Seconds = Field(
+        default=PhysicalValue(0.0, "s"),
+        description="Of a rolling shutter: time from the top line to the bottom one; negative where it goes upwards. "
+        "A time stamp is that of the line in the middle.",
+    )
     offset: Seconds = Field(
         default=PhysicalValue(0.0, "s"), description="Time of the scenario at time stamp 0 of the camera."
     )
@@ -179,6 +184,8 @@ class ClockEntry(Strict):
             raise ValueError("give `rate` or `stamps`, not both")
         if self.rate is not None and self.exposure.to("s") > 1.0 / self.rate.to("Hz"):
             raise ValueError(f"exposure: {self.exposure} is longer than a frame at {self.rate}")
+        if self.rate is not None and abs(self.readout.to("s")) > 1.0 / self.rate.to("Hz"):
+            raise ValueError(f"readout: {self.readout} is longer than a frame at {self.rate}")
         return self
 
 

@@ -33,7 +33,7 @@ CAMERA = {
     "exposure": "8 ms",
 }
 #: Time from the first to the last line of a rolling shutter [s], and bands of lines with one time each.
-ROLLING, BANDS = 0.015, 6
+ROLLING, BANDS = 0.015, 24
 Change = Callable[[AnyArray, np.random.Generator], AnyArray]
 
 
@@ -103,6 +103,7 @@ KINDS: dict[str, tuple[dict[str, Any], Change]] = {
     "vignetting": ({}, vignetting),
     "shadow, vignetting and compression 50": ({"jpeg": 50}, lambda p, r: shadow(vignetting(p, r), r)),
     "rolling shutter of 15 ms": ({"begin": "10 ms", "end": "1.48 s"}, plain),
+    "rolling shutter of 15 ms, stated": ({"begin": "10 ms", "end": "1.48 s"}, plain),
 }
 
 
@@ -119,6 +120,10 @@ def film(folder: Path, name: str, seed: int) -> None:
     if name.startswith("rolling"):
         for file, picture in zip(files, _rolling(camera, motion, seed), strict=False):
             cv2.imwrite(str(file), picture, [cv2.IMWRITE_JPEG_QUALITY, camera.jpeg])
+        if name.endswith("stated"):
+            rig = yaml.safe_load((folder / "rig.yaml").read_text(encoding="utf-8"))
+            rig["clock"]["readout"] = f"{ROLLING} s"
+            (folder / "rig.yaml").write_text(yaml.safe_dump(rig, sort_keys=False), encoding="utf-8")
     elif change is not plain:
         for file in files:
             picture = change(cv2.imread(str(file)), np.random.default_rng([seed, 2, number]))
