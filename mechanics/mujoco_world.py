@@ -171,6 +171,9 @@ class MujocoWorld:
 
     def _check(self) -> None:
         """Raise what MuJoCo only counts: it would set a world that diverged back to its start without a word."""
+        # All at once: this is asked after every macro-step.
+        if not self._data.warning.number.any():
+            return
         for kind, warning in enumerate(self._data.warning):
             if warning.number:
                 name = self._mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
