@@ -30,6 +30,7 @@ from evaluation.strangers import (
     sixth_set,
     tenth_set,
     third_set,
+    thirteenth_set,
     twelfth_set,
 )
 from evaluation.strangers.first_set import Rng
@@ -48,6 +49,7 @@ SETS = {
     "tenth": tenth_set.CASES,
     "eleventh": eleventh_set.CASES,
     "twelfth": twelfth_set.CASES,
+    "thirteenth": thirteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
