@@ -28,13 +28,14 @@ from diagnosis.models.fabric.runs import (
     BulletRuns,
     ClosedRuns,
     FabricRuns,
+    beginning,
     divided,
     fabric_layout,
     fabric_of,
     in_other_engine,
 )
 from diagnosis.models.fabric.scatter import FEWEST
-from diagnosis.models.fabric.search import STEP, search_fabric
+from diagnosis.models.fabric.search import SAME, STEP, search_fabric
 from diagnosis.models.fabric.unmeasured import UnmeasuredBins, with_unmeasured
 from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
 from diagnosis.models.timeline import Timeline
@@ -48,6 +49,8 @@ from diagnosis.search.unit_law import UnitLaw
 
 #: Speed of random starts where the scenario gives none [m/s]: within milliseconds it moves links by micrometres.
 START_SPEED = 1e-3
+#: Share of the time of a recording that is simulated first where it is asked whether anything moves at all.
+BEGIN = 0.1
 
 
 class FabricModel(ModelBase):
@@ -97,7 +100,7 @@ class FabricModel(ModelBase):
         assert isinstance(given, FabricComponent)
         #: The recordings with channels that nobody recorded behind their own: the same simulations give both.
         self._wider = with_unmeasured(self.mechanical_recordings, 2 * given.rows, len(found.row))
-        self.fabric_runs = self._simulations(scenario)
+        self.fabric_runs = self._simulations(scenario, self._wider)
         self._scenario = scenario
         #: Why no other engine was asked; empty where one was, or was not asked yet.
         self._is_alone = ""
@@ -128,10 +131,10 @@ class FabricModel(ModelBase):
         self._kept: list[tuple[Point, int, Array]] = []
         self._kept_elsewhere: list[tuple[Point, int, Array]] = []
 
-    def _simulations(self, scenario: Scenario) -> FabricRuns:
+    def _simulations(self, scenario: Scenario, recordings: Sequence[Recording]) -> FabricRuns:
         if self.network is None:
-            return ClosedRuns(scenario, self.component, self._wider, self.batches)
-        return BulletRuns(scenario, self.component, self._wider, self.network, self.batches)
+            return ClosedRuns(scenario, self.component, recordings, self.batches)
+        return BulletRuns(scenario, self.component, recordings, self.network, self.batches)
 
     @property
     def timeline(self) -> Timeline | None:
@@ -315,10 +318,30 @@ class FabricModel(ModelBase):
         """
         return self._bins_by(self.fabric_runs, wanted, self._kept)
 
+    def begins_as_plain(self, wanted: Sequence[Point], plain: Point, start: int) -> list[bool]:
+        """Whether fabrics move at first (`BEGIN`) exactly as the plain one does; a run of that costs little.
+
+        Args:
+            wanted: Points with something that may do nothing.
+            plain: The point without it.
+            start: Random start of all of them.
+        """
+        short = [beginning(r, BEGIN) for r in self._wider]
+        recordings = [r for r in short if r is not None]
+        if len(recordings) < len(short):
+            return [True] * len(wanted)
+        points = [plain, *wanted]
+        own = [self.network_point(p) for p in points]
+        numbers = range(len(recordings))
+        tasks = [(n, self.fabric_parameters(p, n, start), o) for p, o in zip(points, own) for n in numbers]
+        values = self._simulations(self._scenario, recordings).make(tasks)
+        found = [values[k : k + len(recordings)] for k in range(0, len(values), len(recordings))]
+        return [_are_same(found[0], other) for other in found[1:]]
+
     def simulated_elsewhere(self, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
         """The same by the other engine; empty where it is not installed or cannot simulate such a fabric."""
         try:
-            runs = self._simulations(in_other_engine(self._scenario, self.component))
+            runs = self._simulations(in_other_engine(self._scenario, self.component), self._wider)
         except InputError as error:
             self._is_alone = str(error)
             return []
@@ -427,6 +450,14 @@ class FabricModel(ModelBase):
     def is_moved_by(self, term: Term, values: Sequence[float]) -> bool:
         """Asked of its coils: it is not fitted where it judges, and what has an instant or a day belongs to them."""
         return self.network is not None and self.network.is_moved_by(term, values)
+
+
+def _are_same(one: Sequence[list[Array] | None], other: Sequence[list[Array] | None]) -> bool:
+    """Whether two runs of all recordings gave the same; runs that stopped are not compared."""
+    if any(part is None for part in (*one, *other)):
+        return True
+    pairs = [(a, b) for own, rest in zip(one, other) for a, b in zip(own or [], rest or [])]
+    return all(np.allclose(a, b, rtol=0.0, atol=SAME) for a, b in pairs)
 
 
 def _is_nominal(point: Point) -> bool:

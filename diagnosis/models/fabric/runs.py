@@ -91,6 +91,26 @@ def divided(recording: Recording, component: str) -> tuple[Recording, Recording]
     return replace(recording, channels=other), replace(recording, channels=mechanical)
 
 
+def beginning(recording: Recording, share: float) -> Recording | None:
+    """The first part of a recording of a fabric; None where that has no reading.
+
+    Args:
+        recording: With readings of the fabric.
+        share: Of the time from the first reading to the last one.
+    """
+    first = min(float(c.times[0]) for c in recording.channels.values())
+    end = first + share * (recording.end - first)
+    channels = {}
+    for name, channel in recording.channels.items():
+        count = int(np.searchsorted(channel.times, end, side="right"))
+        if count:
+            own = {part: getattr(channel, part)[:count] for part in ("times", "values", "is_clipped")}
+            channels[name] = replace(channel, **own)
+    if not channels:
+        return None
+    return replace(recording, channels=channels, end=max(float(c.times[-1]) for c in channels.values()))
+
+
 class FabricRuns(Protocol):
     """Makes simulations of the fabric."""
 

@@ -240,11 +240,21 @@ class _Plan:
         count = len(self.model.free)
         known = [t for t in self.model.laws() if self.surface.knows(t) and t not in self._asked]
         self._asked |= set(known)
+        if not known:
+            return
         starts = {t: next(iter(self.surface.strengths(t))) for t in known}
-        points = [self._point(np.zeros(count), {t: (s,)}) for t, s in starts.items()]
-        self._left += self._count * len(points)
-        self._enter("whether they do anything at all", len(points))
-        for term, bins in zip(starts, self.model.simulated([(p, self._plain_start) for p in points])):
+        here = np.zeros(count)
+        self._left += self._count * (len(starts) + 1)
+        self._enter("whether they do anything at all", len(starts) + 1)
+        # Most of them show at once: the rest, which may act later, is simulated to the end.
+        first = [self._point(here, {t: (s,)}) for t, s in starts.items()]
+        is_same = self.model.begins_as_plain(first, self._point(here), self._plain_start)
+        late = {t: p for (t, p), same in zip(zip(starts, first), is_same) if same}
+        if not late:
+            return
+        self._left += self._count * len(late)
+        self._enter("whether the others do anything later", len(late))
+        for term, bins in zip(late, self.model.simulated([(p, self._plain_start) for p in late.values()])):
             if bins is not None and np.allclose(bins, self._members[0], rtol=0.0, atol=SAME):
                 self.surface.forget(term)
 
