@@ -270,6 +270,10 @@ class DiagnosisModel(Protocol):
         """Whether its noise holds what the simulation scatters by itself (contacts of a fabric)."""
         ...
 
+    def refine(self, point: Point) -> bool:
+        """See `diagnosis.search.problem.refined`."""
+        ...
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
@@ -445,6 +449,10 @@ class ModelBase:
     def can_be_fitted(self) -> bool:
         """True."""
         return True
+
+    def refine(self, point: Point) -> bool:
+        """False: it simulates all points alike."""
+        return False
 
     @property
     def has_scatter(self) -> bool:

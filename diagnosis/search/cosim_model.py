@@ -32,7 +32,7 @@ BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amende
 STEP = 1e-3
 #: Residuals that are kept: a fit asks again for those where it stands.
 KEPT = 64
-_Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int]
+_Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int, int]
 
 
 @dataclass(frozen=True)
@@ -133,6 +133,10 @@ class CosimModel:
     def terms(self) -> list[Term]:
         """Every law that may be missing."""
         return list(self._terms)
+
+    def refine(self, point: Point) -> bool:
+        """See `diagnosis.search.problem.refined`; False: units choose their own steps."""
+        return False
 
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """What a point changes in the scenario of one recording; None: in the scenario itself, on no day of its own."""
@@ -292,6 +296,10 @@ class CompiledModel(CosimModel):
         """Residuals of single recordings that are not kept."""
         return (self._residual(n, values) for (_, n), values in zip(wanted, self._compiled(wanted)))
 
+    def _steps_of(self, point: Point) -> int:
+        """Steps in which a point is simulated; residuals by fewer are not kept for it."""
+        return 1
+
     @cached_property
     def _known(self) -> dict[_Key, Array]:
         """Residuals that are kept, by what was asked."""
@@ -300,7 +308,7 @@ class CompiledModel(CosimModel):
     def _rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
         """Residuals of single recordings."""
         known = self._known
-        keys = [(p.base.tobytes(), tuple(p.terms.items()), n) for p, n in wanted]
+        keys = [(p.base.tobytes(), tuple(p.terms.items()), n, self._steps_of(p)) for p, n in wanted]
         new = {key: one for key, one in zip(keys, wanted) if key not in known}
         known.update(zip(new, self._new_rows(list(new.values()))))
         self.runs += len(new)

@@ -14,7 +14,7 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.search.bounded import bounded_step
 from diagnosis.search.objective import Objective
 from diagnosis.search.posterior import huber_weights
-from diagnosis.search.problem import Model, Point
+from diagnosis.search.problem import Model, Point, refined
 
 #: A fit ends when a step is expected to lower -2 log posterior by less than this share of itself plus 1.
 TOLERANCE = 1e-6
@@ -130,7 +130,8 @@ def fit(
         refreshes: How often a fit near another takes those derivatives anew.
 
     Returns:
-        The fit, converged or not: it says so.
+        The fit, converged or not: it says so. Where the model has to simulate more exactly there, it goes on from
+        there until that changes nothing.
 
     Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7; chord: Kelley,
     Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 5.4.
@@ -166,9 +167,10 @@ def fit(
             taken += 1
             columns, poor, damping = Columns.of(objective.base_columns(x), x[:count], here), 0, 1e-3
         terms = objective.term_columns(x, here)
-    return Fit(
-        objective.point(x), value, here, columns, terms / objective.scale, is_converged, widths, objective.held(x)
-    )
+    point = objective.point(x)
+    if refined(model, point):
+        return fit(model, point, iterations, near, widths, refreshes)
+    return Fit(point, value, here, columns, terms / objective.scale, is_converged, widths, objective.held(x))
 
 
 def _descend(

@@ -225,6 +225,16 @@ def has_ridges(model: Model) -> bool:
     return bool(getattr(model, "has_ridges", False))
 
 
+def refined(model: Model, point: Point) -> bool:
+    """Whether a model simulates a point more exactly from now on than it did: what is known of it is out of date.
+
+    A law may be quicker than anything that the model without it does (friction that sets in within millimetres a
+    second), and steps of an integration that gave the one do not give the other.
+    """
+    refine = getattr(model, "refine", None)
+    return refine is not None and bool(refine(point))
+
+
 def limits_of(model: Model, parameter: TermParameter) -> tuple[float, float]:
     """Smallest and largest value that a fit may give a parameter of a term.
 

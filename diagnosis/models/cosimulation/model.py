@@ -68,6 +68,8 @@ class ClosedLoopModel(ModelBase):
         if instants is None and like is not None:
             instants = like.has_instants
         known = None if like is None else like.system_laws
+        other = None if like is None else like.model
+        self._like = other if isinstance(other, SystemModel) else None
         if is_system(scenario) and self._take_system(scenario, recordings, without, batches, known, instants):
             return
         if is_single_pendulum(scenario, recordings):
@@ -100,9 +102,9 @@ class ClosedLoopModel(ModelBase):
             changes: Sequence[Free] = ()
             if has_instants is not False:
                 changes = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
-            model = SystemModel(scenario, recordings, [*plain, *changes], laws.found, batches)
+            model = SystemModel(scenario, recordings, [*plain, *changes], laws.found, batches, self._like)
             if changes and has_instants is None:
-                without_them = SystemModel(scenario, recordings, plain, laws.found, batches)
+                without_them = SystemModel(scenario, recordings, plain, laws.found, batches, self._like)
                 if not are_needed(without_them, model, model.late_inputs()):
                     model, changes = without_them, ()
             self.has_instants = bool(changes)
@@ -151,6 +153,10 @@ class ClosedLoopModel(ModelBase):
     def can_be_searched_again(self) -> bool:
         """See `CosimModel`."""
         return self.model.can_be_searched_again
+
+    def refine(self, point: Point) -> bool:
+        """See `diagnosis.search.problem.refined`."""
+        return self.model.refine(point)
 
     @property
     def has_ridges(self) -> bool:

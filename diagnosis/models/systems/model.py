@@ -34,6 +34,9 @@ from diagnosis.search.unit_law import UnitLaw
 
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
 EXACT = 0.02
+#: With laws: until all readings together move by no more than this [-2 log likelihood], or than this share of what is
+#: left of them; a search decides by 20.
+SAME, SAME_SHARE = 1.0, 1e-4
 #: Largest difference from the co-simulation in the size of a quantity, where the first outputs are compared.
 AGREED = 1e-3
 #: Macro-steps over which a run of the co-simulation is compared.
@@ -46,8 +49,8 @@ MOST_PLAIN = 64
 FIRST_STEPS = 3
 
 
-#: A point, and the number of a recording.
-_Asked = tuple[Point, int]
+#: A point, the number of a recording, and steps of the integration in a macro-step.
+_Asked = tuple[Point, int, int]
 
 
 def _row_of(given: tuple[Scenario, Sequence[Recording], Sequence[Free], Sequence[Fit]]) -> Callable[[_Asked], Array]:
@@ -64,6 +67,7 @@ class SystemModel(CompiledModel):
         free: Numbers that may be off.
         found: Laws at their places.
         batches: Makes runs of the co-simulation, where they are asked for.
+        like: A model of the same scenario: what it finds of the steps that laws need holds here too, and the reverse.
 
     Raises:
         NotFast: Only the co-simulation can simulate it.
@@ -78,8 +82,11 @@ class SystemModel(CompiledModel):
         free: Sequence[Free],
         found: Sequence[Fit],
         batches: Batches | None = None,
+        like: SystemModel | None = None,
     ) -> None:
         super().__init__(scenario, recordings, free, (), batches)
+        #: Steps of the integration in a macro-step that points with laws need, where these are more than without.
+        self._needed: dict[frozenset[Term], int] = {} if like is None else like._needed
         #: What points without laws change, by their numbers and recording.
         self._plain: dict[tuple[bytes, int | None], Changes] = {}
         #: Law to what it adds, by the numbers that the compiled code has for each, and its place.
@@ -134,7 +141,39 @@ class SystemModel(CompiledModel):
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
         """Values of every channel at its samples, SI; None where the simulation stopped."""
         self.runs += len(wanted)
+        for point in {id(p): p for p, _ in wanted}.values():
+            self.refine(point)
         return list(self._compiled(wanted))
+
+    def refine(self, point: Point) -> bool:
+        """See `diagnosis.search.problem.refined`: steps of the integration are halved until that changes nothing."""
+        laws, count, before = self._laws_of(point), self._steps_of(point), None
+        is_new = False
+        while count < MOST_SUBSTEPS:
+            before = self._residuals_by(point, count) if before is None else before
+            now = self._residuals_by(point, 2 * count)
+            with np.errstate(invalid="ignore", over="ignore"):
+                moved, left = float(np.sum((now - before) ** 2)), float(np.sum(now**2))
+            if not moved > max(SAME, SAME_SHARE * left):  # or it stops, with few steps and with many
+                break
+            count, before, is_new = 2 * count, now, True
+        if is_new:
+            self._needed[laws] = count
+        return is_new
+
+    def _residuals_by(self, point: Point, count: int) -> Array:
+        """Residuals of all recordings with so many steps of the integration in a macro-step."""
+        rows = self._replicas.answers([(point, n, count) for n in range(len(self.recordings))])
+        self.runs += len(rows)
+        return np.concatenate(rows)
+
+    def _laws_of(self, point: Point) -> frozenset[Term]:
+        return frozenset(t for t in point.terms if t in self._found)
+
+    def _steps_of(self, point: Point) -> int:
+        """See `CompiledModel`: of the integration in a macro-step, as any of its laws need, alone or together."""
+        laws = self._laws_of(point)
+        return max((n for own, n in self._needed.items() if own <= laws), default=0) or self._substeps
 
     def judged_by(self, point: Point) -> str:
         """See `CosimModel`; with how far the co-simulation is from compiled code in the first recording."""
@@ -182,16 +221,16 @@ class SystemModel(CompiledModel):
         """One after the other: values of many points would take much memory."""
         return (self._prediction(point, number) for point, number in wanted)
 
-    def _new_rows(self, wanted: Sequence[_Asked]) -> list[Array]:
+    def _new_rows(self, wanted: Sequence[tuple[Point, int]]) -> list[Array]:
         """See `CompiledModel`."""
-        return self._replicas.answers(wanted)
+        return self._replicas.answers([(p, n, self._steps_of(p)) for p, n in wanted])
 
     def _row(self, asked: _Asked) -> Array:
         """Residuals of a recording at a point."""
-        point, number = asked
-        return self._residual(number, self._prediction(point, number))
+        point, number, count = asked
+        return self._residual(number, self._prediction(point, number, count))
 
-    def _prediction(self, point: Point, number: int) -> list[Array] | None:
+    def _prediction(self, point: Point, number: int, count: int | None = None) -> list[Array] | None:
         changes = self._numbers_at(point, number)
         laws: dict[int, Sequence[float]] = {}
         for term, amounts in point.terms.items():
@@ -199,6 +238,7 @@ class SystemModel(CompiledModel):
                 own, fit = self._found[term]
                 laws |= {n: fit.values_of(placed, amounts) for n, placed in zip(own, fit.every)}
         fast = self._fast[number]
+        fast.set_substeps(self._steps_of(point) if count is None else count)
         rows = fast.simulate(changes, laws)
         if rows is None:
             return None
@@ -216,11 +256,9 @@ class SystemModel(CompiledModel):
         zero = Point(np.zeros(len(self.free)))
         numbers = range(len(self.recordings))
         count = 1
-        before = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+        before = [self._row((zero, n, count)) for n in numbers]
         while count < MOST_SUBSTEPS:
-            for fast in self._fast:
-                fast.set_substeps(2 * count)
-            now = [self._residual(n, self._prediction(zero, n)) for n in numbers]
+            now = [self._row((zero, n, 2 * count)) for n in numbers]
             with np.errstate(invalid="ignore"):
                 moved = [float(np.max(np.abs(a - b), initial=0.0)) for a, b in zip(before, now)]
             count, before = 2 * count, now

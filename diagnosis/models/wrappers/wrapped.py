@@ -130,6 +130,10 @@ class WrappedModel:
         """See `DiagnosisModel`."""
         return self.inner.has_scatter
 
+    def refine(self, point: Point) -> bool:
+        """See `diagnosis.search.problem.refined`."""
+        return self.inner.refine(self.inside(point))
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
