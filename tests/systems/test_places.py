@@ -221,6 +221,21 @@ connections: [drive.power -> boiler.power, water.temperature -> boiler.cold, air
     assert losses == {"heat_loss_of_cold": "-loss * (T - cold)", "heat_loss_of_room": "-loss * (T - room)"}
 
 
+def test_a_room_that_is_a_parameter_takes_away_only_laws_that_need_it(tmp_path: Path) -> None:
+    OdeModel(
+        "lump",
+        {"C": (50.0, "J/K"), "K": (0.4, "W/K"), "T_room": (294.0, "K")},
+        {"power": "W"},
+        {"T": ("K", "T_room", "(power - K*(T - T_room))/C")},
+        {"temperature": ("K", "T")},
+    ).build(tmp_path)
+    text = _LUMP.replace("  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}\n", "")
+    found = _fits(text.replace(", room.temperature -> lump.room", ""), tmp_path)
+    named = {name for (name, to), fit in found.items() if to == "der(T)" and fit.term.is_named}
+    assert {"second_mass", "latent_heat", "evaporation"} <= named
+    assert not {"radiation", "heat_loss", "natural_convection"} & named  # nothing says against what
+
+
 def test_any_state_may_have_a_hidden_one_beside_it_and_a_temperature_has_it_by_name(folder: Path) -> None:
     tank = _fits(_TANK, folder)["rate_hidden_state", "der(h)"]
     assert tank.placed.formula == "a * (h - inside)"

@@ -111,11 +111,11 @@ def _single(
         for name, q in free.items():
             yield f"der({name})", q, {"s": q}
     elif role is Role.TEMPERATURE:
-        rooms = [q for q in own.inputs.values() if is_of(q, "K")]
+        # Where the surroundings are no input, laws that need none have their place all the same.
+        rooms = [{"T_a": q} for q in own.inputs.values() if is_of(q, "K")] or [{}]
         for name, q in alone.items():
             if is_of(q, "K"):
-                for room in rooms:
-                    yield f"der({name})", q, {"T": q, "T_a": room}
+                yield from ((f"der({name})", q, {"T": q, **room}) for room in rooms)
     else:
         units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
         symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
