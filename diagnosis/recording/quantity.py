@@ -49,7 +49,7 @@ _DOMAINS = {
 _MOVING = ("N", "N*m", "rad", "rad/s", "rad/s^2", "m/s^2")
 _MOTION = ("position", "displacement", "deflection", "extension", "velocity", "speed")
 #: Quantities of a component whose name says what they are: its `x` or `y` may be anything.
-_TELLING = {name: unit for name, unit in SI_UNITS.items() if name not in ("x", "y", "z")}
+TELLING = {name: unit for name, unit in SI_UNITS.items() if name not in ("x", "y", "z")}
 _INDEX = r"(\[(?P<{}>\d+(,\d+)*)\])?"
 _NAME = re.compile(
     rf"^(?P<kind>[A-Za-z]\w*){_INDEX.format('index')}\.(?P<quantity>[A-Za-z]\w*){_INDEX.format('last')}$"
@@ -65,12 +65,13 @@ class Target:
         element: Numbers of the element, from 1: (string, place in it) or (number,); empty for a scalar.
         quantity: What is measured.
         unit: SI unit where the quantity has no name of its own; of a variable of a component, as it was recorded.
+            Empty: nobody said.
     """
 
     kind: str
     element: tuple[int, ...]
     quantity: str
-    unit: str = "1"
+    unit: str = ""
 
     def __str__(self) -> str:
         index = f"[{','.join(map(str, self.element))}]" if self.element else ""
@@ -80,8 +81,8 @@ class Target:
     def si_unit(self) -> str:
         """Unit of its values."""
         if self.is_component:
-            return self.unit if self.unit != "1" else _TELLING.get(self.quantity, self.unit)
-        return SI_UNITS.get(self.quantity, self.unit)
+            return self.unit or TELLING.get(self.quantity, "1")
+        return SI_UNITS.get(self.quantity, self.unit or "1")
 
     @property
     def domain(self) -> str:
@@ -122,7 +123,7 @@ def parse_quantity(name: str) -> Target:
         ValueError: It is no such name, or the kind has no such quantity or another number of indices.
 
     >>> parse_quantity("coil[2,5].temperature")
-    Target(kind='coil', element=(2, 5), quantity='temperature', unit='1')
+    Target(kind='coil', element=(2, 5), quantity='temperature', unit='')
     >>> parse_quantity("coil[2,5].temperature").is_component, parse_quantity("coil.current").is_component
     (False, True)
     """

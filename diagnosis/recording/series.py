@@ -12,7 +12,8 @@ import xarray as xr
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import conversion
-from diagnosis.recording.quantity import Target, is_numbered
+from diagnosis.recording.quantity import TELLING, Target, is_numbered
+from diagnosis.recording.units import PURE, instead
 
 #: Quantities that jump with the supply: nothing is drawn between two outputs but a straight line.
 _FLOWS = frozenset({"current", "voltage", "power"})
@@ -90,8 +91,19 @@ def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[xr.Data
     if (target.kind, target.quantity) in _DERIVED:
         results = results.assign(_derived(results))
     found = results[_variable(results, target, source)]
+    _check_pure(target, str(found.attrs.get("units", PURE)), source)
     elements = _elements(results, found, target, source)
     return found, int(np.ravel_multi_index(elements, found.shape[1:])) if elements else 0
+
+
+def _check_pure(target: Target, own: str, source: Path) -> None:
+    """Refuse pure numbers, as a converter gives them, for what has a unit and a name that says it."""
+    if not target.is_component or target.unit != PURE or target.quantity not in TELLING:
+        return
+    try:
+        conversion(PURE, own)
+    except ValueError as error:
+        raise InputError(source, f"channels.{target}.unit", str(error), instead(PURE, own)) from error
 
 
 def _derived(results: xr.Dataset) -> dict[str, xr.DataArray]:

@@ -66,6 +66,8 @@ _MEANT = {
     ("m", "MM"): "mm",
     ("m", "CM"): "cm",
 }
+#: Unit of a pure number.
+PURE = "1"
 #: Readings of which only the maker of a converter or a controller knows what they stand for.
 _RAW = ("", "1", "%", "percent", "count", "counts", "bit", "bits", "steps", "ticks", "dB")
 #: A prefix of 1e6 or more before these is a slip of the shift key: no rig has readings of megavolts or megametres.
@@ -98,12 +100,15 @@ def si_unit(unit: str) -> str:
 def unit_of_component(unit: str, usual: str) -> str:
     """SI unit of a variable of a component: by its name where the unit fits that, else by its unit.
 
-    An FMU may call a pressure `current`, but `C` at a `temperature` is a slip and no coulomb.
+    An FMU may call a pressure `current`, but `C` at a `temperature` is a slip and no coulomb. A pure number stays
+    one, for an FMU that states no unit; `diagnosis.recording.series.place_of` refuses it where the FMU states one.
 
     Args:
         unit: As written for its column.
         usual: SI unit that the variable's name says; empty where it says none.
     """
+    if unit.strip() == PURE:
+        return PURE
     is_slip = (usual, unit.strip()) in _MEANT or unit.strip() in _RAW
     try:
         conversion(unit, usual or unit)
@@ -160,7 +165,7 @@ def _check(unit: str, target: str) -> str:
     except ValueError as error:
         if unit == target:  # an FMU's own way to write it: there is nothing to convert
             return unit
-        raise WrongUnit(str(error), _instead(unit, target)) from error
+        raise WrongUnit(str(error), instead(unit, target)) from error
     if any(part.endswith(_SCREEN) for part in re.split(r"[^A-Za-z_]+", name)):
         raise WrongUnit(
             f"`{unit}` is a unit of screens and print; how long it is on the rig only the scale of the picture says",
@@ -170,7 +175,7 @@ def _check(unit: str, target: str) -> str:
         conversion(unit, target)
     except ValueError as error:
         read_as = f" (`{unit}` is read as {name.replace('_', ' ')})" if name not in (unit, "dimensionless") else ""
-        raise WrongUnit(f"{error}{read_as}", _instead(unit, target)) from error
+        raise WrongUnit(f"{error}{read_as}", instead(unit, target)) from error
     if not _is_linear(unit, target):
         raise WrongUnit(f"`{unit}` is a logarithmic unit", f"convert the column to {target} first")
     if target in ("rad", "rad/s") and _NUMBER.search(name) and not _ANGLE.search(name.replace("steradian", "")):
@@ -190,7 +195,7 @@ def _is_linear(unit: str, target: str) -> bool:
     return abs((two - one) - (one - zero)) <= 1e-9 * max(abs(zero), abs(one), abs(two))
 
 
-def _instead(unit: str, target: str) -> str:
+def instead(unit: str, target: str) -> str:
     """Remedy: what was meant, as far as that can be told."""
     plain = unit.strip()
     if plain in _RAW:
