@@ -42,6 +42,8 @@ _SCATTERED = (
     "neither the training readings nor those that judge reject the model without it: by as much simulations of an "
     "equal fabric may differ"
 )
+#: Share of what a law moves (sum of squares) from which on an error of the macro-step may be taken for it: half as far.
+SOLVED = 0.25
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
     "together with the parameters that were fitted with it, the readings that judge are predicted worse than by the "
@@ -77,6 +79,7 @@ class Accepted:
         confused: Accepted term to laws that data often cannot tell from it, with how much more -2 log posterior of
             training they leave in its place, 0 where unfitted readings do not tell them apart; asked of fabrics, whose
             laws are interpolated between few simulations.
+        coarse: Terms that are not accepted because the macro-step is too long to tell, and for nothing else.
     """
 
     headline: Explanation
@@ -99,6 +102,7 @@ class Accepted:
     forms: Mapping[Term, float] = field(default_factory=dict)
     opposed: Mapping[Term, Term] = field(default_factory=dict)
     confused: Mapping[Term, tuple[tuple[Term, float], ...]] = field(default_factory=dict)
+    coarse: frozenset[Term] = frozenset()
 
 
 class _Judge:
@@ -110,6 +114,8 @@ class _Judge:
         self.model, self.unfitted, self.local, self.training = model, unfitted, local, training
         self._known: dict[tuple[int, bool], Predicted] = {}
         self._kept: list[Point] = []
+        #: Terms that move readings no farther than an error of the macro-step may.
+        self.coarse: set[Term] = set()
 
     def predict(self, point: Point, is_local: bool = False) -> Predicted:
         key = (id(point), is_local)
@@ -229,6 +235,7 @@ def accept(
         strengths,
         {t: others[t] for t in current.terms},
         confused={t: _confused(model, judge, current, t) for t in current.terms} if model.has_scatter else {},
+        coarse=frozenset(judge.coarse & reasons.keys()),
     )
 
 
@@ -354,7 +361,7 @@ def _judged(
         reasons.append(hidden)
     if is_local and (why := _of_noise(judge.model, *noise, current, without)):
         reasons.append(why)  # readings beside those that were fitted have their noise
-    return found, tuple(reasons or _scattered(judge, term, without))
+    return found, tuple(reasons or _scattered(judge, term, without) or _of_solving(judge, term, current, without))
 
 
 def _scattered(judge: _Judge, term: Term, without: Fit) -> list[str]:
@@ -362,6 +369,23 @@ def _scattered(judge: _Judge, term: Term, without: Fit) -> list[str]:
     if not judge.model.has_scatter or term.unit != SCATTERED or judge.rejects(without.point):
         return []
     return [_SCATTERED]
+
+
+def _of_solving(judge: _Judge, term: Term, current: Explanation, without: Fit) -> list[str]:
+    """Why a law is not accepted that moves readings as little as an error of solving may: none, or one reason."""
+    inner, plain = judge.model.innermost, judge.model.innermost_point(without.point)
+    error = inner.solving_error(plain)
+    if error is None:
+        return []
+    moved = np.subtract(*inner.residuals([judge.model.innermost_point(current.fit.point), plain]))
+    if float(error @ error) <= SOLVED * float(moved @ moved):
+        return []
+    judge.coarse.add(term)
+    sizes = [f"{float(np.sqrt(np.mean(v**2))):.2g}" for v in (error, moved)]
+    return [
+        "time.macro_step is too long to tell: what components exchange, and inputs, are late by up to so much, which "
+        f"moves readings by about {sizes[0]} of their noise, and the law by {sizes[1]}"
+    ]
 
 
 def _alike(outcome: Outcome, training: Unfitted) -> Mapping[str, float]:

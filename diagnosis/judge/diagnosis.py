@@ -143,6 +143,7 @@ class Finding:
             less than odds of 20 to 1 ask for, whether or not the search fitted them: it is one of this class.
         judged_by: Which readings these are, in plain words; of a fault of one recording other readings of that one.
         is_of_either: Whether its class holds laws of the rig beside laws of sensors or inputs: it accuses neither.
+        is_coarse: Whether it is a suggestion because the macro-step is too long to tell, and for nothing else.
     """
 
     unit: str
@@ -168,6 +169,7 @@ class Finding:
     members: tuple[Member, ...] = ()
     judged_by: str = ""
     is_of_either: bool = False
+    is_coarse: bool = False
 
     @property
     def places(self) -> str:

@@ -74,6 +74,7 @@ AT_BOUND = 0.99
 NAMED = 6
 #: Why nothing is concluded from what is suggested.
 _UNCONFIRMED = "what the training recordings suggest is not confirmed by readings that it was not fitted to"
+_COARSE = "time.macro_step is too long to tell what the training recordings suggest from an error of solving"
 #: Why a law has no name beside one that has none.
 _BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
 #: Factor on an interval from which it is said that a number depends on a law that is not identified.
@@ -174,8 +175,8 @@ def why_open(
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
         )
-    if any(not f.is_accepted for f in found):
-        reasons.append(_UNCONFIRMED)
+    if suggested := [f for f in found if not f.is_accepted]:
+        reasons.append(_COARSE if all(f.is_coarse for f in suggested) else _UNCONFIRMED)
     unexplained = ", and no law that was tried explains what is left"
     if not searched.has_physics or any(not f.is_accepted for f in found):  # a suggested law may explain it
         unexplained = ""
@@ -492,6 +493,7 @@ def _finding(
         members=members,
         judged_by=accepted.judged_by.get(term, accepted.basis),
         is_of_either=_is_of_either(model, term, likely),
+        is_coarse=not is_accepted and term in accepted.coarse,
     )
 
 

@@ -274,6 +274,13 @@ class DiagnosisModel(Protocol):
         """See `diagnosis.search.problem.refined`."""
         ...
 
+    def solving_error(self, point: Point) -> Array | None:
+        """About how far residuals are from those of a co-simulation with infinitely short macro-steps.
+
+        Shape (residuals,), in deviations of the noise; None where that is not known.
+        """
+        ...
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
@@ -453,6 +460,10 @@ class ModelBase:
     def refine(self, point: Point) -> bool:
         """False: it simulates all points alike."""
         return False
+
+    def solving_error(self, point: Point) -> Array | None:
+        """None: not known."""
+        return None
 
     @property
     def has_scatter(self) -> bool:

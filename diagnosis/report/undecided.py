@@ -36,6 +36,11 @@ _WITHIN = (
     "Record a motion in which it would move the fabric by more than equal fabrics differ by, with more heat or load or "
     "of more markers: what is suggested predicts these readings better, but by no more than such fabrics differ by."
 )
+#: The same where an error of the macro-step moves readings as far as what is suggested.
+_SHORTER = (
+    "Halve time.macro_step until simulations change by less than the noise, and diagnose again: what is suggested "
+    "moves readings no farther than that error may."
+)
 #: What would decide about a fault with begin and end, which no other recording can show.
 _OF_ONE_RECORDING = (
     "Repeat the recording of the fault with a second sensor beside the one that is suspected: a fault of a sensor does "
@@ -104,6 +109,8 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict is not Verdict.CANNOT_TELL:
         return ""
     if diagnosis.suggestions:
+        if all(f.is_coarse for f in diagnosis.suggestions):
+            return _SHORTER
         if all(is_of_an_interval(f) for f in diagnosis.suggestions):
             return _OF_ONE_RECORDING
         if all(waits(f) for f in diagnosis.suggestions):

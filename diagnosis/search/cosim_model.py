@@ -138,6 +138,10 @@ class CosimModel:
         """See `diagnosis.search.problem.refined`; False: units choose their own steps."""
         return False
 
+    def solving_error(self, point: Point) -> Array | None:
+        """None: asked of compiled code alone."""
+        return None
+
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """What a point changes in the scenario of one recording; None: in the scenario itself, on no day of its own."""
         numbers = self._own if number is None else self._numbers_of[number]

@@ -158,6 +158,10 @@ class ClosedLoopModel(ModelBase):
         """See `diagnosis.search.problem.refined`."""
         return self.model.refine(point)
 
+    def solving_error(self, point: Point) -> Array | None:
+        """See `diagnosis.models.protocol.DiagnosisModel`."""
+        return self.model.solving_error(point)
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""

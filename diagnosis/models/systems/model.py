@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -13,9 +14,11 @@ from cosim.compute.batch import Batches
 from cosim.compute.replicas import Replicas
 from cosim.run import RunStopped, run
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.laws.library import library
+from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.sensor_chain import read
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
@@ -98,7 +101,8 @@ class SystemModel(CompiledModel):
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
-        place, given = self._batches.place, (scenario, self.recordings, self.free, list(found))
+        place = self._batches.place
+        self._given = given = (scenario, self.recordings, self.free, list(found))
         #: Residuals of a recording at a point, by this process and by copies of this model in others.
         self._replicas = Replicas(_row_of, given, self._row, place.parallel - 1 if place.is_local else 0)
 
@@ -174,6 +178,29 @@ class SystemModel(CompiledModel):
         """See `CompiledModel`: of the integration in a macro-step, as any of its laws need, alone or together."""
         laws = self._laws_of(point)
         return max((n for own, n in self._needed.items() if own <= laws), default=0) or self._substeps
+
+    def solving_error(self, point: Point) -> Array | None:
+        """See `diagnosis.models.protocol.DiagnosisModel`.
+
+        Source: Richardson's rule for an error in proportion to the step.
+        """
+        finer = self._with_shorter_steps
+        if finer is None:
+            return None
+        finer.refine(point)
+        found = 2.0 * (finer.residuals([point])[0] - self.residuals([point])[0])
+        return found if np.isfinite(found).all() else None
+
+    @cached_property
+    def _with_shorter_steps(self) -> SystemModel | None:
+        """The same with macro-steps of half the length; None where no such run can be made."""
+        scenario, recordings, free, found = self._given
+        half = PhysicalValue(0.5 * scenario.time.macro_step.to("s"), "s")
+        time = scenario.time.model_copy(update={"macro_step": half})
+        try:
+            return SystemModel(scenario.model_copy(update={"time": time}), recordings, free, found, self._batches)
+        except (NotFast, CompilerError, InputError):
+            return None
 
     def judged_by(self, point: Point) -> str:
         """See `CosimModel`; with how far the co-simulation is from compiled code in the first recording."""

@@ -134,6 +134,10 @@ class WrappedModel:
         """See `diagnosis.search.problem.refined`."""
         return self.inner.refine(self.inside(point))
 
+    def solving_error(self, point: Point) -> Array | None:
+        """As the inner model has it, whose residuals these are."""
+        return self.inner.solving_error(self.inside(point))
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
