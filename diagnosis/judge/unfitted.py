@@ -146,8 +146,8 @@ def wild_readings(values: Array, noise: float) -> AnyArray:
 def set_aside(readings: Readings, residuals: Array) -> AnyArray:
     """Readings that say nothing of a model: single wild ones, and one or two in a row that it alone shows to be wild.
 
-    Two wild readings next to each other, or one beside a switch, have no neighbours that tell. Those before and after
-    them must be met, and no more than `MOST_WILD` of a channel may be such: more is a fault of the model.
+    Two wild readings next to each other, one beside a switch, the first and the last have no neighbours that tell. Those
+    before and after them must be met, and no more than `MOST_WILD` of a channel may be such: more is a fault of the model.
 
     Args:
         readings: What the residuals belong to.
@@ -167,7 +167,9 @@ def set_aside(readings: Readings, residuals: Array) -> AnyArray:
         edges = np.flatnonzero(np.diff(np.concatenate([[False], out, [False]]).astype(int)))
         spikes: list[int] = []
         for begin, end in zip(edges[0::2].tolist(), edges[1::2].tolist()):
-            is_met = begin > 0 and end < len(kept) and max(size[begin - 1], size[end]) < HUBER
+            # The first and the last reading have one neighbour.
+            beside = [float(size[k]) for k in (begin - 1, end) if 0 <= k < len(kept)]
+            is_met = bool(beside) and max(beside) < HUBER
             if end - begin <= MOST_IN_A_ROW and is_met:
                 spikes += range(begin, end)
         if len(spikes) + len(places) - len(kept) <= MOST_WILD * len(places):

@@ -151,6 +151,17 @@ def test_two_wild_readings_in_a_row_and_one_at_a_switch_do_not_count_either():
     assert not set_aside(run, beside).any()
 
 
+def test_the_first_and_the_last_reading_may_be_wild_where_the_one_neighbour_is_met():
+    run, noise = readings(), np.random.default_rng(5).standard_normal(COUNT)
+    ends = noise.copy()
+    ends[[0, -1]] = 15.0, -15.0
+    ends[[1, -2]] = 0.3, -0.5
+    assert np.flatnonzero(set_aside(run, ends)).tolist() == [0, COUNT - 1]
+    settling = ends.copy()  # a start that the model does not have lasts for several readings
+    settling[:4] = 15.0, 12.0, 9.5, 7.0
+    assert np.flatnonzero(set_aside(run, settling)).tolist() == [COUNT - 1]
+
+
 def test_single_wild_readings_are_known_by_their_neighbours_and_do_not_count():
     values = np.random.default_rng(2).standard_normal(COUNT)
     values[[50, 200]] += (30.0, -25.0)
