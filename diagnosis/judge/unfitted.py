@@ -146,8 +146,9 @@ def wild_readings(values: Array, noise: float) -> AnyArray:
 def set_aside(readings: Readings, residuals: Array) -> AnyArray:
     """Readings that say nothing of a model: single wild ones, and one or two in a row that it alone shows to be wild.
 
-    Two wild readings next to each other, one beside a switch, the first and the last have no neighbours that tell. Those
-    before and after them must be met, and no more than `MOST_WILD` of a channel may be such: more is a fault of the model.
+    Two wild readings next to each other, one beside a switch, the first and the last have no neighbours that tell.
+    Those before and after them must be met, and no more than `MOST_WILD` of a channel may be such: more is a fault of
+    the model.
 
     Args:
         readings: What the residuals belong to.

@@ -16,7 +16,7 @@ class Role(Enum):
 
     #: Derivative of a velocity v that is the derivative of a position x.
     VELOCITY = "rate of a velocity"
-    #: Derivative of a temperature T in surroundings of T_a, where an input says what these are.
+    #: Derivative of a temperature T in surroundings of T_a, where an input or a parameter says what these are.
     TEMPERATURE = "rate of a temperature"
     #: Derivative of a level, a volume or a pressure h.
     LEVEL = "rate of a level"

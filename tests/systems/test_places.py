@@ -221,19 +221,36 @@ connections: [drive.power -> boiler.power, water.temperature -> boiler.cold, air
     assert losses == {"heat_loss_of_cold": "-loss * (T - cold)", "heat_loss_of_room": "-loss * (T - room)"}
 
 
-def test_a_room_that_is_a_parameter_takes_away_only_laws_that_need_it(tmp_path: Path) -> None:
-    OdeModel(
-        "lump",
-        {"C": (50.0, "J/K"), "K": (0.4, "W/K"), "T_room": (294.0, "K")},
-        {"power": "W"},
-        {"T": ("K", "T_room", "(power - K*(T - T_room))/C")},
-        {"temperature": ("K", "T")},
-    ).build(tmp_path)
+def _lump_in(folder: Path, parameters: dict[str, tuple[float, str]], rate: str) -> dict[str, Fit]:
+    """Laws with a name at a lump whose room is no input."""
+    numbers = {"C": (50.0, "J/K"), "K": (0.4, "W/K"), **parameters}
+    OdeModel("lump", numbers, {"power": "W"}, {"T": ("K", "300", rate)}, {"temperature": ("K", "T")}).build(folder)
     text = _LUMP.replace("  room: {kind: programme, outputs: {temperature: {unit: degC, constant: 21 degC}}}\n", "")
-    found = _fits(text.replace(", room.temperature -> lump.room", ""), tmp_path)
-    named = {name for (name, to), fit in found.items() if to == "der(T)" and fit.term.is_named}
-    assert {"second_mass", "latent_heat", "evaporation"} <= named
-    assert not {"radiation", "heat_loss", "natural_convection"} & named  # nothing says against what
+    found = _fits(text.replace(", room.temperature -> lump.room", ""), folder)
+    return {name: fit for (name, to), fit in found.items() if to == "der(T)" and fit.term.is_named}
+
+
+def test_a_room_that_is_a_parameter_is_found_by_what_flows_by_the_difference_to_it(tmp_path: Path) -> None:
+    parameters = {"T_room": (294.0, "K"), "T_switch": (330.0, "K")}
+    rate = "(power*(T > T_switch ? 0.5 : 1.0) - K*(T - T_room))/C"
+    found = _lump_in(tmp_path, parameters, rate)
+    assert {"radiation", "heat_loss", "natural_convection", "second_mass", "latent_heat"} <= set(found)
+    placed = found["radiation"].placed
+    assert placed.formula == "-emission * (T ** 4 - surroundings ** 4)"
+    assert placed.constants["surroundings"].to("K") == 294.0
+    assert "surroundings = 294 K" in found["radiation"].term.law
+
+
+def test_where_nothing_says_what_the_surroundings_are_only_laws_that_need_them_are_left_out(tmp_path: Path) -> None:
+    found = _lump_in(tmp_path, {}, "(power - K*(T - 294.0))/C")
+    assert {"second_mass", "latent_heat", "evaporation"} <= set(found)
+    assert not {"radiation", "heat_loss", "natural_convection"} & set(found)
+
+
+def test_two_parameters_that_may_be_the_room_are_none(tmp_path: Path) -> None:
+    parameters = {"T_wall": (294.0, "K"), "T_air": (296.0, "K")}
+    found = _lump_in(tmp_path, parameters, "(power - K*(T - T_wall) - 0.1*(T - T_air))/C")
+    assert not {"radiation", "heat_loss", "natural_convection"} & set(found)
 
 
 def test_any_state_may_have_a_hidden_one_beside_it_and_a_temperature_has_it_by_name(folder: Path) -> None:

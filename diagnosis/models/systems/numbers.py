@@ -46,7 +46,7 @@ def usual_numbers(system: FastSystem, free: Sequence[Free]) -> list[Free]:
         if stated or any(f.component == name and not f.is_own for f in free):
             continue
         named = {f.name for f in free if f.component == name}
-        for parameter, value in _values(fmu, system, name):
+        for parameter, value in scalar_parameters(fmu, system, name):
             if parameter not in named:
                 effect = _effect(system, name, fmu, parameter, value)
                 if effect > 0.0:
@@ -55,7 +55,7 @@ def usual_numbers(system: FastSystem, free: Sequence[Free]) -> list[Free]:
     return [free for _, free in found[:MOST]]
 
 
-def _values(fmu: FastFmu, system: FastSystem, component: str) -> Iterator[tuple[str, float]]:
+def scalar_parameters(fmu: FastFmu, system: FastSystem, component: str) -> Iterator[tuple[str, float]]:
     """Scalar parameters with their values in the FMU's own units."""
     for name, variable in fmu.unit.table.all.items():
         v = variable.variable

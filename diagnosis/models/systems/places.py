@@ -21,7 +21,8 @@ from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
 from diagnosis.models.systems.steps import resolve
-from diagnosis.models.systems.targets import is_of, targets
+from diagnosis.models.systems.surroundings import surroundings
+from diagnosis.models.systems.targets import SURROUNDINGS, is_of, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -100,6 +101,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
+        own.room = surroundings(systems[0], fmu, own, probed[0], probed[1])
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -266,6 +268,9 @@ def _fit(
     if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
     taken = {*own.states, *own.inputs, *own.outputs, "time"}
+    room = {} if own.room is None or "T_a" not in needed else {SURROUNDINGS: PhysicalValue(own.room, "K")}
+    if taken & set(room):
+        return None
     fresh = {n: n if n not in taken else f"{n}_law" for n in numbers}
     if any(v in taken for v in fresh.values()):
         return None
@@ -277,7 +282,7 @@ def _fit(
         constants = {
             fresh[n]: PhysicalValue(float(f"{share * scale.size(of):.3g}"), scale.unit(of))
             for n, (of, share) in law.constants.items()
-        } | dict(references.values())
+        } | {**dict(references.values()), **room}
         placed = Placed(
             own.component,
             to,

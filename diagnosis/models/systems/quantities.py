@@ -46,6 +46,7 @@ class Places:
         output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
         acted_on_by: State to the other states that its derivative depends on.
+        room: Temperature of the surroundings [K], where no input has it and the equations tell it.
         untried: Where no law can be tried, and why.
     """
 
@@ -59,4 +60,5 @@ class Places:
     derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
     output_units: dict[str, str] = field(default_factory=dict)
     acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
+    room: float | None = None
     untried: list[str] = field(default_factory=list)

@@ -11,6 +11,8 @@ from diagnosis.laws.law import Role
 from diagnosis.models.systems.quantities import Places, Quantity
 
 _T = TypeVar("_T")
+#: What the surroundings are called in a law where they are a number.
+SURROUNDINGS = "surroundings"
 #: Units of what a vessel holds.
 _LENGTHS = ("m", "rad", "m^3", "Pa")
 #: `added_terms` target, its quantity, and symbol to quantity.
@@ -111,8 +113,10 @@ def _single(
         for name, q in free.items():
             yield f"der({name})", q, {"s": q}
     elif role is Role.TEMPERATURE:
-        # Where the surroundings are no input, laws that need none have their place all the same.
-        rooms = [{"T_a": q} for q in own.inputs.values() if is_of(q, "K")] or [{}]
+        # Where nobody says what the surroundings are, laws that need none have their place all the same.
+        rooms = [{"T_a": q} for q in own.inputs.values() if is_of(q, "K")]
+        if not rooms:
+            rooms = [{} if own.room is None else {"T_a": Quantity(SURROUNDINGS, "K", 1.0, own.room, 0.0)}]
         for name, q in alone.items():
             if is_of(q, "K"):
                 yield from ((f"der({name})", q, {"T": q, **room}) for room in rooms)

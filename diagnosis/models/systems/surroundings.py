@@ -1,0 +1,66 @@
+"""The temperature of the surroundings of an FMU that has it as a parameter, found by its equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import PhysicalValue, conversion, parse_unit
+from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fmu_layout import FastFmu
+from diagnosis.models.systems.numbers import scalar_parameters
+from diagnosis.models.systems.quantities import Places
+from diagnosis.models.systems.targets import is_of
+from diagnosis.search.cosim_run import Changes
+
+#: What temperatures are moved by [K], and what rates may then change by, relative: rounding.
+MOVED, ROUNDING = 1.0, 1e-6
+
+
+def surroundings(system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[str], points: Array) -> float | None:
+    """Temperature [K] towards which the states of an FMU that are temperatures go; None where that is not clear.
+
+    It is the only parameter with which those rates change, or the only one that, moved together with all states that
+    are temperatures, leaves them as they are: what flows goes by differences to it.
+
+    Args:
+        system: Of one recording.
+        fmu: The FMU.
+        own: Its quantities.
+        names: Its states, in order.
+        points: States at which its equations are asked, in its units, shape (points, states).
+    """
+    warm = [i for i, n in enumerate(names) if is_of(own.states[n], "K")]
+    if not warm or any(is_of(q, "K") for q in own.inputs.values()):
+        return None
+    acting: list[float] = []
+    carried: list[float] = []
+    plain = _rates(system, own.component, points)[:, warm]
+    steps = np.zeros(points.shape[1])
+    for i in warm:
+        steps[i] = MOVED / conversion(fmu.units[names[i]], "K")[0]
+    for parameter, value in scalar_parameters(fmu, system, own.component):
+        unit = fmu.unit.table.all[parameter].variable.unit
+        if parse_unit(unit).dimensionality != parse_unit("K").dimensionality:
+            continue
+        factor, offset = conversion(unit, "K")
+        changes = Changes({own.component: {parameter: PhysicalValue(value + MOVED / factor, unit)}})
+        if system.simulate(changes) is None:
+            continue
+        if not _are_alike(_rates(system, own.component, points)[:, warm], plain):
+            acting.append(factor * value + offset)
+            if _are_alike(_rates(system, own.component, points + steps)[:, warm], plain):
+                carried.append(acting[-1])
+    system.simulate()
+    found = carried or acting
+    return found[0] if len(found) == 1 else None
+
+
+def _rates(system: FastSystem, component: str, points: Array) -> Array:
+    return np.array([system.rates(component, system.start / 1e9, p) for p in points])
+
+
+def _are_alike(rates: Array, others: Array) -> bool:
+    return bool(np.allclose(rates, others, rtol=ROUNDING, atol=ROUNDING * float(np.max(np.abs(others), initial=0.0))))
