@@ -131,7 +131,7 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
         notes = (
             *notes,
             "shutter: taken to expose all lines at once. One that rolls, as in most phones and webcams, shifts the "
-            f"fastest markers by up to {1e3 * shift:.2g} mm if it takes {1e3 * _COMMON_READOUT:.0f} ms from the first "
+            f"fastest markers by about {1e3 * shift:.2g} mm if it takes {1e3 * _COMMON_READOUT:.0f} ms from the first "
             "line to the last one: state `clock.readout` then",
         )
     if cut:

@@ -13,6 +13,8 @@ from cosim.unit.protocol import Array
 _MOST, _FEWEST = 4, 3
 #: A marker that is not read again within so many pictures has no course there.
 _NEAR = 4
+#: Time over which speeds are taken [s].
+_BASE = 0.1
 
 
 def line_delays(lines: Array, height: int, readout: float) -> Array:
@@ -67,11 +69,13 @@ def largest_shift(tracks: Tracks, readout: float) -> float:
         tracks: Of all markers.
         readout: Of the shutter [s].
     """
-    if len(tracks.times) < 3:
+    if len(tracks.times) < 2:
         return 0.0
-    speed = np.linalg.norm(np.gradient(tracks.places, tracks.times, axis=0), axis=2)
+    # Between pictures that are farther apart than the shutter is long, noise is a small part of the way.
+    apart = max(1, int(np.ceil(_BASE / float(np.median(np.diff(tracks.times))))))
+    way = np.linalg.norm(tracks.places[apart:] - tracks.places[:-apart], axis=2)
+    speed = way / (tracks.times[apart:] - tracks.times[:-apart])[:, None]
     known = speed[np.isfinite(speed)]
-    # Not the fastest reading of all: that may be noise.
     return float(np.quantile(known, 0.99)) * readout / 2.0 if known.size else 0.0
 
 

@@ -10,7 +10,7 @@ from chainmail.camera.opencv import opencv
 from chainmail.camera.render import Motion
 from chainmail.camera.rendered import write_video
 from chainmail.camera.rig import load_rig
-from chainmail.camera.shutter import at_one_time, line_delays
+from chainmail.camera.shutter import at_one_time, largest_shift, line_delays
 from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
 from tests.camera.fabrics import swaying
@@ -57,6 +57,16 @@ def test_a_reading_without_others_nearby_is_a_gap():
     found = at_one_time(tracks.without(is_gap), np.full((30, 1), 0.01))
     assert np.flatnonzero(found.state[:, 0] != GAP).tolist() == [15, 16, 17]
     assert np.isnan(found.places[3, 0]).all()
+
+
+@pytest.mark.parametrize("rate", [24.0, 60.0, 240.0])
+def test_a_shift_is_that_of_a_motion_and_not_of_noise(rate):
+    times = np.arange(round(2 * rate)) / rate
+    noise = 1e-5 * np.random.default_rng(0).standard_normal((len(times), 6, 2))
+    assert largest_shift(tracks_of(noise, times), 0.02) < 0.7e-5
+    drift = noise + np.array([0.1, 0.0]) * times[:, None, None]
+    assert largest_shift(tracks_of(drift, times), 0.02) == pytest.approx(1e-3, rel=0.02)
+    assert largest_shift(tracks_of(noise[:1], times[:1]), 0.02) == 0.0
 
 
 def rolled(motion, height, scale, centre):
