@@ -12,7 +12,7 @@ from diagnosis.models.answers import Answers
 from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Scaled, Spot, unscaled
 from diagnosis.models.timeline import Timeline
 from diagnosis.search.fit import Fit
-from diagnosis.search.problem import Layout, Parameter, Point, Term, strength_slopes
+from diagnosis.search.problem import Layout, Parameter, Point, Term, refined, strength_slopes
 from diagnosis.search.score import Projection, Scoring
 from diagnosis.search.search import Outcome, Settings
 
@@ -132,7 +132,7 @@ class WrappedModel:
 
     def refine(self, point: Point) -> bool:
         """See `diagnosis.search.problem.refined`."""
-        return self.inner.refine(self.inside(point))
+        return refined(self.inner, self.inside(point))
 
     def solving_error(self, point: Point) -> Array | None:
         """As the inner model has it, whose residuals these are."""
