@@ -172,12 +172,9 @@ class MujocoWorld:
     def _check(self) -> None:
         """Raise what MuJoCo only counts: it would set a world that diverged back to its start without a word."""
         # All at once: this is asked after every macro-step.
-        if not self._data.warning.number.any():
-            return
-        for kind, warning in enumerate(self._data.warning):
-            if warning.number:
-                name = self._mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
-                raise Divergence(f"MuJoCo warns of {_MEANING.get(name, name)}")
+        for kind in np.flatnonzero(self._data.warning.number):
+            name = self._mujoco.mjtWarning(int(kind)).name.removeprefix("mjWARN_")
+            raise Divergence(f"MuJoCo warns of {_MEANING.get(name, name)}")
 
     def _find(self) -> None:
         """Addresses of joints and bodies."""

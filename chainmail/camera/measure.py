@@ -126,14 +126,7 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
         f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; "
         f"by its scatter over time {factor:.2f} times that",
     )
-    shift = largest_shift(tracks, _COMMON_READOUT)
-    if not rig.clock.readout.to("s") and shift > float(np.nanmedian(tracks.deviation)):
-        notes = (
-            *notes,
-            "shutter: taken to expose all lines at once. One that rolls, as in most phones and webcams, shifts the "
-            f"fastest markers by about {1e3 * shift:.2g} mm if it takes {1e3 * _COMMON_READOUT:.0f} ms from the first "
-            "line to the last one: state `clock.readout` then",
-        )
+    notes = (*notes, *_unstated_shutter(tracks, rig))
     if cut:
         notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
     late = int(np.sum(is_repeated & (moving.state == GAP).all(axis=1)))
@@ -153,9 +146,28 @@ def _at_one_time(tracks: Tracks, rig: Rig, sight: Sight, height: int) -> Tracks:
     return at_one_time(tracks, line_delays(lines, height, readout))
 
 
+def _unstated_shutter(tracks: Tracks, rig: Rig) -> tuple[str, ...]:
+    """What a rolling shutter that nobody states would do, where that is more than noise."""
+    if rig.clock.readout.to("s"):
+        return ()
+    shift = largest_shift(tracks, _COMMON_READOUT)
+    if not shift > float(np.nanmedian(tracks.deviation)):
+        return ()
+    return (
+        "shutter: taken to expose all lines at once. One that rolls, as in most phones and webcams, shifts the "
+        f"fastest markers by about {1e3 * shift:.2g} mm if it takes {1e3 * _COMMON_READOUT:.0f} ms from the first "
+        "line to the last one: state `clock.readout` then",
+    )
+
+
+def _size_ratio(radius: float, rig: Rig) -> float:
+    """Measured over stated diameter of the markers."""
+    return 2.0 * radius / float(rig.markers.diameter.to("m"))
+
+
 def _compared(radius: float, rig: Rig) -> str:
     """What a size that is not the rig's says of its places."""
-    ratio = 2.0 * radius / rig.markers.diameter.to("m")
+    ratio = _size_ratio(radius, rig)
     if abs(ratio - 1.0) < _ODD_SIZE:
         return ""
     which = "large" if ratio > 1.0 else "small"
@@ -234,7 +246,7 @@ def _size(pictures: list[Spots], rig: Rig, rig_file: Path, sight: Sight, count: 
             f"no spot that is {rig.markers.colour} and about {rig.markers.diameter} across is in any frame",
             "correct colour and diameter of the markers, or the plane",
         )
-    ratio = 2.0 * radius / rig.markers.diameter.to("m")
+    ratio = _size_ratio(radius, rig)
     if not 1.0 / _OTHER_SIZE < ratio < _OTHER_SIZE:
         raise InputError(
             rig_file,

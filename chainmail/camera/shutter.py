@@ -40,7 +40,8 @@ def at_one_time(tracks: Tracks, delays: Array) -> Tracks:
 
     Source: interpolation by Lagrange's polynomials.
     """
-    places, covariance, state = tracks.places.copy(), tracks.covariance.copy(), tracks.state.copy()
+    places, covariance = tracks.places.copy(), tracks.covariance.copy()
+    is_alone = np.zeros(tracks.state.shape, dtype=bool)
     for marker in range(tracks.markers):
         has = np.flatnonzero((tracks.state[:, marker] != GAP) & np.isfinite(delays[:, marker]))
         read_at = tracks.times + delays[:, marker]
@@ -49,7 +50,7 @@ def at_one_time(tracks: Tracks, delays: Array) -> Tracks:
             time = float(tracks.times[frame])
             near = near[np.argsort(np.abs(read_at[near] - time), kind="stable")][:_MOST]
             if len(near) < _FEWEST or frame not in near:
-                state[frame, marker] = GAP
+                is_alone[frame, marker] = True
                 continue
             weights = _weights(read_at[near], time)
             fewer = _weights(read_at[near[:_FEWEST]], time)
@@ -58,8 +59,7 @@ def at_one_time(tracks: Tracks, delays: Array) -> Tracks:
             left = places[frame, marker] - fewer @ own[:_FEWEST] if len(near) > _FEWEST else np.zeros(2)
             noise = np.tensordot(weights**2, tracks.covariance[near, marker], axes=1)
             covariance[frame, marker] = noise + np.outer(left, left)
-    found = replace(tracks, places=places, covariance=covariance)
-    return found.without((state == GAP) & (tracks.state != GAP))
+    return replace(tracks, places=places, covariance=covariance).without(is_alone)
 
 
 def largest_shift(tracks: Tracks, readout: float) -> float:

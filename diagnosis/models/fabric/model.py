@@ -330,13 +330,9 @@ class FabricModel(ModelBase):
         recordings = [r for r in short if r is not None]
         if len(recordings) < len(short):
             return [True] * len(wanted)
-        points = [plain, *wanted]
-        own = [self.network_point(p) for p in points]
-        numbers = range(len(recordings))
-        tasks = [(n, self.fabric_parameters(p, n, start), o) for p, o in zip(points, own) for n in numbers]
-        values = self._simulations(self._scenario, recordings).make(tasks)
-        found = [values[k : k + len(recordings)] for k in range(0, len(values), len(recordings))]
-        return [_are_same(found[0], other) for other in found[1:]]
+        runs = self._simulations(self._scenario, recordings)
+        first, *others = self._made(runs, [(p, start) for p in (plain, *wanted)])
+        return [_are_same(first, other) for other in others]
 
     def simulated_elsewhere(self, wanted: Sequence[tuple[Point, int]]) -> list[Array | None]:
         """The same by the other engine; empty where it is not installed or cannot simulate such a fabric."""
@@ -357,17 +353,21 @@ class FabricModel(ModelBase):
             return ()
         return (f"what two engines differ by is not known and not counted as uncertainty: {self._is_alone}",)
 
-    def _bins_by(
-        self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]], kept: list[tuple[Point, int, Array]]
-    ) -> list[Array | None]:
+    def _made(self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]]) -> list[list[list[Array] | None]]:
+        """Values of every recording, for points and starts."""
         count = len(self.mechanical_recordings)
         points: dict[int, Point] = {id(p): self.network_point(p) for p, _ in wanted}
         tasks = [(n, self.fabric_parameters(p, n, s), points[id(p)]) for p, s in wanted for n in range(count)]
         values = runs.make(tasks)
+        return [values[first : first + count] for first in range(0, len(values), count)]
+
+    def _bins_by(
+        self, runs: FabricRuns, wanted: Sequence[tuple[Point, int]], kept: list[tuple[Point, int, Array]]
+    ) -> list[Array | None]:
         found: list[Array | None] = []
-        for (point, start), first in zip(wanted, range(0, len(values), count)):
-            whole = [v for v in values[first : first + count] if v is not None]
-            if len(whole) < count:
+        for (point, start), values in zip(wanted, self._made(runs, wanted)):
+            whole = [v for v in values if v is not None]
+            if len(whole) < len(values):
                 found.append(None)
                 continue
             recorded, others = self._unmeasured.divided(whole)

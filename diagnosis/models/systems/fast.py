@@ -424,6 +424,10 @@ class FastSystem:
             read()
         return rates, {n: float(a.item()) for n, a in fmu.outputs.items() if a.size == 1}
 
+    def rates_at(self, component: str, points: Array) -> Array:
+        """Derivatives at points of the states at the start, after a simulation, shape (points, states)."""
+        return np.array([self.rates(component, self.start / 1e9, p) for p in points])
+
     def rates(self, component: str, time: float, states: Array) -> Array:
         """Derivatives of a Model Exchange FMU's states at a point, shape (states,), after a simulation."""
         fmu = self.fmus[component]

@@ -151,10 +151,9 @@ class SystemModel(CompiledModel):
 
     def refine(self, point: Point) -> bool:
         """See `diagnosis.search.problem.refined`: steps of the integration are halved until that changes nothing."""
-        laws, count, before = self._laws_of(point), self._steps_of(point), None
-        is_new = False
+        laws, count = self._laws_of(point), self._steps_of(point)
+        before, is_new = self.residuals([point])[0], False  # a fit that ends here has asked for them
         while count < MOST_SUBSTEPS:
-            before = self._residuals_by(point, count) if before is None else before
             now = self._residuals_by(point, 2 * count)
             with np.errstate(invalid="ignore", over="ignore"):
                 moved, left = float(np.sum((now - before) ** 2)), float(np.sum(now**2))

@@ -101,7 +101,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
-        own.room = surroundings(systems[0], fmu, own, probed[0], probed[1])
+        own.room = surroundings(systems[0], fmu, own, *probed)
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -187,7 +187,7 @@ def _probed(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[list[str], A
     names = list(fmu.states)
     middle, size = np.array([own.states[n].in_fmu for n in names]).T
     points = middle + size * np.random.default_rng(SEED).standard_normal((PROBES, len(names)))
-    return names, points, np.array([system.rates(own.component, system.start / 1e9, p) for p in points])
+    return names, points, system.rates_at(own.component, points)
 
 
 def _kinematics(names: Sequence[str], points: Array, rates: Array) -> tuple[dict[str, str], dict[str, tuple[str, str]]]:

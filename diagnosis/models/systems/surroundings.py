@@ -19,7 +19,9 @@ from diagnosis.search.cosim_run import Changes
 MOVED, ROUNDING = 1.0, 1e-6
 
 
-def surroundings(system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[str], points: Array) -> float | None:
+def surroundings(
+    system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[str], points: Array, rates: Array
+) -> float | None:
     """Temperature [K] towards which the states of an FMU that are temperatures go; None where that is not clear.
 
     It is the only parameter with which those rates change, or the only one that, moved together with all states that
@@ -31,13 +33,14 @@ def surroundings(system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[
         own: Its quantities.
         names: Its states, in order.
         points: States at which its equations are asked, in its units, shape (points, states).
+        rates: Derivatives there, of the same shape.
     """
     warm = [i for i, n in enumerate(names) if is_of(own.states[n], "K")]
     if not warm or any(is_of(q, "K") for q in own.inputs.values()):
         return None
     acting: list[float] = []
     carried: list[float] = []
-    plain = _rates(system, own.component, points)[:, warm]
+    plain = rates[:, warm]
     steps = np.zeros(points.shape[1])
     for i in warm:
         steps[i] = MOVED / conversion(fmu.units[names[i]], "K")[0]
@@ -49,17 +52,13 @@ def surroundings(system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[
         changes = Changes({own.component: {parameter: PhysicalValue(value + MOVED / factor, unit)}})
         if system.simulate(changes) is None:
             continue
-        if not _are_alike(_rates(system, own.component, points)[:, warm], plain):
+        if not _are_alike(system.rates_at(own.component, points)[:, warm], plain):
             acting.append(factor * value + offset)
-            if _are_alike(_rates(system, own.component, points + steps)[:, warm], plain):
+            if _are_alike(system.rates_at(own.component, points + steps)[:, warm], plain):
                 carried.append(acting[-1])
     system.simulate()
     found = carried or acting
     return found[0] if len(found) == 1 else None
-
-
-def _rates(system: FastSystem, component: str, points: Array) -> Array:
-    return np.array([system.rates(component, system.start / 1e9, p) for p in points])
 
 
 def _are_alike(rates: Array, others: Array) -> bool:
