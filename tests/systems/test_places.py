@@ -241,6 +241,11 @@ def test_a_room_that_is_a_parameter_is_found_by_what_flows_by_the_difference_to_
     assert "surroundings = 294 K" in found["radiation"].term.law
 
 
+def test_a_room_at_the_zero_of_its_unit_is_one(tmp_path: Path) -> None:
+    found = _lump_in(tmp_path, {"T_room": (0.0, "degC")}, "(power - K*(T - T_room - 273.15))/C")
+    assert found["radiation"].placed.constants["surroundings"].to("K") == pytest.approx(273.15)
+
+
 def test_where_nothing_says_what_the_surroundings_are_only_laws_that_need_them_are_left_out(tmp_path: Path) -> None:
     found = _lump_in(tmp_path, {}, "(power - K*(T - 294.0))/C")
     assert {"second_mass", "latent_heat", "evaporation"} <= set(found)

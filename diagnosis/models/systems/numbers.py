@@ -47,7 +47,7 @@ def usual_numbers(system: FastSystem, free: Sequence[Free]) -> list[Free]:
             continue
         named = {f.name for f in free if f.component == name}
         for parameter, value in scalar_parameters(fmu, system, name):
-            if parameter not in named:
+            if parameter not in named and value != 0.0:  # a relative change of 0 is none
                 effect = _effect(system, name, fmu, parameter, value)
                 if effect > 0.0:
                     found.append((effect, _free(name, fmu, parameter, value)))
@@ -66,7 +66,7 @@ def scalar_parameters(fmu: FastFmu, system: FastSystem, component: str) -> Itera
         given = system.parameter(component, name)
         value = given.to(v.unit) if isinstance(given, PhysicalValue) and given.unit else given
         value = value.number if isinstance(value, PhysicalValue) else value
-        if isinstance(value, int | float) and not isinstance(value, bool) and value != 0.0 and np.isfinite(value):
+        if isinstance(value, int | float) and not isinstance(value, bool) and np.isfinite(value):
             yield name, float(value)
 
 
