@@ -390,13 +390,30 @@ def _widened(
         if is_physics(beside) or accuses(beside) or fitted is None or term not in fitted.point.terms:
             continue
         doubt = _doubt(outcome)
-        found = estimates(fitted, term, doubt, model.scale_uncertainty(term))
-        alone = between_samples(local_estimates(found, term, fitted, model, doubt), term, model)
+        alone = estimated(model, fitted, term, doubt)
         both = tuple(_over(a, b) for a, b in zip(finding.parameters, alone))
         if any(b.upper - b.lower > WIDER * (a.upper - a.lower) for a, b in zip(finding.parameters, both)):
             why = f"its numbers depend on {beside.statement}: the intervals hold what is fitted with and without that"
             finding = replace(finding, parameters=both, doubts=(*finding.doubts, why))
     return finding
+
+
+def estimated(model: DiagnosisModel, fit: Fit, term: Term, doubt: float) -> tuple[Estimate, ...]:
+    """Parameters of a term with intervals by all that is known of them: instants on the clock of their recording."""
+    found = estimates(fit, term, doubt, model.scale_uncertainty(term))
+    told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
+    simulated = model.simulated_interval(term)
+    return told if simulated is None else (_reaching(told[0], *simulated), *told[1:])
+
+
+def _reaching(one: Estimate, lower: float, upper: float) -> Estimate:
+    """The estimate with an interval that holds these too."""
+    physical = one.physical
+    if physical is not None:  # a linear scale, which may run the other way
+        scale = (physical.upper - physical.lower) / (one.upper - one.lower) if one.upper > one.lower else 0.0
+        ends = [physical.value + scale * (v - one.value) for v in (lower, upper)]
+        physical = replace(physical, lower=min(physical.lower, *ends), upper=max(physical.upper, *ends))
+    return replace(one, lower=min(one.lower, lower), upper=max(one.upper, upper), physical=physical)
 
 
 def _over(one: Estimate, other: Estimate) -> Estimate:
@@ -442,8 +459,7 @@ def _finding(
     doubt, event = _doubt(outcome), event_of(term, fit.point.terms[term], model)
     units = units.of(term.place)
     when = since(term, fit, model, doubt, units)
-    found = estimates(fit, term, doubt, model.scale_uncertainty(term))
-    told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
+    told = estimated(model, fit, term, doubt)
     doubts = (*unidentified(term, fit, told, units), *implausible(term, fit.point.terms[term], units))
     if isinstance(candidate, CandidateTerm):
         unknown = unmeasured(candidate, _measured(model))

@@ -211,6 +211,10 @@ class DiagnosisModel(Protocol):
         """Relative deviations of its parameters that recordings cannot lower: what scales them leaves no trace."""
         ...
 
+    def simulated_interval(self, term: Term) -> tuple[float, float] | None:
+        """Strengths between which simulations meet the recordings as well; None where a fit's curvature tells them."""
+        ...
+
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels that are looked at together, by name."""
         ...
@@ -456,6 +460,10 @@ class ModelBase:
     def can_be_fitted(self) -> bool:
         """True."""
         return True
+
+    def simulated_interval(self, term: Term) -> tuple[float, float] | None:
+        """None: its fits are of simulations."""
+        return None
 
     def refine(self, point: Point) -> bool:
         """False: it simulates all points alike."""

@@ -134,3 +134,19 @@ def test_a_member_left_out_is_a_null():
     np.testing.assert_allclose(null.measured, drawn[3], atol=6 * 2e-5)
     np.testing.assert_allclose(null.surface.mean, np.delete(drawn, 3, axis=0).mean(axis=0))
     assert not search(null, TERMS, Settings()).best.terms
+
+
+def test_a_run_is_compared_with_parameters_moved_as_far_as_their_priors_allow():
+    ensemble = members(8, 3)
+    measured = ensemble.mean(axis=0) + effect(1, 1e-3)
+    one, z = model(measured, ensemble), np.array([0.4])
+    run = ensemble[0] + effect(9, 1e-4) * 0.4
+    misfit = one.misfits(np.array([run, run + effect(9, 3e-4)]), Point(z))
+    # By hand: the parameter anywhere, its prior of one deviation on top.
+    values = np.linspace(-8.0, 8.0, 3201)
+    whiten = Whitening(calibrated_scatter(ensemble, BINS), BINS.noise)
+    for found, start in zip(misfit, (run, run + effect(9, 3e-4))):
+        rows = start + np.outer(values - 0.4, effect(9, 1e-4))
+        by_hand = np.sum(whiten(measured - rows) ** 2, axis=1) + values**2
+        assert found == pytest.approx(float(by_hand.min()), rel=1e-4)
+        assert found <= by_hand[int(np.argmin(np.abs(values - 0.4)))]

@@ -71,6 +71,22 @@ class MechanicalModel:
         bins = self.surface.bins(points, [p.base for p in points])
         return self._whiten(self.measured - np.array([self._seen(row, p) for row, p in zip(bins, points)]))
 
+    def misfits(self, runs: Array, point: Point) -> Array:
+        """-2 log posterior of simulations of a point, each beside the recordings, shape (runs,).
+
+        Parameters may move, by their straight lines: what another strength needs of them is paid for by their priors.
+
+        Args:
+            runs: Bins of each, shape (runs, bins).
+            point: Where they were made; what the camera does is taken from it.
+        """
+        residuals = self._whiten(self.measured - np.array([self._seen(row, point) for row in runs]))
+        count, z = len(self.parameters), point.base
+        equations = np.vstack([self.base_jacobian(point), np.eye(count)])
+        ends = np.vstack([residuals.T, np.repeat(z[:, None], len(runs), axis=1)])
+        moved = np.linalg.lstsq(equations, -ends, rcond=None)[0]
+        return np.asarray(np.sum((ends + equations @ moved) ** 2, axis=0))
+
     def _seen(self, bins: Array, point: Point) -> Array:
         return bins if self.camera is None else self.camera.seen(bins, point.terms)
 

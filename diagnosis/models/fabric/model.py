@@ -124,6 +124,7 @@ class FabricModel(ModelBase):
         #: What each residual belongs to, those of the coil network first; known once it is prepared.
         self.layout = Layout(np.zeros(0), np.zeros(0), (), ())
         self._scatter: dict[str, float] = {}
+        self._intervals: dict[Term, tuple[float, float]] = {}
         self._has_speed = "start_speed" in given.parameters
         recorded = [len(r.channels) for r in self.mechanical_recordings]
         self._unmeasured = UnmeasuredBins(self.binning, self._wider, recorded)
@@ -280,6 +281,14 @@ class FabricModel(ModelBase):
     def scale_uncertainty(self, term: Term) -> tuple[float, ...]:
         """See `DiagnosisModel`: masses are taken as given."""
         return (0.0,) * len(term.parameters)
+
+    def simulated_interval(self, term: Term) -> tuple[float, float] | None:
+        """See `diagnosis.models.fabric.strengths.interval_of`; None of what was not found, or costs no simulation."""
+        return self._intervals.get(term)
+
+    def take_interval(self, term: Term, interval: tuple[float, float]) -> None:
+        """Remember between which strengths simulations meet the recordings as well."""
+        self._intervals[term] = interval
 
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels of the coil network that are looked at together."""

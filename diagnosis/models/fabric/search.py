@@ -12,6 +12,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.scatter import FEWEST, Whitening, calibrated_scatter
+from diagnosis.models.fabric.strengths import interval_of, next_sizes
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
@@ -86,7 +87,7 @@ def search_fabric(
     the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated: for
     one effect first, then for more beside it, since contacts of a fabric with an effect scatter by another amount than
     those of one without. Hopeful effects are simulated where they were fitted, and the best explanation from several
-    starts.
+    starts. 6. What was found is simulated at other strengths: between which it meets the recordings as well.
 
     Args:
         model: Model and training recordings; its mechanical part is made here.
@@ -111,6 +112,7 @@ def search_fabric(
     if outcome.best.terms:
         more = replace(own, floor=max(own.floor, plan.margin_beside()))
         outcome = plan.settled(plan.search(more), more)
+    plan.bound_strengths(outcome)
     model.take_scatter(model.scatter())
     return outcome
 
@@ -422,6 +424,28 @@ class _Plan:
             corrected = self.surface.mean + (point.base - self.surface.anchor) @ self.surface.slopes + mean - rest
             self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
         self._scatter_of(members)
+
+    def bound_strengths(self, outcome: Outcome) -> None:
+        """Simulate every effect that was found at other strengths: between which it meets the recordings as well."""
+        model, laws = self.model, set(self.model.laws())
+        fitted = outcome.best.fit.point
+        point = model.own_point(fitted)
+        terms = [t for t in point.terms if t in laws and point.terms[t][0] != 0.0]
+        if not terms:
+            return
+        self._network_point = model.network_point(fitted)
+        known: dict[Term, dict[float, Array]] = {t: {} for t in terms}
+        while wanted := [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]:
+            points = [point.plus(t, (s, *point.terms[t][1:])) for t, s in wanted]
+            self._left += self._count * len(points) * self._confirmed
+            self._enter("the effects found, at other strengths", len(points) * self._confirmed)
+            found = self._runs([(self._point(p.base, dict(p.terms)), self._confirmed) for p in points])
+            for (term, size), runs in zip(wanted, found):
+                known[term][size] = np.array([np.inf]) if runs is None else model.prepared.misfits(runs, point)
+        for term, misfits in known.items():
+            strength = point.terms[term][0]
+            if np.isfinite(misfits[strength]).all():
+                model.take_interval(term, interval_of(strength, misfits, term.parameters[0]))
 
 
 def _largest_gain(outcome: Outcome) -> float:

@@ -78,6 +78,10 @@ class WrappedModel:
         """See `DiagnosisModel`."""
         return self.inner.scale_uncertainty(term)
 
+    def simulated_interval(self, term: Term) -> tuple[float, float] | None:
+        """See `DiagnosisModel`."""
+        return self.inner.simulated_interval(term)
+
     def groups(self) -> Mapping[str, AnyArray]:
         """Channels that are looked at together, by name."""
         return self.inner.groups()

@@ -1,0 +1,96 @@
+"""How far a strength may be from the fitted one, by simulations at others.
+
+Between few simulations a surface is made of straight lines, and each knot is a mean of runs that scatter. Where a
+fabric hardly answers to more of an effect (it lies on its stops), the lines are steeper than the fabric is, and the
+curvature of the fit tells the strength more sharply than the recordings do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+from scipy.stats import chi2
+
+from cosim.unit.protocol import Array
+from diagnosis.search.problem import TermParameter
+
+#: Shares of the fitted strength at which an effect is simulated too, downwards and upwards from it.
+LESS, MORE = (0.5, 0.25, 0.0), (2.0, 4.0)
+#: Rise of -2 log likelihood at the ends of a 95 % interval of one number.
+RISE = float(chi2.ppf(0.95, 1))
+#: Standard errors of a mean over starts by which it may lie too high.
+ERRORS = 2.0
+
+
+def next_sizes(strength: float, misfits: Mapping[float, Array], parameter: TermParameter) -> list[float]:
+    """Strengths to simulate next: on either side the first that is not known, where none before it is excluded.
+
+    Args:
+        strength: The fitted one.
+        misfits: What is known, as in `interval_of`; empty at first.
+        parameter: Of the effect, for its bounds.
+
+    >>> from diagnosis.search.problem import TermParameter
+    >>> next_sizes(0.2, {}, TermParameter("roll", "rad", -0.5, 0.5, (0.25,)))
+    [0.2, 0.1, 0.4]
+    """
+    wanted = [] if strength in misfits else [strength]
+    excess = _excess(strength, misfits) if strength in misfits else {}
+    for shares in (LESS, MORE):
+        sizes = [float(np.clip(share * strength, parameter.lower, parameter.upper)) for share in shares]
+        for size in dict.fromkeys(s for s in sizes if s != strength):
+            if size not in misfits:
+                wanted.append(size)
+                break
+            if excess[size] > 0.0:
+                break
+    return wanted
+
+
+def interval_of(strength: float, misfits: Mapping[float, Array], parameter: TermParameter) -> tuple[float, float]:
+    """Strengths between which simulations meet the recordings as well as at the fitted one.
+
+    From the fitted strength outwards, to where -2 log likelihood has risen by more than `RISE` and the errors of both
+    means, between two simulations on a straight line; where it never does to the bound, or to 0.
+
+    Args:
+        strength: The fitted one.
+        misfits: Strength to -2 log likelihood of each of its runs, the fitted one among them; infinite where it
+            cannot be simulated.
+        parameter: Of the effect, for its bounds.
+    """
+    excess = _excess(strength, misfits)
+    places = sorted(excess)
+    below, above = [p for p in reversed(places) if p <= strength], [p for p in places if p >= strength]
+    least, most = (parameter.lower, 0.0) if strength < 0.0 else (0.0, parameter.upper)
+    return _end(below, excess, least), _end(above, excess, most)
+
+
+def _excess(strength: float, misfits: Mapping[float, Array]) -> dict[float, float]:
+    """By how much each strength is too far; negative where it meets the recordings as well."""
+    level, error = _mean(misfits[strength])
+    found = {}
+    for size, values in misfits.items():
+        mean, own = _mean(values)
+        found[size] = mean - level - RISE - ERRORS * float(np.hypot(error, own)) if np.isfinite(mean) else float("inf")
+    found[strength] = -RISE
+    return found
+
+
+def _mean(values: Array) -> tuple[float, float]:
+    """Mean of runs and its standard error; infinite from one run."""
+    count = len(values)
+    return float(np.mean(values)), float(np.std(values, ddof=1) / np.sqrt(count)) if count > 1 else float("inf")
+
+
+def _end(outwards: list[float], excess: Mapping[float, float], bound: float) -> float:
+    """Where it rises too far, going outwards; `bound` where it does not."""
+    for last, place in pairwise(outwards):
+        if excess[place] > 0.0:
+            if not np.isfinite(excess[last]):  # known from one run
+                return place
+            share = -excess[last] / (excess[place] - excess[last])
+            return last + share * (place - last)
+    return bound

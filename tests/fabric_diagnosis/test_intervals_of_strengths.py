@@ -1,0 +1,115 @@
+"""How far a strength may be from the fitted one, by simulations at others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.unit.protocol import Array
+from diagnosis.candidates.registry import catalogue
+from diagnosis.judge.judge import estimated, estimates
+from diagnosis.models.build import model_of
+from diagnosis.models.fabric.model import FabricModel
+from diagnosis.models.fabric.strengths import interval_of, next_sizes
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.problem import TermParameter
+from diagnosis.search.search import Settings
+from tests.fabric_diagnosis.fabrics import laws_but
+from tests.fabric_diagnosis.test_refuted_finding import recorded, tiny
+
+ROLL = TermParameter("roll", "rad", -0.5, 0.5, (0.25,))
+SHARE = TermParameter("steel_loss", "1", 0.0, 0.9, (0.4,))
+
+
+def runs(level: float, scatter: float = 0.0, count: int = 6) -> Array:
+    """Misfits of so many runs about a level."""
+    return np.asarray(level + scatter * np.resize([-1.0, 1.0], count))
+
+
+def test_exact_parabola_gives_what_curvature_gives() -> None:
+    # -2 log likelihood ((s - 0.2) / 0.02)^2 has the 95 % interval 0.2 +- 1.96 * 0.02. Straight lines from the minimum
+    # to the next simulation, which lies far outside, reach 3.84 earlier than a parabola does: the fit's interval stays.
+    misfits = {s: runs(((s - 0.2) / 0.02) ** 2) for s in (0.0, 0.05, 0.1, 0.2, 0.4, 0.5)}
+    lower, upper = interval_of(0.2, misfits, ROLL)
+    assert 0.2 - 1.96 * 0.02 <= lower < 0.2 < upper <= 0.2 + 1.96 * 0.02
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_response_that_saturates_leaves_the_strength_open_upwards(sign: float) -> None:
+    # From 0.1 on nothing more moves: 0.113 is met as well as 0.226 and 0.45, and 0.028 is not.
+    misfits = {
+        sign * s: runs(100.0 + 900.0 * max(0.0, 0.1 - s) / 0.1, 1.0) for s in (0.0, 0.028, 0.057, 0.113, 0.226, 0.452)
+    }
+    ends = interval_of(sign * 0.113, misfits, ROLL)
+    near, far = sorted(ends, key=abs)
+    assert far == pytest.approx(sign * 0.5)
+    assert 0.057 < abs(near) < 0.113
+
+
+def test_what_runs_scatter_by_is_no_reason_to_exclude_a_strength() -> None:
+    level = {0.1: 300.0, 0.2: 300.0, 0.05: 340.0, 0.025: 400.0, 0.0: 500.0, 0.4: 340.0}
+    sharp = interval_of(0.1, {s: runs(v, 1.0) for s, v in level.items()}, ROLL)
+    blunt = interval_of(0.1, {s: runs(v, 60.0) for s, v in level.items()}, ROLL)
+    assert blunt[0] < 0.05 < sharp[0]
+    assert sharp[1] < 0.4 < blunt[1]
+
+
+def test_one_run_excludes_nothing() -> None:
+    misfits = {s: runs(300.0 + 1e4 * abs(s - 0.1), count=1) for s in (0.0, 0.025, 0.05, 0.1, 0.2, 0.4)}
+    assert interval_of(0.1, misfits, ROLL) == (0.0, 0.5)
+
+
+def test_strength_of_one_run_does_not_say_where_between_it_and_the_next_the_end_is() -> None:
+    misfits = {0.1: runs(300.0, 1.0), 0.2: runs(300.0, count=1), 0.4: runs(900.0, 1.0), 0.0: runs(900.0, 1.0)}
+    lower, upper = interval_of(0.1, misfits, ROLL)
+    assert 0.0 < lower < 0.1
+    assert upper == 0.4
+
+
+def test_strength_that_is_not_told_from_nothing_reaches_nothing_and_stops_there() -> None:
+    misfits = {-s: runs(300.0, 5.0) for s in (0.0, 0.025, 0.05, 0.1, 0.2)} | {-0.4: runs(900.0, 5.0)}
+    lower, upper = interval_of(-0.1, misfits, ROLL)
+    assert upper == 0.0
+    assert -0.4 < lower < -0.2
+
+
+def test_only_strengths_that_may_still_be_within_are_simulated() -> None:
+    known: dict[float, Array] = {}
+    assert next_sizes(0.2, known, ROLL) == [0.2, 0.1, 0.4]
+    known |= {0.2: runs(300.0, 1.0), 0.1: runs(900.0, 1.0), 0.4: runs(300.5, 1.0)}
+    assert next_sizes(0.2, known, ROLL) == [0.5]  # four times as much is beyond the bound
+    known |= {0.5: runs(301.0, 1.0)}
+    assert next_sizes(0.2, known, ROLL) == []
+    assert interval_of(0.2, known, ROLL)[1] == 0.5
+
+
+def test_strength_at_its_bound_is_simulated_downwards_alone() -> None:
+    assert next_sizes(0.9, {}, SHARE) == [0.9, 0.45]
+
+
+def test_strength_that_cannot_be_simulated_ends_the_interval() -> None:
+    known = {0.2: runs(300.0, 1.0), 0.1: runs(300.0, 1.0), 0.05: runs(np.inf, count=1), 0.4: runs(np.inf, count=1)}
+    assert next_sizes(0.2, known, ROLL) == []
+    assert interval_of(0.2, known, ROLL) == (0.1, 0.2)
+
+
+def test_search_bounds_the_strength_that_it_finds(tmp_path: Path) -> None:
+    recording = load_recording(recorded(tmp_path / "leans", 1, tilt="0.3 rad"))
+    model = model_of(tiny(), [recording], catalogue(), without=laws_but("tilt"))
+    assert isinstance(model, FabricModel)
+    (tilt,) = model.laws()[:1]
+    assert model.simulated_interval(tilt) is None
+    outcome = model.own_search(Settings(), lambda text: None)
+    assert set(outcome.best.terms) == {tilt}
+    lower, upper = model.simulated_interval(tilt) or (0.0, 0.0)
+    value = outcome.best.fit.point.terms[tilt][0]
+    assert 0.2 < lower < value < upper < 0.4
+    # What is printed holds both intervals.
+    (by_curvature,) = estimates(outcome.best.fit, tilt)
+    model.take_interval(tilt, (0.1, 0.32))
+    (told,) = estimated(model, outcome.best.fit, tilt, 1.0)
+    assert told.lower == 0.1
+    assert told.upper == by_curvature.upper > 0.32
+    assert told.value == by_curvature.value
