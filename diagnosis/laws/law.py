@@ -16,6 +16,8 @@ class Role(Enum):
 
     #: Derivative of a velocity v that is the derivative of a position x.
     VELOCITY = "rate of a velocity"
+    #: Derivative of a velocity v, over an input o.
+    LOADED_VELOCITY = "rate of a velocity over an input"
     #: Derivative of a temperature T in surroundings of T_a, where an input or a parameter says what these are.
     TEMPERATURE = "rate of a temperature"
     #: Derivative of a level, a volume or a pressure h.

@@ -15,6 +15,8 @@ _T = TypeVar("_T")
 SURROUNDINGS = "surroundings"
 #: Units of what a vessel holds.
 _LENGTHS = ("m", "rad", "m^3", "Pa")
+#: Share of its middle by which an input has to move to be told from a constant.
+HARDLY = 0.05
 #: `added_terms` target, its quantity, and symbol to quantity.
 Target = tuple[str, Quantity, dict[str, Quantity]]
 
@@ -27,6 +29,9 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
     free = {n: q for n, q in own.states.items() if n not in own.velocity_of and n not in own.twist_of}
     if role is Role.VELOCITY:
         yield from _motions(own, free)
+    elif role is Role.LOADED_VELOCITY:
+        for target, q, symbols in _motions(own, free):
+            yield from ((target, q, {"v": symbols["v"], "o": load}) for load in own.inputs.values() if _is_load(load))
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
         yield from _coupled(own, role, free)
     elif role in (Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
@@ -77,6 +82,11 @@ def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[Target]:
     for name, q in free.items():
         if name not in own.velocity_of.values() and is_of(q, "m/s", "rad/s"):
             yield f"der({name})", q, {"v": q}
+
+
+def _is_load(quantity: Quantity) -> bool:
+    """Whether friction may go by an input: no temperature, and nothing that hardly changes, as a constant shows it."""
+    return not is_of(quantity, "K") and quantity.size > HARDLY * abs(quantity.middle)
 
 
 def _coupled(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
