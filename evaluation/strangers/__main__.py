@@ -23,6 +23,7 @@ from evaluation.strangers import (
     eleventh_set,
     fifth_set,
     first_set,
+    fourteenth_set,
     fourth_set,
     ninth_set,
     second_set,
@@ -50,6 +51,7 @@ SETS = {
     "eleventh": eleventh_set.CASES,
     "twelfth": twelfth_set.CASES,
     "thirteenth": thirteenth_set.CASES,
+    "fourteenth": fourteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
