@@ -29,11 +29,11 @@ def runs(level: float, scatter: float = 0.0, count: int = 6) -> Array:
 
 
 def test_exact_parabola_gives_what_curvature_gives() -> None:
-    # -2 log likelihood ((s - 0.2) / 0.02)^2 has the 95 % interval 0.2 +- 1.96 * 0.02. Straight lines from the minimum
-    # to the next simulation, which lies far outside, reach 3.84 earlier than a parabola does: the fit's interval stays.
+    # -2 log likelihood ((s - 0.2) / 0.02)^2 has the 95 % interval 0.2 +- 1.96 * 0.02.
     misfits = {s: runs(((s - 0.2) / 0.02) ** 2) for s in (0.0, 0.05, 0.1, 0.2, 0.4, 0.5)}
     lower, upper = interval_of(0.2, misfits, ROLL)
-    assert 0.2 - 1.96 * 0.02 <= lower < 0.2 < upper <= 0.2 + 1.96 * 0.02
+    assert lower == pytest.approx(0.2 - 1.96 * 0.02, abs=1e-5)
+    assert upper == pytest.approx(0.2 + 1.96 * 0.02, abs=1e-5)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -53,7 +53,8 @@ def interval_of(strength: float, misfits: Mapping[float, Array], parameter: Term
     """Strengths between which simulations meet the recordings as well as at the fitted one.
 
     From the fitted strength outwards, to where -2 log likelihood has risen by more than `RISE` and the errors of both
-    means, between two simulations on a straight line; where it never does to the bound, or to 0.
+    means; between two simulations by a parabola whose vertex is the inner one. Where it never does to the bound, or
+    to 0.
 
     Args:
         strength: The fitted one.
@@ -91,6 +92,6 @@ def _end(outwards: list[float], excess: Mapping[float, float], bound: float) -> 
         if excess[place] > 0.0:
             if not np.isfinite(excess[last]):  # known from one run
                 return place
-            share = -excess[last] / (excess[place] - excess[last])
+            share = float(np.sqrt(-excess[last] / (excess[place] - excess[last])))
             return last + share * (place - last)
     return bound
