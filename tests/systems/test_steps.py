@@ -11,7 +11,7 @@ from cosim.scenario import parse_scenario
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.places import places_of
-from diagnosis.models.systems.steps import resolve
+from diagnosis.models.systems.steps import _is_same, resolve
 from evaluation.fmus.model import OdeModel
 
 R, SCENARIO = (
@@ -61,3 +61,11 @@ def test_a_winding_that_no_step_resolves_is_left_to_the_co_simulation(tmp_path: 
     with pytest.raises(NotFast, match="a simulation stops"):
         places_of([system])
     system.close()
+
+
+def test_a_run_that_grew_beyond_all_measure_is_never_the_same_as_the_next() -> None:
+    before = np.array([[0.0], [1e200], [-3e220]])
+    assert not _is_same(before, np.array([[0.0], [1.0], [1.5]]))
+    assert not _is_same(np.array([[0.0], [1.0], [1.5]]), before)
+    assert not _is_same(before, before)  # both ran away
+    assert _is_same(np.array([[0.0], [1.0], [1.5]]), np.array([[0.0], [1.0], [1.5 + 1e-4]]))

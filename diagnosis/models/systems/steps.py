@@ -25,11 +25,17 @@ def resolve(system: FastSystem) -> Array | None:
     while True:
         system.set_substeps(count)
         rows = system.simulate()
-        if rows is not None and before is not None:
-            moved = np.max(np.abs(rows.values - before), axis=0, initial=0.0)
-            if np.all(moved <= EXACT * np.std(before, axis=0) + 1e-12 * np.max(np.abs(before), axis=0, initial=0.0)):
-                return rows.values.copy()
+        if rows is not None and before is not None and _is_same(before, rows.values):
+            return rows.values.copy()
         if count >= MOST_SUBSTEPS:
             return None if rows is None else rows.values.copy()
         before = None if rows is None else rows.values.copy()
         count *= 2
+
+
+def _is_same(before: Array, now: Array) -> bool:
+    """Whether twice as many steps changed nothing; never of what ran away, whose size is no measure."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        moved = np.max(np.abs(now - before), axis=0, initial=0.0)
+        size = EXACT * np.std(now, axis=0) + 1e-12 * np.max(np.abs(now), axis=0, initial=0.0)
+    return bool(np.all(np.isfinite(size) & (moved <= size)))
