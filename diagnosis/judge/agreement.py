@@ -119,8 +119,13 @@ class Agreement:
 
     @property
     def is_irregular(self) -> bool:
-        """Whether all channels that reject the model do so by what changes from one reading to the next alone."""
+        """Whether all channels that reject the model do so by what changes from one reading to the next alone.
+
+        Where none does so alone and all of them do together: those that leave more than their noise.
+        """
         rejected = [c for c in self.channels if c.is_rejected]
+        if not rejected and self.is_rejected:
+            rejected = [c for c in self.channels if c.statistic > 1.0]
         return bool(rejected) and all(c.is_irregular for c in rejected)
 
     @property

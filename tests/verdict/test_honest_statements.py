@@ -70,6 +70,21 @@ def test_a_noise_that_is_larger_than_stated_is_told_from_an_error_that_lasts() -
     assert not agreement(drawn, readings()).is_irregular  # nothing rejects
 
 
+@pytest.mark.parametrize("is_lasting", [False, True])
+def test_channels_that_reject_a_model_only_together_say_whether_it_lasts_too(is_lasting: bool) -> None:
+    """Six channels with 1.07 times their noise: none beyond its own limit, all of them beyond that of all."""
+    count = 400
+    rng = np.random.default_rng(8)
+    drawn = rng.standard_normal((6, count))
+    drawn /= np.sqrt(np.mean(drawn**2, axis=1, keepdims=True))
+    wave = np.sqrt(2.0) * np.sin(np.linspace(0.0, 30.0, count))
+    rows = drawn + np.sqrt(1.07**2 - 1.0) * wave if is_lasting else 1.07 * drawn
+    found = agreement(rows.ravel(), readings(6, count=count))
+    assert found.is_rejected
+    assert not any(c.is_rejected for c in found.channels)
+    assert found.is_irregular == (not is_lasting)
+
+
 def test_readings_that_stand_out_alone_are_no_error_that_lasts() -> None:
     """One in 25 by 7 deviations, either way: too little to be set aside as wild, enough to reject the model."""
     rng = np.random.default_rng(4)

@@ -187,7 +187,8 @@ class SystemModel(CompiledModel):
         if finer is None:
             return None
         finer.refine(point)
-        found = 2.0 * (finer.residuals([point])[0] - self.residuals([point])[0])
+        with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
+            found = 2.0 * (finer.residuals([point])[0] - self.residuals([point])[0])
         return found if np.isfinite(found).all() else None
 
     @cached_property
