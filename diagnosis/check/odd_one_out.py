@@ -16,6 +16,7 @@ from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.doubts import ODD
 
 #: Share of their variance that the scenario explains of the others, all numbers as they are.
 MET = 0.95
@@ -25,6 +26,8 @@ TIMES, LEAST = 10.0, 0.01
 #: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording one of whose
 #: inputs hardly is the one that acted: the same numbers explain the others.
 HALF = 0.5
+#: Share of the range of the others by which a recording may go beyond it, and how much faster it may change.
+BEYOND, FASTER = 0.5, 2.0
 #: Other recordings that have to be met: one alone may be the odd one itself.
 OTHERS = 2
 
@@ -50,7 +53,8 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
     """Doubts about recordings that stand out from the others, one each; serious where little of one is explained.
 
     Others are met as they are, or scaled and shifted where numbers are off. Then a recording in which little moves is
-    no odd one: more of its variance is left, and no more of its unit. It is not serious by itself.
+    no odd one: more of its variance is left, and no more of its unit. It is serious then only where it moves within
+    what the others move within, so that no law acts in it alone.
     """
     channels = [_left(one) for one in every]
     found = []
@@ -69,9 +73,10 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             "a wrong number shows in all of them, and so does a missing law unless only this one reaches where it "
             "acts: look at this recording's input, start and day first"
         )
-        is_serious = is_as_it_is and worst.scaled >= HALF
+        is_alike = is_as_it_is or _is_within(one, [o for i, o in enumerate(every) if i != number])
+        is_serious = is_alike and worst.scaled >= HALF
         title = one.recording.title
-        found.append(Doubt(title, "all channels", "odd one out", text, remedy, is_serious, one.begin, one.end, z))
+        found.append(Doubt(title, "all channels", ODD, text, remedy, is_serious, one.begin, one.end, z))
     return found
 
 
@@ -95,6 +100,34 @@ def _is_larger(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> bool:
     worst = max(own, key=lambda c: c.scaled)
     sizes = [c.size for o in others for c in o if c.name == worst.name]
     return bool(sizes) and worst.size >= TIMES * max(sizes)
+
+
+def _is_within(one: Compared, others: Sequence[Compared]) -> bool:
+    """Whether readings and simulation of a recording go no farther, either way and per second, than those of others.
+
+    A law that is missing and acts at large values, or in fast motion, may act in one recording alone.
+    """
+    for name, beside in comparable(one).items():
+        there = [o.channels[name] for o in others if name in o.channels and o.channels[name].is_comparable]
+        for mine, theirs in (
+            (beside.measured, [b.measured for b in there]),
+            (beside.simulated_there, [b.simulated_there for b in there]),
+        ):
+            if not theirs:
+                return False
+            low, high = min(float(np.min(v)) for v in theirs), max(float(np.max(v)) for v in theirs)
+            margin = BEYOND * (high - low)
+            if float(np.min(mine)) < low - margin or float(np.max(mine)) > high + margin:
+                return False
+        if _speed(beside) > FASTER * max(_speed(b) for b in there):
+            return False
+    return True
+
+
+def _speed(beside: Beside) -> float:
+    """Mean size of the simulated changes per second: the readings' own are noise where they are close together."""
+    length = float(beside.times[-1] - beside.times[0])
+    return float(np.sum(np.abs(np.diff(beside.simulated_there)))) / max(length, 1e-12)
 
 
 def _left(one: Compared) -> list[_Left]:

@@ -24,6 +24,8 @@ _CLEARED = "the fault has to be cleared"
 _WAITS = "first"
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
 OF_A_STRETCH = ("sensor", "input", "range")
+#: Kind of doubt about a recording that the scenario misses while it meets the others, and kinds about its times.
+ODD, OF_TIMES = "odd one out", ("clock", "dead time")
 
 
 def is_of_another_experiment(doubt: Doubt) -> bool:
@@ -37,16 +39,23 @@ def of_another_experiment(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 
 def without_consequences(doubts: Sequence[Doubt]) -> list[Doubt]:
-    """Doubts without those that a fault of a sensor explains.
+    """Doubts without those that a serious one about the same recording explains.
 
     A sensor that stands still and catches up moves when no programme does: where a serious fault of a sensor was seen
-    in a recording, that its readings change beside the programme says nothing more.
+    in a recording, that its readings change beside the programme says nothing more. Nor does the clock by which
+    readings follow a simulation best that explains next to nothing of them.
 
     Args:
         doubts: About all recordings.
     """
     faulty = {d.recording for d in faults(doubts)}
-    return [d for d in doubts if not (d.kind == "programme" and d.recording in faulty)]
+    apart = {d.recording for d in doubts if d.is_serious and d.kind == ODD}
+    return [
+        d
+        for d in doubts
+        if not (d.kind == "programme" and d.recording in faulty)
+        and not (d.kind in OF_TIMES and not d.is_serious and d.recording in apart)
+    ]
 
 
 def is_physics(finding: Finding) -> bool:

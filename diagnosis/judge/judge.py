@@ -29,7 +29,7 @@ from diagnosis.judge.diagnosis import (
     Verdict,
     class_places,
 )
-from diagnosis.judge.doubts import MEASURED, accuses, far_starts, faults, is_physics, late_responses
+from diagnosis.judge.doubts import MEASURED, ODD, accuses, far_starts, faults, is_physics, late_responses
 from diagnosis.judge.events import between_samples, event_of, local_estimates, since
 from diagnosis.judge.form import EXPLAINED
 from diagnosis.judge.headline import noise_of
@@ -191,7 +191,7 @@ def why_open(
     if len(strained):
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
     # Where something is open, one recording that stands out from all others is the first thing to look at.
-    return (*(_apart(d) for d in doubts if d.kind == "odd one out" and reasons), *reasons)
+    return (*(_apart(d) for d in doubts if d.kind == ODD and reasons), *reasons)
 
 
 def _apart(doubt: Doubt) -> str:

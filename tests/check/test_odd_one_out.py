@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pytest
 import yaml
 
 from cosim.scenario import load_scenario
@@ -33,6 +34,26 @@ def test_the_recording_with_another_run_s_input_is_named_and_nulls_and_missing_l
     assert told.recording == "run_2"
     assert told.is_serious  # nothing of its course is explained, and all of the others' is
     assert "of the variance of each other recording" in told.statement
+
+
+@pytest.mark.parametrize("size", [1.0, 3.0])
+def test_where_numbers_are_off_in_all_it_has_to_move_within_what_the_others_move_within(
+    tmp_path: Path, size: float
+) -> None:
+    """All readings 40 % too large: none is met as it is, and two are when they are scaled."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    for number, recording in enumerate(recordings):
+        table = pd.read_csv(recording / "data.csv")
+        table["x"] *= 1.4
+        if number == 1:
+            table["u"] = drive(17, 0.4)
+            table[["u", "x"]] *= size
+        table.to_csv(recording / "data.csv", index=False)
+    (told,) = _doubts(tmp_path, recordings)
+    assert told.recording == "run_2"
+    assert "scaled and shifted as suits each channel best" in told.statement
+    assert told.is_serious == (size == 1.0)  # at three times their size a law may act in it alone
 
 
 def test_recordings_that_are_met_within_their_noise_are_all_alike(tmp_path: Path) -> None:

@@ -71,3 +71,13 @@ def test_a_sensor_that_stood_still_explains_changes_beside_the_programme() -> No
 def test_a_fault_of_a_stretch_is_no_other_experiment(kind: str, is_other: bool) -> None:
     assert is_of_another_experiment(replace(STEP, kind=kind)) is is_other
     assert not is_of_another_experiment(replace(STEP, kind=kind, is_serious=False))
+
+
+def test_a_recording_that_is_not_explained_has_no_clock_that_can_be_told() -> None:
+    odd = replace(STEP, subject="all channels", kind="odd one out")
+    clock = replace(STEP, subject="time", kind="clock", is_serious=False)
+    assert without_consequences([odd, clock]) == [odd]
+    part = replace(odd, is_serious=False)  # met in part: its clock may be what is wrong
+    assert without_consequences([part, clock]) == [part, clock]
+    serious, elsewhere = replace(clock, is_serious=True), replace(clock, recording="tuesday")
+    assert without_consequences([odd, serious, elsewhere]) == [odd, serious, elsewhere]
