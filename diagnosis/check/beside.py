@@ -18,6 +18,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.feedthrough import QUIETER, quieter, settled
+from diagnosis.check.outage import without_unknown
 from diagnosis.check.starts import runs_from_starts
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
@@ -161,6 +162,7 @@ class Compared:
         note: Why nothing was simulated; else empty.
         results: Of the run.
         base: The scenario without these conditions.
+        whole: What was measured, with readings that cannot be compared as an input is not known; None: as `recording`.
     """
 
     recording: Recording
@@ -170,6 +172,7 @@ class Compared:
     note: str = ""
     results: xr.Dataset | None = field(default=None, repr=False)
     base: Scenario | None = None
+    whole: Recording | None = field(default=None, repr=False)
 
     @cached_property
     def units(self) -> Units:
@@ -247,10 +250,13 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
     recording = replace(
         recording, channels={n: _settled(c, recording, courses, results) for n, c in recording.channels.items()}
     )
+    whole = recording
+    if results is not None and not has_fabric(own):
+        recording = without_unknown(scenario, recording, results)
     channels = {n: _beside(c, runs, recording.path / "recording.yaml") for n, c in recording.channels.items()}
     if len(runs) > 1:
         channels = _pooled(channels)
-    return Compared(recording, own, channels, courses, note, results, scenario)
+    return Compared(recording, own, channels, courses, note, results, scenario, whole)
 
 
 def has_fabric(scenario: Scenario) -> bool:

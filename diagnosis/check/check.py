@@ -17,6 +17,7 @@ from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.odd_one_out import odd_ones
 from diagnosis.check.other_course import other_course
+from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
@@ -65,6 +66,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     by_unit = [*units_of_one(every), *units_of_all(every)]
     exchanged, clocks = swapped_in_one(every), clocks_of_one(every)
     for one in every:
+        found += outage_doubts(one.recording)
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)

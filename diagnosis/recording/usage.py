@@ -69,6 +69,7 @@ def _usage(channel: Channel, margin: float, switches: Sequence[float], start: fl
         "after stop": "after the simulated time",
         "uncertain": "far less certain than the others",
         "thinned": "left out of so many, at even distances",
+        "unknown input": "dependent on what an input was while its column has no rows",
         "at a switch": "taken while an input changed that the quantity follows at once",
     }
     found = {words[reason]: count for reason, count in channel.dropped.items()}
