@@ -42,6 +42,8 @@ class Role(Enum):
     MODULATED = "rate of a state over its difference to another one and a third quantity"
     #: Derivative of a state s over its difference to an input r of its unit, and a third quantity o.
     MODULATED_BY_INPUT = "rate of a state over its difference to an input and a third quantity"
+    #: An output y of an FMU that shows its states, which is none of them nor a derivative, over a state or input o.
+    READING = "output that is no state, over a state or input"
     #: An input u.
     INPUT = "input"
     #: An input u of an FMU that hides its states, over an output o.

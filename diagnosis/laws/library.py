@@ -58,7 +58,17 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
-    return [*found, *_scaled(), _beside_a_state(), *_with_memory(), *_corrections()]
+    return [*found, *_scaled(), *_read(), _beside_a_state(), *_with_memory(), *_corrections()]
+
+
+def _read() -> list[Law]:
+    """What the equation of an output lacks: a force that stretches what is measured, a current that is no state."""
+    found = []
+    for name, (formula, power) in _FORMS.items():
+        words = "law of a state or input in an output"
+        law = _law(f"reading_{name}", words, Role.READING, f"a * {formula}", f"y/({power})")
+        found.append(replace(law, series_of=() if name == "linear" else ("o",)))
+    return found
 
 
 def _modulated() -> list[Law]:

@@ -1,7 +1,8 @@
-"""Outputs of a Model Exchange FMU that are the derivative of a state: an accelerometer, the net flow into a store.
+"""What outputs of a Model Exchange FMU are: a state, the derivative of one, or made of several.
 
-A law is added to the derivative, which the FMU does not know: its output leaves the law out. So the law is added to the
-output too.
+Outputs that are a derivative (an accelerometer, the net flow into a store): a law is added to the derivative, which the
+FMU does not know, and its output leaves the law out. So the law is added to the output too. Outputs that are made of
+several quantities have an equation of their own, from which something may be missing as from those of the states.
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ def derivatives_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str,
         derivative is a state: that output is the reading of a velocity, to which nothing is added.
     """
     moving = [n for n in own.states if n not in own.velocity_of and n not in own.twist_of]
-    outputs = [n for n, a in fmu.outputs.items() if a.size == 1 and n in fmu.units and n not in fmu.states]
-    if not fmu.is_model_exchange or set(fmu.states) != set(own.states) or not moving or not outputs:
+    outputs = _outputs(fmu, own)
+    if not moving or not outputs:
         return {}
     states, rates, read = _asked(system, fmu, own)
     names = list(fmu.states)
@@ -52,6 +53,35 @@ def derivatives_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str,
             if factor is not None and _line(value, read[output]) is None:
                 found.setdefault(state, {})[output] = factor
     return found
+
+
+def composed_outputs(system: FastSystem, fmu: FastFmu, own: Places) -> list[str]:
+    """Outputs that are no straight line in any one state or in the derivative of one, and change.
+
+    Args:
+        system: After a simulation.
+        fmu: One of its FMUs.
+        own: Its quantities.
+    """
+    outputs = _outputs(fmu, own)
+    if not outputs:
+        return []
+    states, rates, read = _asked(system, fmu, own)
+    single = np.hstack([states, rates]).T
+    return [
+        name
+        for name in outputs
+        if np.isfinite(read[name]).all()
+        and np.ptp(read[name]) > 0.0
+        and all(_line(values, read[name]) is None for values in single)
+    ]
+
+
+def _outputs(fmu: FastFmu, own: Places) -> list[str]:
+    """Scalar outputs of a Model Exchange FMU all of whose states are known; else none."""
+    if not fmu.is_model_exchange or not fmu.states or set(fmu.states) != set(own.states):
+        return []
+    return [n for n, a in fmu.outputs.items() if a.size == 1 and n in fmu.units and n not in fmu.states]
 
 
 def _asked(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[Array, Array, dict[str, Array]]:

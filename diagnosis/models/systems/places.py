@@ -14,7 +14,7 @@ from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
 from diagnosis.laws.law import Law, Number
-from diagnosis.models.systems.derivative_outputs import derivatives_read, read_by_outputs
+from diagnosis.models.systems.derivative_outputs import composed_outputs, derivatives_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
@@ -99,6 +99,8 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.velocity_of, own.twist_of = _kinematics(*probed)
         own.derivatives_read = derivatives_read(systems[0], fmu, own)
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
+        composed = composed_outputs(systems[0], fmu, own)
+        own.readings = _quantities(fmu, composed, [(name, n) for n in composed], courses, step)
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
         own.room = surroundings(systems[0], fmu, own, *probed)
@@ -403,7 +405,8 @@ def _evaluated(of: str, values: Mapping[str, object]) -> Any:
 
 def _check(own: Places, placed: Placed, to: str) -> None:
     """Whether the co-simulation will take the formula, units and all."""
-    units = {q.name: q.unit for q in (*own.states.values(), *own.inputs.values(), *own.outputs.values())}
+    every = (*own.states.values(), *own.inputs.values(), *own.outputs.values(), *own.readings.values())
+    units = {q.name: q.unit for q in every}
     units |= own.output_units
     units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}
     units |= {s.name: s.unit for s in placed.states}

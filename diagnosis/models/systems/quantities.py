@@ -40,6 +40,7 @@ class Places:
         states: Continuous states by name, in order.
         inputs: Inputs that are connected.
         outputs: Outputs of a Co-Simulation FMU.
+        readings: Outputs of a Model Exchange FMU that are recorded or connected, and neither a state nor a derivative.
         velocity_of: Position to its velocity.
         apart: Two states of one unit to what they are apart by, whose name is that difference as a formula.
         derivatives_read: State to the outputs that are its derivative, times a factor in their units, plus a constant.
@@ -54,6 +55,7 @@ class Places:
     states: dict[str, Quantity] = field(default_factory=dict)
     inputs: dict[str, Quantity] = field(default_factory=dict)
     outputs: dict[str, Quantity] = field(default_factory=dict)
+    readings: dict[str, Quantity] = field(default_factory=dict)
     velocity_of: dict[str, str] = field(default_factory=dict)
     apart: dict[tuple[str, str], Quantity] = field(default_factory=dict)
     twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)

@@ -34,7 +34,7 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
             yield from ((target, q, {"v": symbols["v"], "o": load}) for load in own.inputs.values() if _is_load(load))
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
         yield from _coupled(own, role, free)
-    elif role in (Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
+    elif role in (Role.READING, Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
         yield from _at_ports(own, role)
     elif role in (Role.MODULATED, Role.MODULATED_BY_INPUT):
         yield from _modulated(own, role, free)
@@ -61,8 +61,11 @@ def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterato
 
 
 def _at_ports(own: Places, role: Role) -> Iterator[Target]:
-    """Inputs, and outputs of an FMU that hides its states."""
-    if role is Role.INPUT:
+    """Inputs and outputs."""
+    if role is Role.READING:
+        for name, q in own.readings.items():
+            yield from ((name, q, {"y": q, "o": o}) for o in (*own.states.values(), *own.inputs.values()))
+    elif role is Role.INPUT:
         yield from ((name, q, {"u": q}) for name, q in own.inputs.items())
     elif role is Role.PORT:
         for name, q in own.inputs.items():
