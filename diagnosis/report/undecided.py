@@ -59,6 +59,13 @@ _COMES_BACK = (
     "it depends on."
 )
 
+#: The same where neighbouring readings differ by less than their stated noise: it may last for several readings.
+_LASTING = (
+    "What is left may be noise that lasts for several readings. Record the rig while nothing acts on it: what readings "
+    "scatter by there, and for how long they stay alike, is of the sensors. State that noise, or read at longer "
+    "intervals; diagnose again."
+)
+
 
 def suggested(finding: Finding, units: Units = IN_SI) -> str:
     """A finding that is not accepted: effect, place and time, and why it is not accepted."""
@@ -121,7 +128,11 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
         worst = diagnosis.adequacy.worst
         return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
-    return "" if diagnosis.next_experiment is not None or not diagnosis.left else _of_the_rest(diagnosis)
+    if diagnosis.next_experiment is not None or not diagnosis.left:
+        return ""
+    right = diagnosis.adequacy
+    may_last = right is not None and right.worst is not None and right.worst.correlation > 0.0
+    return _LASTING if may_last else _of_the_rest(diagnosis)
 
 
 def _is_within_scatter(diagnosis: Diagnosis) -> bool:

@@ -100,6 +100,12 @@ def test_what_is_left_in_several_recordings_has_come_back_already() -> None:
     ]
     assert what_decides(replace(told, fit=tuple(fits))).startswith("What is left is in 2 of 3 training recordings")
     assert what_decides(replace(told, fit=tuple(fits[::2]))).startswith("Repeat the recording in which most is left")
+    # Of noise that lasts for several readings neither is true: it is in all recordings, and of no rig.
+    assert ADEQUACY.worst is not None
+    lasting = replace(ADEQUACY, is_irregular=False, worst=replace(ADEQUACY.worst, correlation=0.5))
+    for chosen in (fits, fits[::2]):
+        text = what_decides(replace(told, fit=tuple(chosen), adequacy=lasting))
+        assert text.startswith("What is left may be noise that lasts for several readings")
 
 
 def test_rows_without_the_numbers_of_the_day_stand_beside_what_judged() -> None:
