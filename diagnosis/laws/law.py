@@ -46,6 +46,8 @@ class Role(Enum):
     READING = "output that is no state, over a state or input"
     #: An input u.
     INPUT = "input"
+    #: An input u that is on where recordings begin, and no temperature: 0 is off.
+    STARTED_INPUT = "input that is on at the begin"
     #: An input u of an FMU that hides its states, over an output o.
     PORT = "input over an output"
     #: An output y of an FMU that hides its states.

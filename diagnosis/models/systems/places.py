@@ -448,11 +448,15 @@ def _negligible(number: Number, scale: _Scale, symbols: Mapping[str, Quantity], 
 
 
 def _form(placed: Placed) -> str:
-    """The formula with its strength renamed and its sign dropped: laws of the same form are one."""
+    """The formula with its strength renamed and its sign dropped: laws of the same form and start are one."""
     first = placed.numbers[0][0]
     text = renamed(placed.formula, {first: "strength"})
     text = text.removeprefix("-")
-    return text + "".join(f"; {s.rate}" for s in placed.states) + "".join(f"; {d.of}, {d.by}" for d in placed.delays)
+    return (
+        text
+        + "".join(f"; {s.rate} from {s.start}" for s in placed.states)
+        + "".join(f"; {d.of}, {d.by}" for d in placed.delays)
+    )
 
 
 def domain_of(unit: str, own: Places) -> str:

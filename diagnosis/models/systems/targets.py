@@ -34,7 +34,7 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
             yield from ((target, q, {"v": symbols["v"], "o": load}) for load in own.inputs.values() if _is_load(load))
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
         yield from _coupled(own, role, free)
-    elif role in (Role.READING, Role.INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
+    elif role in (Role.READING, Role.INPUT, Role.STARTED_INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
         yield from _at_ports(own, role)
     elif role in (Role.MODULATED, Role.MODULATED_BY_INPUT):
         yield from _modulated(own, role, free)
@@ -67,6 +67,8 @@ def _at_ports(own: Places, role: Role) -> Iterator[Target]:
             yield from ((name, q, {"y": q, "o": o}) for o in (*own.states.values(), *own.inputs.values()))
     elif role is Role.INPUT:
         yield from ((name, q, {"u": q}) for name, q in own.inputs.items())
+    elif role is Role.STARTED_INPUT:
+        yield from ((name, q, {"u": q}) for name, q in own.inputs.items() if _is_on(q))
     elif role is Role.PORT:
         for name, q in own.inputs.items():
             yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
@@ -90,6 +92,11 @@ def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[Target]:
 def _is_load(quantity: Quantity) -> bool:
     """Whether friction may go by an input: no temperature, and nothing that hardly changes, as a constant shows it."""
     return not is_of(quantity, "K") and quantity.size > HARDLY * abs(quantity.middle)
+
+
+def _is_on(quantity: Quantity) -> bool:
+    """Whether an input is on where recordings begin: the middle of a quantity is that of its first values."""
+    return not is_of(quantity, "K") and abs(quantity.middle) > HARDLY * quantity.size
 
 
 def _coupled(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
