@@ -314,6 +314,7 @@ def _fit(
     what = f"{to} {'*= 1 +' if law.is_share else '+='} {placed.formula}" + "".join(
         f", der({s.name}) = {s.rate}" for s in placed.states
     )
+    what += "".join(f", {s.name} = 0 at the begin" for s in placed.states if s.start.startswith("0 * "))
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
