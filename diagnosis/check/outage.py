@@ -19,7 +19,7 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.recording import Channel, Input, Recording
+from diagnosis.recording.recording import FEWEST_VALUES, Channel, Input, Recording
 from diagnosis.recording.series import sample, series_of
 from diagnosis.report.display import instant
 
@@ -76,7 +76,7 @@ def without_unknown(
     """The recording without readings that depend on what an input was in an outage.
 
     The least and the largest value of the input in place of what was held there: readings that move by more than
-    `DEPENDS` deviations of their noise are left out, if these are not more than `MOST` of a channel.
+    `DEPENDS` deviations of their noise are left out, if these are not more than `MOST` of a channel and enough stay.
 
     Args:
         scenario: That recordings are compared with.
@@ -144,7 +144,7 @@ def _apart(channel: Channel, recording: Recording, one: xr.Dataset, other: xr.Da
 
 def _without(channel: Channel, depends: AnyArray) -> Channel:
     count = int(np.count_nonzero(depends))
-    if not count or count > MOST * len(depends):
+    if not count or count > MOST * len(depends) or len(depends) - count < FEWEST_VALUES:
         return channel
     return replace(
         channel,

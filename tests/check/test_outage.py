@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from diagnosis.check.check import check_recordings
 from diagnosis.check.outage import LOST, outages, without_unknown
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Verdict
-from diagnosis.recording.recording import Input, Recording, load_recording
+from diagnosis.recording.recording import FEWEST_VALUES, Input, Recording, load_recording
 from diagnosis.recording.usage import usage
 from diagnosis.search.search import Settings
 from tests.systems.rigs import COUNT, STEP, held, oscillator, oscillator_recordings, tank, write_recording
@@ -110,6 +111,19 @@ def test_an_outage_is_a_gap_in_what_is_logged_all_the_time(times: np.ndarray, va
     assert len(found) == count
     if found:
         assert (found[0].begin, found[0].end, found[0].step) == (49.0, 50.0 + LOST, 1.0)
+
+
+def test_a_channel_of_few_readings_keeps_them(tmp_path: Path) -> None:
+    """One reading a second: with those after the outage left out, fewer would stay than a diagnosis needs."""
+    path = oscillator(tmp_path)
+    recording = with_outage(oscillator_recordings(tmp_path, lambda x, v: 0.0)[0])
+    whole = compare(load_scenario(path), recording)
+    assert whole.results is not None
+    own = recording.channels["rig.position"]
+    few = replace(own, times=own.times[::150], values=own.values[::150], is_clipped=own.is_clipped[::150])
+    assert len(few.times) < 2 * FEWEST_VALUES
+    kept = without_unknown(load_scenario(path), replace(recording, channels={"rig.position": few}), whole.results)
+    assert len(kept.channels["rig.position"].times) == len(few.times)
 
 
 def test_runs_that_stop_leave_no_reading_out(tmp_path: Path) -> None:
