@@ -112,12 +112,12 @@ def outage_doubts(recording: Recording) -> Iterator[Doubt]:
             continue
         longest = max(found, key=lambda o: o.end - o.begin)
         others = f", the longest of {len(found)} gaps" if len(found) > 1 else ""
-        told = f"{count} readings that depend on it are not compared" if count else "the last value is held there"
+        told = f"{count} readings that depend on such gaps are not compared" if count else "the last value is held"
         yield Doubt(
             recording.title,
             longest.name,
             "input",
-            f"its column has no rows from {longest.begin:.4g} to {longest.end:.4g} s, where one every "
+            f"its column has no rows from {instant(longest.begin)} to {instant(longest.end)} s, where one every "
             f"{instant(longest.step, 3)} s is usual{others}: what acted then is not known, and {told}",
             "give its course there, or end the recording before it (`end`)",
             False,

@@ -150,7 +150,7 @@ def _gaps(compared: Compared, beside: Beside) -> list[Doubt]:
     found = []
     for i in np.flatnonzero(lost > max(float(allowed), 3.0)):
         begin, end = float(channel.times[i]), float(channel.times[i + 1])
-        text = f"no readings from {begin:.4g} to {end:.4g} s, where one every {instant(usual, 3)} s is usual"
+        text = f"no readings from {instant(begin)} to {instant(end)} s, where one every {instant(usual, 3)} s is usual"
         found.append(
             Doubt(
                 compared.recording.title,
