@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from diagnosis.faults.given import LawsOnly
-from diagnosis.model_error import pooled, refitted
+from diagnosis.model_error import pooled, refitted, search_with_model_error
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.complete import MOST, MOST_SLOW, completed
@@ -28,7 +28,9 @@ def other_ways(
 
     1. Laws that hold in all recordings alone: those found before the errors of the model were taken into account, or,
        where something of one recording was among them (a fault, an event), those that are found without such.
-    2. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
+    2. Where such was found though the model errs by more than noise: laws alone as `search_with_model_error` finds them,
+       by stretches that they were not fitted to. A fault that fills a gap takes what laws would have to explain.
+    3. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
 
     Args:
         model: Model of the training recordings with the noise of the sensors, as it was searched.
@@ -46,6 +48,8 @@ def other_ways(
         first = search(laws, terms, settings, model.groups(), on_progress)
     if is_of_training or outcome.first is not None:
         yield _honest(laws, first)
+    if is_of_training and outcome.first is not None:
+        yield search_with_model_error(laws, settings, on_progress)
     if first.left.is_noise:
         return
     most = MOST if model.is_fast else MOST_SLOW
