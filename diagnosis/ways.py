@@ -28,8 +28,8 @@ def other_ways(
 
     1. Laws that hold in all recordings alone: those found before the errors of the model were taken into account, or,
        where something of one recording was among them (a fault, an event), those that are found without such.
-    2. Where such was found though the model errs by more than noise: laws alone as `search_with_model_error` finds them,
-       by stretches that they were not fitted to. A fault that fills a gap takes what laws would have to explain.
+    2. Where such was found though the model errs by more than noise: laws alone as `search_with_model_error` finds
+       them, by stretches that they were not fitted to. A fault that fills a gap takes what laws would explain.
     3. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
 
     Args:
