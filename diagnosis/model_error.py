@@ -61,12 +61,37 @@ def search_with_model_error(
     if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for
         outcome = search(LawsOnly(model), model.terms(), settings, model.groups(), on_progress)
         factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
-    plain, model = model, GivenFaults(model, faults)
-    first = outcome
-    outcome = _laws_alone(outcome)
+    first, given = outcome, GivenFaults(model, faults)
+    outcome, found = laws_that_predict(given, _laws_alone(outcome), model.terms(), settings, on_progress)
+    if faults:
+        found = QuasiLikelihoodModel(LawsOnly(model), found.inflation)
+        outcome = _with_faults(found, outcome, faults)
+    return replace(outcome, first=first), found
+
+
+def laws_that_predict(
+    model: DiagnosisModel,
+    outcome: Outcome,
+    terms: Sequence[Term],
+    settings: Settings,
+    on_progress: Callable[[str], None] = lambda text: None,
+) -> tuple[Outcome, QuasiLikelihoodModel]:
+    """Laws by how well they predict stretches of the training, where the model errs by more than noise.
+
+    Args:
+        model: Model and training recordings, in which no fault is looked for.
+        outcome: Of a search that took noise for all that is left: how large the errors are, and where to begin.
+        terms: Laws that may be taken.
+        settings: Of the search.
+        on_progress: Told what is being done.
+
+    Returns:
+        The outcome, and the model with larger errors that it belongs to.
+    """
+    factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     found = QuasiLikelihoodModel(model, factor)
     if len(model.layout.time) * len(model.parameters) < MANY:
-        outcome = _validated(found, settings, on_progress)
+        outcome = _validated(found, terms, settings, on_progress)
     else:
         outcome = _weighed(found, outcome, on_progress)
     raw = bounded(model.residuals([outcome.best.fit.point])[0])
@@ -74,10 +99,7 @@ def search_with_model_error(
     if np.any(larger >= FAR * factor):
         found = QuasiLikelihoodModel(model, np.maximum(factor, larger))
         outcome = refitted(found, outcome)
-    if faults:
-        found = QuasiLikelihoodModel(LawsOnly(plain), found.inflation)
-        outcome = _with_faults(found, outcome, faults)
-    return replace(outcome, first=first), found
+    return outcome, found
 
 
 def _earned_faults(model: QuasiLikelihoodModel, outcome: Outcome) -> dict[Term, tuple[float, ...]]:
@@ -122,16 +144,18 @@ def refitted(model: QuasiLikelihoodModel, outcome: Outcome) -> Outcome:
     return _settled(model, outcome, base, best, [Explanation(fit(model, e.fit.point)) for e in near])
 
 
-def _validated(model: QuasiLikelihoodModel, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
+def _validated(
+    model: QuasiLikelihoodModel, terms: Sequence[Term], settings: Settings, on_progress: Callable[[str], None]
+) -> Outcome:
     """Search plain laws, and all where none of them predicts better; take what predicts best."""
     wide = replace(settings, beam=BEAM, refits=REFITS, most_terms=MOST_TERMS, stops_at_noise=False)
     known: list[Validated] = []
     outcomes = []
-    every = distinct(model, [t for t in model.terms() if not t.is_completing])
+    every = distinct(model, [t for t in terms if not t.is_completing])
     plain = plain_terms(model, every)
-    for terms in (plain, every) if len(plain) < len(every) else (every,):
+    for some in (plain, every) if len(plain) < len(every) else (every,):
         validation = Validation(model, partial(MaskedModel, model), on_progress)
-        outcomes.append(search(model, terms, wide, model.groups(), on_progress, validation.select))
+        outcomes.append(search(model, some, wide, model.groups(), on_progress, validation.select))
         known += validation.all
         if known and chosen(known, set(plain), outcomes[-1].margin).explanation.terms:
             break  # a law explains it; what else there is would only fill gaps

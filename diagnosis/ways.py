@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from diagnosis.faults.given import LawsOnly
-from diagnosis.model_error import pooled, refitted, search_with_model_error
+from diagnosis.model_error import laws_that_predict, pooled, refitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
 from diagnosis.search.complete import MOST, MOST_SLOW, completed
@@ -28,8 +28,8 @@ def other_ways(
 
     1. Laws that hold in all recordings alone: those found before the errors of the model were taken into account, or,
        where something of one recording was among them (a fault, an event), those that are found without such.
-    2. Where such was found though the model errs by more than noise: laws alone as `search_with_model_error` finds
-       them, by stretches that they were not fitted to. A fault that fills a gap takes what laws would explain.
+    2. Where such was found though the model errs by more than noise: the same laws by how well they predict stretches
+       that they were not fitted to. A fault that fills a gap takes what laws would explain.
     3. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
 
     Args:
@@ -47,9 +47,11 @@ def other_ways(
         on_progress("searching laws that hold in all recordings alone")
         first = search(laws, terms, settings, model.groups(), on_progress)
     if is_of_training or outcome.first is not None:
-        yield _honest(laws, first)
-    if is_of_training and outcome.first is not None:
-        yield search_with_model_error(laws, settings, on_progress)
+        honest, errs = _honest(laws, first)
+        yield honest, errs
+        if is_of_training and outcome.first is not None and errs is not laws:
+            predicting, errs = laws_that_predict(laws, first, terms, settings, on_progress)
+            yield replace(predicting, first=first), errs
     if first.left.is_noise:
         return
     most = MOST if model.is_fast else MOST_SLOW

@@ -155,24 +155,24 @@ class Compared:
     """A recording beside the simulation of its scenario.
 
     Args:
-        recording: What was measured.
+        recording: What was measured, without readings that cannot be compared as an input is not known.
+        whole: With these.
         scenario: The scenario under the conditions of the recording.
         channels: By name.
         courses: What drives it.
         note: Why nothing was simulated; else empty.
         results: Of the run.
         base: The scenario without these conditions.
-        whole: What was measured, with readings that cannot be compared as an input is not known; None: as `recording`.
     """
 
     recording: Recording
+    whole: Recording
     scenario: Scenario
     channels: Mapping[str, Beside]
     courses: tuple[Course, ...]
     note: str = ""
     results: xr.Dataset | None = field(default=None, repr=False)
     base: Scenario | None = None
-    whole: Recording | None = field(default=None, repr=False)
 
     @cached_property
     def units(self) -> Units:
@@ -256,7 +256,7 @@ def compare(scenario: Scenario, recording: Recording, results: xr.Dataset | None
     channels = {n: _beside(c, runs, recording.path / "recording.yaml") for n, c in recording.channels.items()}
     if len(runs) > 1:
         channels = _pooled(channels)
-    return Compared(recording, own, channels, courses, note, results, scenario, whole)
+    return Compared(recording, whole, own, channels, courses, note, results, scenario)
 
 
 def has_fabric(scenario: Scenario) -> bool:

@@ -151,13 +151,7 @@ def _without(channel: Channel, switched: Array, start: float, step: float) -> Ch
     )
     if len(channel.times) - int(is_at.sum()) < FEWEST_VALUES or not is_at.any():
         return channel
-    return replace(
-        channel,
-        times=channel.times[~is_at],
-        values=channel.values[~is_at],
-        is_clipped=channel.is_clipped[~is_at],
-        dropped={**channel.dropped, "at a switch": int(is_at.sum())},
-    )
+    return channel.only(~is_at, {"at a switch": int(is_at.sum())})
 
 
 def quieter(channel: Channel, series: Series) -> float:

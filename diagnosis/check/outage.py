@@ -129,10 +129,13 @@ def outage_doubts(recording: Recording) -> Iterator[Doubt]:
 
 def _with(recorded: Input, found: list[Outage], level: float) -> Input:
     """The input with a level in all outages, from a row after its last one to a row before the next one."""
-    times = np.array([t for o in found for t in (o.begin + o.step, o.end - o.step)])
-    order = np.argsort(np.concatenate([recorded.times, times]), kind="stable")
-    values = np.concatenate([recorded.values, np.full(len(times), level)])
-    return replace(recorded, times=np.concatenate([recorded.times, times])[order], values=values[order])
+    added = np.array([t for o in found for t in (o.begin + o.step, o.end - o.step)])
+    places = np.searchsorted(recorded.times, added)
+    return replace(
+        recorded,
+        times=np.insert(recorded.times, places, added),
+        values=np.insert(recorded.values, places, level),
+    )
 
 
 def _apart(channel: Channel, recording: Recording, one: xr.Dataset, other: xr.Dataset) -> Array:
@@ -146,10 +149,4 @@ def _without(channel: Channel, depends: AnyArray) -> Channel:
     count = int(np.count_nonzero(depends))
     if not count or count > MOST * len(depends) or len(depends) - count < FEWEST_VALUES:
         return channel
-    return replace(
-        channel,
-        times=channel.times[~depends],
-        values=channel.values[~depends],
-        is_clipped=channel.is_clipped[~depends],
-        dropped={**channel.dropped, REASON: count},
-    )
+    return channel.only(~depends, {REASON: count})

@@ -140,7 +140,7 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
 
 def _gaps(compared: Compared, beside: Beside) -> list[Doubt]:
     """Stretches without readings that chance does not leave, where readings are lost one by one."""
-    channel = (compared.whole or compared.recording).channels[beside.channel.name]
+    channel = compared.whole.channels[beside.channel.name]
     steps = np.diff(channel.times)
     usual = float(np.median(steps))
     lost = np.maximum(np.round(steps / usual) - 1.0, 0.0)

@@ -478,6 +478,11 @@ class Adequacy:
         before = self.chi_square["before"]
         return before <= self.limit < before + self.by_day
 
+    @property
+    def noise_may_last(self) -> bool:
+        """Whether what is left may be noise that lasts: neighbours differ by less than the noise that is stated."""
+        return self.worst is not None and self.worst.correlation > 0.0
+
 
 @dataclass(frozen=True)
 class Domain:

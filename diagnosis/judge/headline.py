@@ -296,7 +296,7 @@ def _cause(adequacy: Adequacy, has_more: bool, units: Units) -> str:
             "wild, or a little is missing that changes as fast"
         )
     slow = "" if adequacy.is_noise_stated else ", or noise lasts longer than neighbouring readings, which tell it, show"
-    if adequacy.worst is not None and adequacy.worst.correlation > 0.0:
+    if adequacy.noise_may_last:
         slow = ", or noise lasts for several readings: neighbours differ by less than the noise that is stated"
     return f"something {'else ' if has_more else ''}is missing or wrong{slow}{_by_rows(adequacy, units)}"
 

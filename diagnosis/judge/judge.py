@@ -44,7 +44,7 @@ from diagnosis.report.display import listed, parameter_words, words
 from diagnosis.report.user_units import IN_SI, Units
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER, cost
-from diagnosis.search.problem import Parameter, Term
+from diagnosis.search.problem import Parameter, Term, TermParameter
 from diagnosis.search.search import Explanation, Outcome
 from diagnosis.search.shares import departures, titled
 
@@ -403,17 +403,9 @@ def estimated(model: DiagnosisModel, fit: Fit, term: Term, doubt: float) -> tupl
     found = estimates(fit, term, doubt, model.scale_uncertainty(term))
     told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
     simulated = model.simulated_interval(term)
-    return told if simulated is None else (_reaching(told[0], *simulated), *told[1:])
-
-
-def _reaching(one: Estimate, lower: float, upper: float) -> Estimate:
-    """The estimate with an interval that holds these too."""
-    physical = one.physical
-    if physical is not None:  # a linear scale, which may run the other way
-        scale = (physical.upper - physical.lower) / (one.upper - one.lower) if one.upper > one.lower else 0.0
-        ends = [physical.value + scale * (v - one.value) for v in (lower, upper)]
-        physical = replace(physical, lower=min(physical.lower, *ends), upper=max(physical.upper, *ends))
-    return replace(one, lower=min(one.lower, lower), upper=max(one.upper, upper), physical=physical)
+    if simulated is None:
+        return told
+    return _over(told[0], _estimate(term.parameters[0], told[0].value, *simulated)), *told[1:]
 
 
 def _over(one: Estimate, other: Estimate) -> Estimate:
@@ -722,12 +714,17 @@ def estimates(
         seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
         half = NORMAL_95 * float(np.hypot(seen, value * scale_uncertainty[i] if scale_uncertainty else 0.0))
         lower, upper = max(value - half, p.lower), min(value + half, p.upper)
-        physical = None
-        if p.physical is not None:
-            factor, offset, unit = p.physical
-            physical = Physical(unit, *(factor * v + offset for v in (value, lower, upper)))
-        found.append(Estimate(p.name, p.unit, value, lower, upper, p.meaning, physical, p.is_reading))
+        found.append(_estimate(p, value, lower, upper))
     return tuple(found)
+
+
+def _estimate(parameter: TermParameter, value: float, lower: float, upper: float) -> Estimate:
+    """A parameter with its interval, and the physical quantity that it stands for."""
+    p, physical = parameter, None
+    if p.physical is not None:
+        factor, offset, unit = p.physical
+        physical = Physical(unit, *(factor * v + offset for v in (value, lower, upper)))
+    return Estimate(p.name, p.unit, value, lower, upper, p.meaning, physical, p.is_reading)
 
 
 def _elements(model: DiagnosisModel, term: Term) -> tuple[str, ...]:

@@ -100,11 +100,4 @@ def _within(channel: Channel, start: float, stop: float, file: Path) -> Channel:
         "before start": int(np.count_nonzero(channel.times < start - slack)),
         "after stop": int(np.count_nonzero(channel.times > stop + slack)),
     }
-    dropped = {**channel.dropped, **{reason: count for reason, count in outside.items() if count}}
-    return replace(
-        channel,
-        times=channel.times[inside],
-        values=channel.values[inside],
-        is_clipped=channel.is_clipped[inside],
-        dropped=dropped,
-    )
+    return channel.only(inside, {reason: count for reason, count in outside.items() if count})

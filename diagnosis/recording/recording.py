@@ -85,6 +85,21 @@ class Channel:
         """SI unit."""
         return self.target.si_unit
 
+    def only(self, kept: AnyArray, dropped: Mapping[str, int]) -> Channel:
+        """The channel with some of its readings.
+
+        Args:
+            kept: Which, shape (samples,).
+            dropped: Why the others are not, with their number; see `dropped`.
+        """
+        return replace(
+            self,
+            times=self.times[kept],
+            values=self.values[kept],
+            is_clipped=self.is_clipped[kept],
+            dropped={**self.dropped, **dropped},
+        )
+
 
 @dataclass(frozen=True)
 class Input:

@@ -125,14 +125,12 @@ def what_decides(diagnosis: Diagnosis) -> str:
         if _is_within_scatter(diagnosis):
             return _WITHIN
         return _UNCONFIRMED if any(f.is_held_out for f in diagnosis.fit) else _UNJUDGED
-    if diagnosis.adequacy is not None and diagnosis.adequacy.is_irregular:
-        worst = diagnosis.adequacy.worst
-        return _NOISIER if worst is None or worst.is_noise_stated else _NOISIER_UNSTATED
+    right = diagnosis.adequacy
+    if right is not None and right.is_irregular:
+        return _NOISIER if right.worst is None or right.worst.is_noise_stated else _NOISIER_UNSTATED
     if diagnosis.next_experiment is not None or not diagnosis.left:
         return ""
-    right = diagnosis.adequacy
-    may_last = right is not None and right.worst is not None and right.worst.correlation > 0.0
-    return _LASTING if may_last else _of_the_rest(diagnosis)
+    return _LASTING if right is not None and right.noise_may_last else _of_the_rest(diagnosis)
 
 
 def _is_within_scatter(diagnosis: Diagnosis) -> bool:

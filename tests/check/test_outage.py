@@ -49,7 +49,6 @@ def test_what_acted_in_an_outage_rejects_no_model(tmp_path: Path) -> None:
     lost = set(np.round(recordings[0].channels["rig.position"].times / STEP)) - set(np.round(channel.times / STEP))
     assert min(lost) == LAST  # from the first reading after it, and as long as the oscillator remembers
     assert len(lost) == count
-    assert one.whole is not None
     assert len(one.whole.channels["rig.position"].times) == COUNT - (LAST - FIRST)
     (told,) = usage(one.recording)
     assert f"{count} dependent on what an input was while its column has no rows" in str(told)

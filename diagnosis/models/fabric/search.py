@@ -150,6 +150,11 @@ class _Plan:
         self.model.batches.progress.enter(stage, self._left)
         self._left = max(self._left - self._count * simulations, 0)
 
+    def _enter_more(self, stage: str, simulations: int) -> None:
+        """The same of simulations that were not counted before."""
+        self._left += self._count * simulations
+        self._enter(stage, simulations)
+
     def _point(self, z: Array, terms: dict[Term, tuple[float, ...]] | None = None) -> Point:
         return Point(np.concatenate([self._network_point.base, z]), {**self._network_point.terms, **(terms or {})})
 
@@ -215,8 +220,7 @@ class _Plan:
             self._take(term, strength, bins)
         wide = [(t, s) for t, s in tasks if t not in self.model.link_places and not self.surface.knows(t)]
         larger = [(t, float(np.copysign(min(t.parameters[0].plausible, t.parameters[0].upper), s))) for t, s in wide]
-        self._left += self._count * self._repeats * len(larger)
-        self._enter("effects that hardly show, at their largest", self._repeats * len(larger))
+        self._enter_more("effects that hardly show, at their largest", self._repeats * len(larger))
         for (term, strength), bins in zip(
             larger, self._means([(self._point(np.zeros(count), {t: (s,)}), self._repeats) for t, s in larger])
         ):
@@ -246,16 +250,14 @@ class _Plan:
             return
         starts = {t: next(iter(self.surface.strengths(t))) for t in known}
         here = np.zeros(count)
-        self._left += self._count * (len(starts) + 1)
-        self._enter("whether they do anything at all", len(starts) + 1)
+        self._enter_more("whether they do anything at all", len(starts) + 1)
         # Most of them show at once: the rest, which may act later, is simulated to the end.
         first = [self._point(here, {t: (s,)}) for t, s in starts.items()]
         is_same = self.model.begins_as_plain(first, self._point(here), self._plain_start)
         late = {t: p for (t, p), same in zip(zip(starts, first), is_same) if same}
         if not late:
             return
-        self._left += self._count * len(late)
-        self._enter("whether the others do anything later", len(late))
+        self._enter_more("whether the others do anything later", len(late))
         for term, bins in zip(late, self.model.simulated([(p, self._plain_start) for p in late.values()])):
             if bins is not None and np.allclose(bins, self._members[0], rtol=0.0, atol=SAME):
                 self.surface.forget(term)
@@ -353,8 +355,7 @@ class _Plan:
         ]
         if not tasks:
             return False
-        self._left += self._count * len(tasks)
-        self._enter("the same in single links", len(tasks))
+        self._enter_more("the same in single links", len(tasks))
         here = np.zeros(len(self.model.free))
         found = self._means([(self._point(here, {t: t.parameters[0].starts[:1]}), 1) for t in tasks])
         for term, bins in zip(tasks, found):
@@ -437,8 +438,7 @@ class _Plan:
         known: dict[Term, dict[float, Array]] = {t: {} for t in terms}
         while wanted := [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]:
             points = [point.plus(t, (s, *point.terms[t][1:])) for t, s in wanted]
-            self._left += self._count * len(points) * self._confirmed
-            self._enter("the effects found, at other strengths", len(points) * self._confirmed)
+            self._enter_more("the effects found, at other strengths", len(points) * self._confirmed)
             found = self._runs([(self._point(p.base, dict(p.terms)), self._confirmed) for p in points])
             for (term, size), runs in zip(wanted, found):
                 known[term][size] = np.array([np.inf]) if runs is None else model.prepared.misfits(runs, point)

@@ -26,8 +26,8 @@ ROUNDING = 1e-8
 FACTOR = "derivative_factor"
 
 
-def derivatives_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, dict[str, float]]:
-    """States with the outputs that are their derivative times a factor plus a constant, at every point.
+def outputs_read(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[str, dict[str, float]], list[str]]:
+    """Outputs that are the derivative of a state, and those that are made of several quantities.
 
     Args:
         system: After a simulation.
@@ -35,46 +35,33 @@ def derivatives_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str,
         own: Its quantities.
 
     Returns:
-        State to output to factor, in the units of the output and of the state per second. Not of a state whose
-        derivative is a state: that output is the reading of a velocity, to which nothing is added.
+        State to output to the factor of its derivative, in the units of the output and of the state per second; an
+        output is that times the factor plus a constant at every point. Not of a state whose derivative is a state: that
+        output is the reading of a velocity, to which nothing is added. And the outputs that are no straight line in any
+        one state or in the derivative of one, and change.
     """
-    moving = [n for n in own.states if n not in own.velocity_of and n not in own.twist_of]
     outputs = _outputs(fmu, own)
-    if not moving or not outputs:
-        return {}
+    if not outputs:
+        return {}, []
     states, rates, read = _asked(system, fmu, own)
     names = list(fmu.states)
-    found: dict[str, dict[str, float]] = {}
-    for state in moving:
+    derivatives: dict[str, dict[str, float]] = {}
+    for state in (n for n in own.states if n not in own.velocity_of and n not in own.twist_of):
         rate, value = rates[:, names.index(state)], states[:, names.index(state)]
         for output in outputs:
             factor = _line(rate, read[output])
             # of a store that decays by itself, whatever reads its level is a straight line in its rate
             if factor is not None and _line(value, read[output]) is None:
-                found.setdefault(state, {})[output] = factor
-    return found
-
-
-def composed_outputs(system: FastSystem, fmu: FastFmu, own: Places) -> list[str]:
-    """Outputs that are no straight line in any one state or in the derivative of one, and change.
-
-    Args:
-        system: After a simulation.
-        fmu: One of its FMUs.
-        own: Its quantities.
-    """
-    outputs = _outputs(fmu, own)
-    if not outputs:
-        return []
-    states, rates, read = _asked(system, fmu, own)
+                derivatives.setdefault(state, {})[output] = factor
     single = np.hstack([states, rates]).T
-    return [
+    composed = [
         name
         for name in outputs
         if np.isfinite(read[name]).all()
         and np.ptp(read[name]) > 0.0
         and all(_line(values, read[name]) is None for values in single)
     ]
+    return derivatives, composed
 
 
 def _outputs(fmu: FastFmu, own: Places) -> list[str]:

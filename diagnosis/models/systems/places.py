@@ -14,7 +14,7 @@ from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
 from diagnosis.laws.law import Law, Number
-from diagnosis.models.systems.derivative_outputs import composed_outputs, derivatives_read, read_by_outputs
+from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
@@ -97,9 +97,8 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
             own.outputs = _quantities(fmu, outputs, [(name, n) for n in outputs], courses, step)
         probed = _probed(systems[0], fmu, own)
         own.velocity_of, own.twist_of = _kinematics(*probed)
-        own.derivatives_read = derivatives_read(systems[0], fmu, own)
+        own.derivatives_read, composed = outputs_read(systems[0], fmu, own)
         own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
-        composed = composed_outputs(systems[0], fmu, own)
         own.readings = _quantities(fmu, composed, [(name, n) for n in composed], courses, step)
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
