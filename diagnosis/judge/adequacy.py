@@ -36,6 +36,7 @@ def adequacy(
     """
     now, worst = accepted.agreement, accepted.agreement.worst
     before, recalibrated = accepted.agreement_before, accepted.agreement_recalibrated
+    louder = _louder([now, accepted.training])
     return Adequacy(
         basis=accepted.basis,
         is_rejected=now.is_rejected,
@@ -65,7 +66,7 @@ def adequacy(
         day=day,
         wild=now.wild,
         is_noise_stated=all(c.is_deviation_given for c in readings.channels),
-        is_nominal_rejected=before.is_rejected,
+        is_nominal_rejected=before.is_rejected and not (louder and before.is_met_by_scatter),
         is_training_rejected=accepted.training.is_rejected,
         is_recalibration_worse=accepted.recalibration.is_loss or bool(accepted.recalibration.worse),
         is_irregular=now.is_irregular if now.is_rejected else accepted.training.is_irregular,
@@ -75,7 +76,19 @@ def adequacy(
         needs_parameter_error=now.needs_parameter_error,
         noises_stated=(sum(c.is_deviation_given for c in readings.channels), len(readings.channels)),
         alike=accepted.training.alike,
+        louder=louder,
     )
+
+
+def _louder(agreements: Sequence[Agreement]) -> dict[str, float]:
+    """Channel to how many times its stated noise it scatters, where no readings reject a model by that scatter."""
+    rejecting = [a for a in agreements if a.is_rejected]
+    if not all(a.is_met_by_scatter for a in rejecting):
+        return {}
+    found: dict[str, float] = {}
+    for channel, times in (own for a in rejecting for own in a.louder.items()):
+        found[channel] = max(times, found.get(channel, 1.0))
+    return found
 
 
 def with_day(found: Adequacy, fits: Sequence[ChannelFit]) -> Adequacy:

@@ -3,6 +3,7 @@
 Source: chi-square test of goodness of fit with known variances; several channels by Bonferroni's inequality.
 Scatter from successive differences: J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395.
 Noise that is alike from reading to reading: M. S. Bartlett, J. Royal Statistical Society 98 (1935) 536-543.
+Whiteness at several lags: G. M. Ljung and G. E. P. Box, Biometrika 65 (1978) 297-303.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from diagnosis.judge.independent import independent
 from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings, set_aside
 from diagnosis.models.coil_network.runs import ZERO, deviation
+from diagnosis.recording.noise import estimate_noise
+from diagnosis.recording.recording import Channel
 
 #: Probability that noise alone is taken for a departure of the model.
 LEVEL = 0.001
@@ -32,6 +35,10 @@ ALONE = 5.0
 MOST_ALIKE = 0.9
 #: Share of differences between neighbouring residuals that may be jumps and do not count as scatter.
 JUMPS = 0.05
+#: Lags at which white residuals are asked to be white, at most; one for so many readings, and readings that are needed.
+LAGS, FOR_A_LAG, FEWEST = 20, 5, 30
+#: Deviations by which one residual counts at most in that question.
+CLIPPED = 3.0
 
 
 @dataclass(frozen=True)
@@ -54,6 +61,8 @@ class ChannelAgreement:
             fitted numbers explains, and its price, see `diagnosis.judge.parameter_error`.
         is_noise_stated: Whether the recording states the noise; else it was estimated from neighbouring readings.
         correlation: Of the noise of neighbouring readings, where these differ by less than is stated; else 0.
+        own_scatter: Of neighbouring readings themselves, whatever is simulated, where what is left is white at all of
+            several lags and there is more than the stated noise [unit]; else 0: it is not asked for.
     """
 
     channel: str
@@ -69,6 +78,7 @@ class ChannelAgreement:
     tested: float | None = None
     is_noise_stated: bool = True
     correlation: float = 0.0
+    own_scatter: float = 0.0
 
     @property
     def statistic(self) -> float:
@@ -90,6 +100,24 @@ class ChannelAgreement:
         """
         lasting = self.rmse if self.lasting is None else self.lasting
         return self.scatter**2 >= (1.0 - WHITE / math.sqrt(max(self.samples, 1))) * lasting**2
+
+    @property
+    def louder(self) -> float:
+        """Noise that the readings show by themselves in multiples of the stated one, at least 1.
+
+        The smaller of two: what readings and what residuals scatter by from one to the next. 1 where these are no
+        measure of the noise: what is left is not white, or no noise was stated.
+        """
+        return max(min(self.scatter, self.own_scatter) / self.noise, 1.0) if self.own_scatter else 1.0
+
+    @property
+    def is_beyond_scatter(self) -> bool:
+        """Whether what is left is more than noise of that scatter explains, readings that stand out alone counted.
+
+        The ratio of the mean square of n white residuals to that of their differences scatters by 1 / sqrt(n).
+        """
+        times = 1.0 if self.louder == 1.0 else 1.0 + QUANTILE / math.sqrt(self.samples)
+        return self.statistic / self.louder**2 > self.limit * times
 
     @property
     def multiple(self) -> float:
@@ -139,6 +167,30 @@ class Agreement:
         return self.chi_square if self.tested is None else self.tested
 
     @property
+    def is_met_by_scatter(self) -> bool:
+        """Whether the stated noise alone rejects the model: noise as large as what is left scatters does not.
+
+        That is how a recording is judged that states no noise. What is left has to be white in each channel that is
+        judged by its scatter, and no more than its readings scatter by themselves (`ChannelAgreement.louder`).
+        """
+        if not self.is_rejected or any(c.is_beyond_scatter for c in self.channels):
+            return False
+        less = sum(c.samples * c.statistic * (1.0 - 1.0 / c.louder**2) for c in self.channels)
+        error = math.sqrt(sum(c.samples for c in self.channels if c.louder > 1.0))
+        return self.statistic - less / self.samples <= self.limit + QUANTILE * error / self.samples
+
+    @property
+    def louder(self) -> dict[str, float]:
+        """Channel to how many times its stated noise it scatters, where readings do not reject the model by that."""
+        if not self.is_met_by_scatter:
+            return {}
+        found: dict[str, float] = {}
+        for c in sorted(self.channels, key=lambda c: -c.louder):
+            if c.louder > 1.0:
+                found.setdefault(c.channel, c.louder)
+        return found
+
+    @property
     def needs_parameter_error(self) -> bool:
         """Whether noise alone does not explain what is left, but noise and the error of fitted numbers do."""
         by_noise = self.chi_square > self.limit or any(c.chi_square > c.limit for c in self.channels)
@@ -182,6 +234,20 @@ def times_white(alike: Mapping[str, float], channels: Sequence[str]) -> float:
     return (1.0 + least) / (1.0 - least)
 
 
+def times_louder(louder: Mapping[str, float], names: Sequence[str]) -> float:
+    """How many times their stated noise channels scatter, the loudest of them.
+
+    Args:
+        louder: By channel, see `Agreement.louder`.
+        names: Channels, called as in the layout of a search: of several recordings each with the title of its own.
+
+    >>> times_louder({"a": 1.5}, ["a (monday)", "b"]), times_louder({"a": 1.5}, ["b"])
+    (1.5, 1.0)
+    """
+    own = [n for channel, n in louder.items() if any(f"{name} (".startswith(f"{channel} (") for name in names)]
+    return max(own, default=1.0)
+
+
 def _scatter(own: Array) -> float:
     """Deviation of what changes from one reading to the next, without the largest of the differences.
 
@@ -205,6 +271,26 @@ def _lasting(own: Array, scatter: float) -> float:
     is_alone = np.zeros(len(own), dtype=bool)
     is_alone[1:-1] = (np.minimum(np.abs(before), np.abs(after)) > ALONE * scatter) & (before * after > 0.0)
     return float(np.sqrt(np.mean(own[~is_alone] ** 2)))
+
+
+def _is_white(own: Array, scatter: float) -> bool:
+    """Whether residuals are alike at no lag up to `LAGS`, by the test of Ljung and Box; False of too few of them.
+
+    Their mean is not taken away: an offset is alike in all.
+    """
+    count = len(own)
+    if count < FEWEST or scatter <= 0.0:
+        return False
+    size = np.clip(own / scatter, -CLIPPED, CLIPPED)
+    lags = np.arange(1, min(LAGS, count // FOR_A_LAG) + 1)
+    alike = np.array([size[k:] @ size[:-k] for k in lags]) / float(size @ size)
+    statistic = count * (count + 2.0) * float(np.sum(alike**2 / (count - lags)))
+    return statistic <= float(chdtri(float(len(lags)), LEVEL))
+
+
+def _own_scatter(channel: Channel) -> float:
+    """What neighbouring readings of a channel scatter by [unit]: its noise, as it is estimated where none is stated."""
+    return estimate_noise(channel.times, channel.values, channel.quantum)
 
 
 def _correlation(scatter: float, count: int, share: float) -> float:
@@ -248,6 +334,8 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
         share = (channel.scatter / noise) ** 2 if noise > 0.0 else 0.0
         shares[n] = share, _correlation(scatter, count, share) if channel.is_deviation_given else 0.0
         free = independent([[(count, *shares[n])]])
+        statistic = (total if tested is None else float(tested.channels[n])) / count
+        is_asked = channel.is_deviation_given and noise > 0.0 and statistic > 1.0
         limit = float(chdtri(free, LEVEL / len(numbers))) / free * (1.0 + 2.0 * QUANTILE * own_error)
         found.append(
             ChannelAgreement(
@@ -261,9 +349,10 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
                 count,
                 noise * scatter,
                 noise * _lasting(own, scatter),
-                None if tested is None else float(tested.channels[n]) / count,
+                None if tested is None else statistic,
                 channel.is_deviation_given,
                 shares[n][1],
+                _own_scatter(channel) if is_asked and _is_white(own, scatter) else 0.0,
             )
         )
         squares += total

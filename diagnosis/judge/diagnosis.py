@@ -447,6 +447,8 @@ class Adequacy:
         by_day: Chi-square per reading that estimating the day's own numbers takes from the scenario as it is.
         alike: Channel of the training to the correlation of neighbouring readings, where these differ by less than the
             stated noise says: behind a filter noise does so, and a missing effect smaller than that noise too.
+        louder: Channel to how many times its stated noise it scatters from reading to reading, where the readings
+            reject the model by that noise and do not by the scatter.
     """
 
     basis: str
@@ -471,6 +473,12 @@ class Adequacy:
     noises_stated: tuple[int, int] = (0, 0)
     by_day: float = 0.0
     alike: dict[str, float] = field(default_factory=dict)
+    louder: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether readings reject the model by their scatter too, where that is larger than the stated noise."""
+        return (self.is_rejected or self.is_training_rejected) and not self.louder
 
     @property
     def needs_day(self) -> bool:

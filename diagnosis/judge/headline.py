@@ -102,11 +102,8 @@ def notes(
         told.append(
             f"That takes for granted: {day_of(adequacy, units)}. The rows of fits of each channel are without it."
         )
-    if adequacy.alike and verdict in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
-        told.append(
-            f"Neighbouring readings of {listed(list(adequacy.alike), TOLD)} differ by less than their stated noise "
-            "says. Noise behind a filter does so; a missing effect smaller than that noise would not be seen."
-        )
+    if verdict in (Verdict.CONSISTENT, Verdict.RECALIBRATED):
+        told += _of_noise(adequacy)
     if adequacy.wild:
         one = (
             "1 reading stands out alone and is"
@@ -115,6 +112,25 @@ def notes(
         )
         told.append(f"Of the {_basis(adequacy)} {one} not counted against the model; errors of channels count all.")
     return tuple(told)
+
+
+def _of_noise(adequacy: Adequacy) -> list[str]:
+    """What the agreement of a model takes for granted of the noise: that it is larger than stated, or lasts."""
+    told = []
+    if adequacy.louder:
+        times = listed([f"{number(n, 2)} times ({clean(name)})" for name, n in adequacy.louder.items()], TOLD)
+        which = "readings" if adequacy.is_rejected else "training readings"
+        told.append(
+            f"By the noise that is stated the {which} would reject the model: they scatter from one to the next by "
+            f"{times} that noise. What is left is alike at no longer interval, as noise is; something missing that "
+            "changes as fast would not be seen. Correct `noise` in recording.yaml."
+        )
+    if adequacy.alike:
+        told.append(
+            f"Neighbouring readings of {listed(list(adequacy.alike), TOLD)} differ by less than their stated noise "
+            "says. Noise behind a filter does so; a missing effect smaller than that noise would not be seen."
+        )
+    return told
 
 
 @dataclass(frozen=True)
@@ -206,6 +222,8 @@ def _judges(found: Sequence[Finding], adequacy: Adequacy) -> str:
 
 def noise_of(adequacy: Adequacy) -> str:
     """Where the noise comes from that readings are compared with."""
+    if adequacy.louder and adequacy.is_rejected:
+        return "the scatter of neighbouring readings, which is more than the noise that is stated,"
     if adequacy.is_noise_stated:
         return "the stated noise of the sensors"
     stated, channels = adequacy.noises_stated

@@ -12,7 +12,7 @@ from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import OF_INPUTS
 from diagnosis.judge.acceptance import Accepted
-from diagnosis.judge.agreement import times_white
+from diagnosis.judge.agreement import times_louder, times_white
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
     MOVED,
@@ -181,9 +181,9 @@ def why_open(
     if not searched.has_physics or any(not f.is_accepted for f in found):  # a suggested law may explain it
         unexplained = ""
     reasons += _rejections(adequacy, unexplained)
-    is_open = adequacy.is_rejected or adequacy.is_training_rejected
-    left = outcome.base_structure
-    if not is_open and abs(left.z) / math.sqrt(times_white(adequacy.alike, (left.channels,))) > EVIDENT * left.limit:
+    is_open, left = adequacy.is_open, outcome.base_structure
+    noise = math.sqrt(times_white(adequacy.alike, (left.channels,))) * times_louder(adequacy.louder, (left.channels,))
+    if not is_open and abs(left.z) / noise > EVIDENT * left.limit:
         reasons.append("residuals of the training recordings are alike for longer than noise is")
     if adequacy.is_recalibration_worse and (is_open or adequacy.needs_parameter_error):
         reasons.append("the recalibrated parameters predict worse than those of the scenario")
@@ -202,19 +202,21 @@ def _apart(doubt: Doubt) -> str:
 def evident(found: Sequence[Finding], adequacy: Adequacy, margin: float) -> tuple[Finding, ...]:
     """Findings without suggestions that noise gives which is alike from reading to reading.
 
-    The search counts every reading as one of its own. Where no readings reject the model, and those of a suggestion's
-    channels differ from their neighbours by less than the stated noise says, its gain counts for less.
+    The search counts every reading as one of its own, and its noise as it is stated. Where no readings reject the
+    model, and those of a suggestion's channels differ from their neighbours by less than the stated noise says, or all
+    of them scatter by more, its gain counts for less.
 
     Args:
         found: Accepted and suggested.
         adequacy: How right the accepted model is.
         margin: What an effect must gain.
     """
-    if adequacy.is_rejected or adequacy.is_training_rejected:
+    if adequacy.is_open:
         return tuple(found)
 
     def is_noise(finding: Finding) -> bool:
-        times = times_white(adequacy.alike, finding.channels)
+        louder = times_louder(adequacy.louder, finding.channels)
+        times = times_white(adequacy.alike, finding.channels) * louder**2
         return not finding.is_accepted and times > 1.0 and finding.gain <= margin * times
 
     return tuple(f for f in found if not is_noise(f))
@@ -241,7 +243,7 @@ def _open_ones(found: Sequence[Finding]) -> list[str]:
 
 def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
     """How the readings reject the model, if they do."""
-    if not (adequacy.is_rejected or adequacy.is_training_rejected):
+    if not adequacy.is_open:
         return []
     which = "readings" if adequacy.is_rejected else "training readings"
     if adequacy.is_irregular:

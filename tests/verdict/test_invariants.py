@@ -144,13 +144,6 @@ def test_a_null_agrees_and_says_by_which_noise() -> None:
     assert estimated.statement == f"{within} the scatter of neighbouring readings (no noise was stated)."
 
 
-def test_a_noise_that_is_stated_too_small_is_no_agreement() -> None:
-    line = 0.3 + 0.5 * TIME
-    told = answer(Lines(line, 1, noise=0.5 * NOISE), Lines(line, 2, noise=0.5 * NOISE))
-    assert told.word is Verdict.CANNOT_TELL
-    assert "the readings reject the model" in told.statement
-
-
 def test_what_stays_is_told_in_the_unit_of_the_channel_and_in_multiples_of_its_noise() -> None:
     strange = 0.3 + 0.5 * TIME + 0.5 * np.abs(np.sin(40.0 * TIME))
     told = answer(Lines(strange, 1), Lines(strange, 2))
