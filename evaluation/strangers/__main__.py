@@ -21,6 +21,7 @@ from evaluation.command import run_cosim
 from evaluation.strangers import (
     eighth_set,
     eleventh_set,
+    fifteenth_set,
     fifth_set,
     first_set,
     fourteenth_set,
@@ -52,6 +53,7 @@ SETS = {
     "twelfth": twelfth_set.CASES,
     "thirteenth": thirteenth_set.CASES,
     "fourteenth": fourteenth_set.CASES,
+    "fifteenth": fifteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
