@@ -714,7 +714,8 @@ def estimates(
     found = []
     for i, (p, value) in enumerate(zip(term.parameters, fit.point.terms[term])):
         seen = doubt * float(np.sqrt(max(covariance[begin + i, begin + i], 0.0)))
-        half = NORMAL_95 * float(np.hypot(seen, value * scale_uncertainty[i] if scale_uncertainty else 0.0))
+        unseen = np.hypot(value * scale_uncertainty[i] if scale_uncertainty else 0.0, p.resolution)
+        half = NORMAL_95 * float(np.hypot(seen, unseen))
         lower, upper = max(value - half, p.lower), min(value + half, p.upper)
         found.append(_estimate(p, value, lower, upper))
     return tuple(found)

@@ -108,6 +108,7 @@ class TermParameter:
         physical: Factor, offset and SI unit of the physical quantity that it stands for, where that is another: the
             bias of a sensor is counted in what its channel typically reads.
         is_reading: Whether it is a reading and no change: 300 K are 27 degC then.
+        resolution: Standard deviation that no recording lowers: an error of solving.
     """
 
     name: str
@@ -124,6 +125,7 @@ class TermParameter:
     meaning: str = ""
     physical: tuple[float, float, str] | None = None
     is_reading: bool = False
+    resolution: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.explanation import Settings
 from diagnosis.search.search import Outcome
 from tests.search.line_model import TIME
-from tests.verdict.lines import NOISE, Lines
+from tests.verdict.lines import Lines
 
 TRIED = Searched((Domain("thermal", 2, 1, 1), Domain("electrical", 1, 0, 1), Domain("measurement", 1, 0, 1)))
 QUICK = Settings(nulls=1, most_terms=2)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import itertools
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
-from diagnosis.laws.law import Law, Number
+from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
@@ -32,6 +33,9 @@ SEED = 20
 #: A quantity that is farther from 0 than so many times what it moves has its power series from where it is: a curvature
 #: comes with a slope of twice, and a constant of the square, of that else.
 FAR = 5.0
+#: Roles whose laws act on an input. Where the FMU hides its states, what a lag passes is held over a macro-step, late
+#: by half of one in the mean: the lag that is found is short by that.
+HELD = (Role.INPUT, Role.STARTED_INPUT, Role.PORT)
 
 
 @dataclass(frozen=True)
@@ -308,7 +312,8 @@ def _fit(
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
     domain = domain_of(target.unit, own)
-    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1]) for n in law.numbers)
+    is_held = law.role in HELD and bool(law.states) and not own.states
+    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1], is_held) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} {'*= 1 +' if law.is_share else '+='} {placed.formula}" + "".join(
         f", der({s.name}) = {s.rate}" for s in placed.states
@@ -420,11 +425,12 @@ def _check(own: Places, placed: Placed, to: str) -> None:
 
 
 def _parameter(
-    number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float
+    number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float, is_held: bool
 ) -> TermParameter:
     size = scale.size(number.of)
     middle = symbols[number.origin].middle if number.origin else 0.0
     lower = -number.most if number.least is None else number.least
+    negligible = _negligible(number, scale, symbols, macro_step)
     starts = tuple(middle + size * s for s in number.starts)
     return TermParameter(
         name,
@@ -432,7 +438,8 @@ def _parameter(
         middle + size * lower,
         middle + size * number.most,
         starts,
-        negligible=_negligible(number, scale, symbols, macro_step),
+        negligible=negligible,
+        resolution=0.5 * negligible / math.sqrt(3.0) if is_held else 0.0,
         meaning=number.meaning,
         is_reading=bool(number.origin),
     )
