@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import csv
+import math
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,10 +14,14 @@ import numpy as np
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.yaml_file import refuse_pipe
-from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant
+from diagnosis.check.heading import known_unit
+from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant, time_of_day
 
 #: Lines before the header that are looked through.
 _MOST_HEADER = 60
+#: Seconds of a day, and by how many a time of day must fall to be one of the next day.
+_DAY, _MIDNIGHT = 86400.0, 43200.0
+_TIMES = ("date", "time of day")
 #: What loggers write where nothing was measured.
 _NOTHING = frozenset({"", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf", "#n/a", "#div/0!"})
 
@@ -29,7 +36,7 @@ class Sniffed:
         header_lines: Lines of the file before its header.
         separator: Between columns.
         is_decimal_comma: Whether numbers are written 1,5.
-        instants: Columns that held dates; their values are seconds since the first.
+        instants: Columns that held dates or times of day; their values are seconds since the first.
         texts: Columns that hold text and no numbers, with an example.
     """
 
@@ -40,6 +47,21 @@ class Sniffed:
     is_decimal_comma: bool
     instants: tuple[str, ...]
     texts: dict[str, str]
+
+
+@dataclass(frozen=True)
+class _Column:
+    """One column.
+
+    Args:
+        values: Numbers, seconds since 1970 of dates, seconds since midnight of times of day; shape (rows,).
+        kind: What it holds: number, date, time of day or text; empty: nothing.
+        example: Of text.
+    """
+
+    values: Array
+    kind: str
+    example: str
 
 
 def read_table(path: Path) -> Sniffed:
@@ -93,24 +115,65 @@ def _split(line: str, separator: str | None) -> list[str]:
 
 def _parsed(path: Path, lines: list[str], separator: str | None) -> Sniffed | None:
     """The table, if this is its separator: three rows of numbers or dates in a row, names above them."""
+    before: list[str] = []
     for number in range(min(len(lines) - 3, _MOST_HEADER)):
-        names = _split(lines[number], separator)
-        following = [_split(line, separator) for line in lines[number + 1 : number + 4]]
-        if len(names) < 2 or any(len(row) != len(names) for row in following):
-            continue
-        if not all(names) or any(_is_value(n) for n in names):
-            continue
-        if all(sum(_is_value(cell) for cell in row) >= 2 for row in following):
-            return _table(path, lines, number, separator)
+        names = _names(lines[number], separator)
+        # Some loggers leave a line empty between the header and the numbers.
+        rows = [line for line in lines[number + 1 : number + 6] if line.strip()][:3]
+        following = [_split(line, separator) for line in rows]
+        if _is_header(names, before, following):
+            if before and _are_units(names, before):
+                names = [f"{name} [{unit}]" if unit else name for name, unit in zip(before, map(_bare, names))]
+            return _table(path, lines, number, names, separator)
+        before = names if len(names) > 1 and all(names) else before if not any(names) else []
     return None
 
 
+def _names(line: str, separator: str | None) -> list[str]:
+    """Cells of a header; a separator at its end begins no column."""
+    names = _split(line, separator)
+    while names and not names[-1]:
+        names.pop()
+    return names
+
+
+def _is_header(names: list[str], before: list[str], following: list[list[str]]) -> bool:
+    """Whether numbers or dates stand in the columns of these names, three rows of them.
+
+    Args:
+        names: Cells of the line.
+        before: Cells of the line before, if all of them hold something.
+        following: Rows after it.
+    """
+    if len(names) < 2 or len(following) < 3 or any(_is_value(n) for n in names):
+        return False
+    if not all(names) and not _are_units(names, before):
+        return False
+    width = len(before) if _are_units(names, before) else len(names)
+    if any(len(row) < width or any(row[width:]) for row in following):
+        return False
+    return all(sum(_is_value(cell) for cell in row) >= 2 for row in following)
+
+
+def _are_units(cells: list[str], before: list[str]) -> bool:
+    """Whether a line holds the units of the names before it: known ones, in brackets or not, or nothing."""
+    if len(cells) < 2 or len(cells) > len(before) or any(map(_is_value, before)):
+        return False
+    return all(known_unit(_bare(cell))[0] is not None or cell != _bare(cell) for cell in cells if cell)
+
+
+def _bare(cell: str) -> str:
+    """A unit without the brackets around it."""
+    return cell[1:-1].strip() if len(cell) > 1 and cell[0] + cell[-1] in ("()", "[]") else cell
+
+
 def _is_value(cell: str) -> bool:
-    return bool(POINT.match(cell) or COMMA.match(cell)) or instant(cell) is not None
+    is_time = instant(cell) is not None or time_of_day(cell) is not None
+    return is_time or bool(POINT.match(cell) or COMMA.match(cell))
 
 
-def _table(path: Path, lines: list[str], header: int, separator: str | None) -> Sniffed:
-    names = tuple(_split(lines[header], separator))
+def _table(path: Path, lines: list[str], header: int, heads: list[str], separator: str | None) -> Sniffed:
+    names = tuple(heads)
     doubled = sorted({n for n in names if names.count(n) > 1})
     if doubled:
         raise InputError(path, doubled[0], "two columns have this name", "rename one of them")
@@ -126,17 +189,27 @@ def _table(path: Path, lines: list[str], header: int, separator: str | None) -> 
                 "correct the row; with decimal commas save the table with `;` between columns",
             )
     is_comma = _uses_comma(path, rows, separator)
-    columns = np.full((len(names), len(rows)), np.nan)
-    instants, texts = [], {}
-    for k, name in enumerate(names):
-        cells = [row[k] for row in rows]
-        values, example = _column(path, name, cells, is_comma)
-        columns[k] = values
-        if example is not None:
-            texts[name] = example
-        elif any(instant(c) is not None for c in cells):
-            instants.append(name)
-    return Sniffed(names, columns, header, separator or " ", is_comma, tuple(instants), texts)
+    every = [_column(path, name, [row[k] for row in rows], is_comma) for k, name in enumerate(names)]
+    columns = _from_first(every, len(rows))
+    texts = {name: one.example for name, one in zip(names, every) if one.kind == "text"}
+    instants = tuple(name for name, one in zip(names, every) if one.kind in _TIMES)
+    return Sniffed(names, columns, header, separator or " ", is_comma, instants, texts)
+
+
+def _from_first(every: Sequence[_Column], rows: int) -> Array:
+    """Values of all columns, dates and times of day as seconds since their first; shape (columns, rows).
+
+    A time of day beside a column of dates without one is of that date; alone it counts on over midnight.
+    """
+    found = np.array([one.values for one in every]).reshape(len(every), rows)
+    days = [one.values for one in every if one.kind == "date" and not np.any(one.values % _DAY)]
+    for k, one in enumerate(every):
+        if one.kind == "time of day":
+            found[k] = days[0] + one.values if days else _over_midnight(one.values)
+        if one.kind in _TIMES:
+            known = found[k][np.isfinite(found[k])]
+            found[k] -= known[0] if len(known) else 0.0
+    return found
 
 
 def _uses_comma(path: Path, rows: list[list[str]], separator: str | None) -> bool:
@@ -156,41 +229,44 @@ def _uses_comma(path: Path, rows: list[list[str]], separator: str | None) -> boo
     return comma is not None
 
 
-def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> tuple[Array, str | None]:
-    """Values of a column, and an example where it holds text instead."""
+def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> _Column:
+    """Values of a column, or an example where it holds text instead."""
     found = np.full(len(cells), np.nan)
-    known = [(n, c) for n, c in enumerate(cells) if c.lower() not in _NOTHING]
     pattern = COMMA if is_comma else POINT
     bad: tuple[int, str] | None = None
-    good, kind = 0, set()
-    for n, cell in known:
-        if pattern.match(cell):
-            found[n] = float(cell.replace(",", "."))
-            kind.add("number")
-            good += 1
+    kinds = set()
+    for n, cell in enumerate(cells):
+        if cell.lower() in _NOTHING:
             continue
-        moment = instant(cell)
-        if moment is not None:
-            found[n] = moment
-            kind.add("date")
-            good += 1
+        value, kind = _value(cell, pattern)
+        if kind:
+            found[n] = value
+            kinds.add(kind)
         elif bad is None:
             bad = n, cell
-    if bad is not None and good:
-        raise InputError(
-            path,
-            name,
-            f"`{bad[1]}` in row {bad[0] + 1} of this column is no number",
-            how_to_write(bad[1]),
-        )
-    if len(kind) > 1:
-        raise InputError(path, name, "this column holds dates and numbers", "write all its times in one way")
-    if bad is not None:
-        if has_thousands(bad[1]):
-            raise InputError(
-                path, name, f"`{bad[1]}` in row {bad[0] + 1} of this column is no number", how_to_write(bad[1])
-            )
-        return found, bad[1]
-    if kind == {"date"}:
-        found = found - found[np.isfinite(found)][0]
-    return found, None
+    if bad is not None and (kinds or has_thousands(bad[1])):
+        what = f"`{bad[1]}` in row {bad[0] + 1} of this column is no number"
+        raise InputError(path, name, what, how_to_write(bad[1]))
+    if len(kinds) > 1:
+        what = f"this column holds a {' and a '.join(sorted(kinds))}"
+        raise InputError(path, name, what, "write all its times in one way")
+    return _Column(found, "text" if bad is not None else "".join(kinds), "" if bad is None else bad[1])
+
+
+def _value(cell: str, pattern: re.Pattern[str]) -> tuple[float, str]:
+    """Number of a cell and what it is; NaN and nothing where it is none."""
+    if pattern.match(cell):
+        return float(cell.replace(",", ".")), "number"
+    moment, clock = instant(cell), time_of_day(cell)
+    if moment is not None:
+        return moment, "date"
+    return (math.nan, "") if clock is None else (clock, "time of day")
+
+
+def _over_midnight(seconds: Array) -> Array:
+    """Times of day as they rise over the ends of days, shape (rows,); what is empty stays so."""
+    known = np.flatnonzero(np.isfinite(seconds))
+    falls = np.diff(seconds[known], prepend=seconds[known[0]]) < -_MIDNIGHT
+    found = seconds.copy()
+    found[known] += _DAY * np.cumsum(falls)
+    return found

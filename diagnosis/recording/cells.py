@@ -16,7 +16,9 @@ _DAY_FIRST = re.compile(
     r"([ T]+(?P<clock>\d{1,2}:\d{2}(:\d{2})?)([.,](?P<fraction>\d{1,6})\d*)?)?$"
 )
 _YEAR_FIRST = re.compile(r"^\d{4}/\d{2}/\d{2}([ T]|$)")
-#: What is no number and no date that is clear: `11/24/2026`, `10:00:00`, `1.234,5`.
+#: A time of day, or one that elapsed: `10:00:00.5`, `1:05:00 PM`. Two numbers may be minutes and seconds as well.
+_OF_DAY = re.compile(r"^(\d{1,3}):(\d{2}):(\d{2})(?:[.,](\d+))?(?: ?([AaPp])[Mm])?$")
+#: What is no number and no date that is clear: `11/24/2026`, `10:00`, `1.234,5`.
 _SLASHED = re.compile(r"^\d{1,2}[/.-]\d{1,2}[/.-]\d{2,4}([ T].*)?$")
 _CLOCK = re.compile(r"^\d{1,2}:\d{2}(:\d{2})?([.,]\d+)?( ?[AaPp][Mm])?$")
 _THOUSANDS = re.compile(r"^[-+]?(\d{1,3}(\.\d{3})+(,\d*)?|\d{1,3}(,\d{3})+\.\d*|\d{1,3}('\d{3})+([.,]\d*)?)$")
@@ -49,6 +51,26 @@ def instant(cell: str) -> float | None:
     return (moment - datetime(1970, 1, 1, tzinfo=moment.tzinfo)).total_seconds()
 
 
+def time_of_day(cell: str) -> float | None:
+    """Seconds since midnight, or since a begin, of hours, minutes and seconds; None if a cell is none.
+
+    >>> time_of_day("10:00:00,5"), time_of_day("1:05:00 PM"), time_of_day("10:00"), time_of_day("10:61:00")
+    (36000.5, 47100.0, None, None)
+    """
+    found = _OF_DAY.match(cell.strip())
+    if found is None:
+        return None
+    hour, minute, second, fraction, half = found.groups()
+    hours = int(hour)
+    if half:
+        if not 1 <= hours <= 12:
+            return None
+        hours = hours % 12 + (12 if half in "pP" else 0)
+    if int(minute) > 59 or int(second) > 59:
+        return None
+    return 3600.0 * hours + 60.0 * int(minute) + float(f"{second}.{fraction or 0}")
+
+
 def how_to_write(cell: str) -> str:
     """What to do about a cell that is no number, in words that work when they are followed literally.
 
@@ -56,8 +78,8 @@ def how_to_write(cell: str) -> str:
         cell: As it stands in the table.
     """
     text = cell.strip()
-    if instant(text) is not None:
-        return f"{NEW} reads dates and writes seconds in their place"
+    if instant(text) is not None or time_of_day(text) is not None:
+        return f"{NEW} reads dates and times of day and writes seconds in their place"
     if _SLASHED.match(text):
         return "write dates as `2026-11-24 10:00:00`: nobody knows whether the day or the month comes first"
     if _CLOCK.match(text):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from diagnosis.check.propose import heading
+from diagnosis.check.heading import heading
 
 
 @pytest.mark.parametrize(

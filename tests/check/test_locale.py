@@ -32,6 +32,8 @@ def table(path: Path, header: str, row: str, separator: str = ";", is_comma: boo
         ("24.11.2026 10:{s},000", "Zeitstempel;T1 [°C];T2 [°C]"),
         ("2026/11/24 10:{s}", "timestamp;T1_degC;T2_degC"),
         ("2026-11-24 10:{s}", "timestamp;T1_degC;T2_degC"),
+        ("10:{s}", "time;T1_degC;T2_degC"),
+        ("24.11.2026;10:{s}", "Datum;Zeit;T1_degC;T2_degC"),
     ],
 )
 def test_dates_with_decimal_commas_are_read(command, tmp_path, row, header):
@@ -48,8 +50,7 @@ def test_dates_with_decimal_commas_are_read(command, tmp_path, row, header):
     [
         ("11/24/2026 10:{s}", "time;T1_degC;T2_degC", "write dates as `2026-11-24 10:00:00`"),
         ("24.11.26 10:{s}", "time;T1_degC;T2_degC", "write dates as `2026-11-24 10:00:00`"),
-        ("10:{s}", "time;T1_degC;T2_degC", "write date and time into one column"),
-        ("24.11.2026;10:{s}", "Datum;Zeit;T1_degC;T2_degC", "write date and time into one column"),
+        ("{s}", "time;T1_degC;T2_degC", "write date and time into one column"),
         ("{n};1.234,5", "time_s;x;T1_degC;T2_degC", "write numbers without a mark between thousands"),
     ],
 )

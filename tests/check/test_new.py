@@ -13,7 +13,7 @@ from cosim.cli import app
 from cosim.components import ProgrammeComponent
 from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
-from diagnosis.check.propose import heading
+from diagnosis.check.heading import heading
 from diagnosis.check.sniff import read_table
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
