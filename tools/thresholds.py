@@ -58,13 +58,13 @@ def thresholds(package: str) -> Iterator[Threshold]:
         text = path.read_text(encoding="utf-8")
         lines = text.split("\n")
         for node in ast.parse(text).body:
-            names = _names(node)
-            if names and isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value and _is_number(node.value):
+            names = names_of(node)
+            if names and isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value and is_number(node.value):
                 value = ast.get_source_segment(text, node.value) or ""
                 yield Threshold(str(path.relative_to(ROOT)), names, " ".join(value.split()), _reason(lines, node))
 
 
-def _names(node: ast.stmt) -> tuple[str, ...]:
+def names_of(node: ast.stmt) -> tuple[str, ...]:
     if isinstance(node, ast.Assign):
         target = node.targets[0]
     elif isinstance(node, ast.AnnAssign):
@@ -76,7 +76,7 @@ def _names(node: ast.stmt) -> tuple[str, ...]:
     return names if names and all(_CONSTANT.match(n) for n in names) else ()
 
 
-def _is_number(value: ast.expr) -> bool:
+def is_number(value: ast.expr) -> bool:
     """Whether it is built from numbers alone."""
     parts = list(ast.walk(value))
     allowed = (ast.Constant, ast.UnaryOp, ast.BinOp, ast.Tuple, ast.operator, ast.unaryop, ast.expr_context)
@@ -87,7 +87,7 @@ def _is_number(value: ast.expr) -> bool:
 
 def _reason(lines: list[str], node: ast.stmt) -> str:
     """The comment above a statement, or that at its end."""
-    above = []
+    above: list[str] = []
     index = node.lineno - 2
     while index >= 0 and lines[index].startswith("#"):
         above.insert(0, lines[index].lstrip("#: ").strip())

@@ -1,0 +1,1 @@
+"""What changes where a number by which the diagnosis decides is half or twice as large."""
