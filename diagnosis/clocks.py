@@ -16,6 +16,7 @@ from diagnosis.check.clock_of_one import OTHERS, RECALIBRATED, clocks_of_one
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.held_out import carried_over
 from diagnosis.models.protocol import DiagnosisModel
+from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.recording.series import Series
 from diagnosis.search.problem import Point
 from diagnosis.search.search import recalibrate
@@ -36,12 +37,45 @@ def clocks_once_recalibrated(
     """
     if len(compared) <= OTHERS or not model.can_be_searched_again or not model.parameters:
         return []
-    point = recalibrate(model).point
+    found = clocks_of_one(_compared(recalibrate(model).point, model, judge, compared), RECALIBRATED)
+    titles = [one.recording.title for one in compared[: len(model.runs)]]
+    return [_by_others(told, titles, model, judge, compared) for told in found]
+
+
+def _by_others(
+    told: Doubt,
+    titles: Sequence[str],
+    model: DiagnosisModel,
+    judge: DiagnosisModel | None,
+    compared: Sequence[Compared],
+) -> Doubt:
+    """A doubt as it is with numbers that were fitted to the other recordings: one whose clock is off bends them.
+
+    Args:
+        told: With numbers that were fitted to all recordings of the training.
+        titles: Of the recordings of the training.
+        model: Of the training recordings, without laws.
+        judge: Of those held out, or None.
+        compared: Recordings beside the scenario as it is.
+    """
+    if titles.count(told.recording) != 1 or len(titles) == 1:
+        return told
+    sizes = [sum(len(s.samples) for s in run.series) for run in model.runs]
+    owners = np.repeat(np.arange(len(sizes)), sizes)
+    others = MaskedModel(model, owners != titles.index(told.recording))
+    again = clocks_of_one(_compared(recalibrate(others).point, model, judge, compared), RECALIBRATED)
+    return next((d for d in again if (d.recording, d.subject) == (told.recording, told.subject)), told)
+
+
+def _compared(
+    point: Point, model: DiagnosisModel, judge: DiagnosisModel | None, compared: Sequence[Compared]
+) -> list[Compared]:
+    """Recordings beside what a model predicts with fitted numbers."""
     every = [_beside(one, model, point, n) for n, one in enumerate(compared[: len(model.runs)])]
     if judge is not None:
         there = carried_over(point, model, judge)
         every += [_beside(one, judge, there, n) for n, one in enumerate(compared[len(model.runs) :])]
-    return clocks_of_one(every, RECALIBRATED)
+    return every
 
 
 def _beside(one: Compared, model: DiagnosisModel, point: Point, number: int) -> Compared:

@@ -34,6 +34,8 @@ LONGEST, MOST_OFFSETS = 0.03, 121
 OTHERS = 2
 #: Range of a simulated channel in a recording, beside the largest of the others, up to which none is driven harder.
 HARDER = 1.1
+#: Changes of inputs from which a straight line of offsets is no row of theirs, and constant shifts that are compared.
+CHANGES, SHIFTS = 4, 41
 #: What recordings are compared with.
 AS_IT_IS, RECALIBRATED = "the scenario as it is", "the scenario with its numbers fitted"
 #: Standard normal quantile of 97.5 %.
@@ -46,7 +48,7 @@ class _Clock:
 
     Args:
         offset: In the middle of its readings [s].
-        rate: How much too fast it runs, 1.
+        rate: By how much of each of its own seconds it is farther ahead, 1.
         spread: 95 % of the rate are within so much of it, 1.
         left: Share of the variance that the scenario leaves of the channel then.
     """
@@ -70,9 +72,11 @@ class _Clock:
     def in_words(self) -> str:
         """What is off."""
         if self.is_rate:
-            low, high = sorted(100.0 * (abs(self.rate) + side * self.spread) for side in (-1.0, 1.0))
+            # its own seconds are counted, of which 1 + r are one where it runs r too fast
+            rates = [self.rate + side * self.spread for side in (-1.0, 0.0, 1.0)]
+            low, middle, high = sorted(100.0 * abs(rate / (1.0 - rate)) for rate in rates)
             way = "fast" if self.rate > 0.0 else "slow"
-            return f"with a clock that runs {100.0 * abs(self.rate):.2g} % too {way} ({low:.2g} to {high:.2g} %, 95 %)"
+            return f"with a clock that runs {middle:.3g} % too {way} ({low:.3g} to {high:.3g} %, 95 %)"
         return f"with a clock that is {instant(abs(self.offset), 3)} s {'ahead' if self.offset > 0.0 else 'behind'}"
 
 
@@ -107,7 +111,8 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         clock = _clock(beside)
         if clock is None or clock.left > MET or clock.left * TIMES > left:
             continue
-        if float(np.abs(clock.moves(beside)).max()) <= resolution(one, beside.channel) + _row(one):
+        within = resolution(one, beside.channel) + _row(one)
+        if float(np.abs(clock.moves(beside)).max()) <= within and not _drifts(one, beside, clock, within):
             continue
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
         if sum(_left(b, clock.moves(b)) for b in same) < WORSE * sum(usual):
@@ -120,6 +125,25 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         remedy = "compare two instants that both clocks know, and correct the times of this column's table"
         z = float(np.sqrt(left / max(clock.left, _noise(beside))))
         yield Doubt(one.recording.title, name, "clock", text, remedy, True, one.begin, one.end, z)
+
+
+def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool:
+    """Whether a clock runs wrong by more than any constant shift explains that is no doubt.
+
+    What a reading or a row of an input leaves open is one shift, or another one at each change of the input: a straight
+    line follows a few of them, and is told from `CHANGES` on.
+
+    Args:
+        one: The recording.
+        beside: Its channel.
+        clock: The straight line of offsets.
+        within: Shifts up to which are no doubt [s].
+    """
+    if not clock.is_rate or (_row(one) > 0.0 and len(one.switches()) < CHANGES):
+        return False
+    shifts = np.linspace(-within, within, SHIFTS)
+    constant = min(_left(beside, np.full(len(beside.times), s)) for s in shifts)
+    return constant > TIMES * max(clock.left, _noise(beside))
 
 
 def _row(one: Compared) -> float:

@@ -133,6 +133,38 @@ def test_a_shift_within_a_row_of_an_input_is_no_clock(tmp_path: Path) -> None:
     assert len(clocks_of_one([every[0], replace(every[1], courses=(joined,)), every[2]])) == 1
 
 
+@pytest.mark.parametrize(("fast", "late", "count"), [(0.02, 0.0, 1), (0.0, 0.06, 0)], ids=["drift", "shift"])
+def test_a_clock_that_is_stated_to_be_off_by_0_1_s_may_be_so_and_may_not_drift(
+    fast: float, late: float, count: int, tmp_path: Path
+) -> None:
+    """2 % of 4 s are 80 ms, within what is stated; no constant shift explains them."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], fast, late)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    beside = every[1].channels["rig.position"]
+    stated = replace(beside, channel=replace(beside.channel, offset_bound=0.1))
+    every[1] = replace(every[1], channels={"rig.position": stated})
+    assert len(clocks_of_one(every)) == count
+
+
+@pytest.mark.parametrize(("changes", "count"), [(3, 0), (4, 1)])
+def test_a_drift_beside_a_few_changes_of_a_held_input_may_be_its_rows(changes: int, count: int, tmp_path: Path) -> None:
+    """Each change was somewhere within a row: a straight line follows two or three of them by chance."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], 0.02, 0.0)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    every = [compare(scenario, load_recording(r)) for r in recordings]
+    (course,) = every[1].courses
+    rows = course.times[::20]
+    few = np.searchsorted(rows[-1] * np.arange(1, changes + 1) / (changes + 1.0), rows)
+    coarse = replace(course, times=rows, values=few.astype(float))
+    found = clocks_of_one([every[0], replace(every[1], courses=(coarse,)), every[2]])
+    assert len(found) == count
+
+
 def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
     """An output that follows its input at once: two readings of one recording are of the other side of a switch."""
     oscillator(tmp_path)
@@ -175,6 +207,19 @@ def test_numbers_that_are_off_hide_no_clock(order: tuple[int, ...], tmp_path: Pa
     assert "the scenario with its numbers fitted" in told.statement
     low, high = (float(v) for v in re.findall(r"([\d.]+) to ([\d.]+) %", told.statement)[0])
     assert low <= 0.6 <= high
+
+
+@pytest.mark.parametrize("fast", [0.02, -0.015])
+def test_a_clock_that_bends_the_fitted_numbers_is_told_by_those_of_the_others(fast: float, tmp_path: Path) -> None:
+    """Fitted to both recordings the spring takes a part of the clock: its interval would not hold the true rate."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -24.0 * x, SIZES)
+    _own_table(recordings[1], fast, 0.0)
+    (told,) = _once_recalibrated(tmp_path, recordings)
+    assert told.recording == "run_2"
+    low, high = (float(v) / 100.0 for v in re.findall(r"([\d.]+) to ([\d.]+) %", told.statement)[0])
+    assert low <= abs(fast) <= high
+    assert high - low < 0.2 * abs(fast)
 
 
 def test_once_recalibrated_good_recordings_have_good_clocks_and_two_are_not_asked(tmp_path: Path) -> None:
