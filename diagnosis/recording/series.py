@@ -205,15 +205,32 @@ def sample(series: Series, times: Array) -> Array:
     error falls with the fourth power of the output step. A value beyond `MOST`, or none, makes those drawn with it
     infinite: the run has lost its way, and its squares would be no numbers.
     """
-    own, is_lost = series.times, ~(np.abs(series.values) <= MOST)
-    values = np.where(is_lost, 0.0, series.values)
-    if series.is_flow or len(own) < 4:
-        found = np.asarray(np.interp(times, own, values))
-        return np.where(np.interp(times, own, is_lost.astype(np.float64)) > 0.0, np.inf, found)
+    is_lost = ~(np.abs(series.values) <= MOST)
+    if not is_lost.any():
+        return _drawn(series, series.values, times)
+    found = _drawn(series, np.where(is_lost, 0.0, series.values), times)
+    return np.where(_is_drawn_with(series, is_lost, times), np.inf, found)
+
+
+def _drawn(series: Series, values: Array, times: Array) -> Array:
+    """Values between those of a series; see `sample`."""
+    if series.is_flow or len(series.times) < 4:
+        return np.asarray(np.interp(times, series.times, values))
+    used, weights = _read_at(series.times, times)
+    return np.asarray(np.einsum("ij,ij->i", weights, values[used]))
+
+
+def _is_drawn_with(series: Series, chosen: AnyArray, times: Array) -> AnyArray:
+    """Whether any of the outputs that a value is drawn with is chosen, shape (times,)."""
+    if series.is_flow or len(series.times) < 4:
+        return np.asarray(np.interp(times, series.times, chosen.astype(np.float64)) > 0.0)
+    return np.asarray(np.any(chosen[_read_at(series.times, times)[0]], axis=1))
+
+
+def _read_at(grid: Array, times: Array) -> tuple[AnyArray, Array]:
+    """See `_read`; of a few instants it is kept."""
     read = _read_again if len(times) <= READ_AGAIN else _read
-    used, weights = read(own.tobytes(), times.tobytes())
-    found = np.asarray(np.einsum("ij,ij->i", weights, values[used]))
-    return np.where(np.any(is_lost[used], axis=1), np.inf, found)
+    return read(grid.tobytes(), times.tobytes())
 
 
 def _read(grid: bytes, instants: bytes) -> tuple[AnyArray, Array]:
