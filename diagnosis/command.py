@@ -60,6 +60,10 @@ def diagnose(
     limit: Annotated[
         list[str] | None, typer.Option(help="Greatest value in a next experiment: `supply.voltage=12 V`.")
     ] = None,
+    stop_after: Annotated[
+        str | None,
+        typer.Option(help="Answer with what is found by then: `10 min`. Not of fabrics and pendulums, which resume."),
+    ] = None,
 ) -> None:
     """Find out what a model leaves out, by recordings of the real thing.
 
@@ -76,7 +80,7 @@ def diagnose(
     from cosim.compute.steps import Steps, watched
     from diagnosis.diagnose import Options
     from diagnosis.diagnose import diagnose as find
-    from diagnosis.experiment.limits import parse_limits
+    from diagnosis.experiment.limits import parse_limits, parse_time
     from diagnosis.recording.recording import load_recording
     from diagnosis.recording.together import prepared
     from diagnosis.report.summary import print_summary
@@ -100,14 +104,15 @@ def diagnose(
                     "go on from them with `--resume`, or give another folder with `--out`",
                 )
             base = load_scenario(scenario)
+            limits = parse_limits(limit or [], base)
             options = Options(
-                tuple(without or ()), jobs, parse_limits(limit or [], base), batches, brief, not despite_doubts
+                tuple(without or ()), jobs, limits, batches, brief, not despite_doubts, stop_after is not None
             )
             training, judges = prepared(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )
             gc.freeze()  # modules and recordings stay to the end: they need not be looked through again and again
-            with watched(Steps(display.stage)) as steps:
+            with watched(Steps(display.stage, most=parse_time(stop_after))) as steps:
                 found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
                 steps("writing" if brief else "writing the amended model and the report")
                 try:

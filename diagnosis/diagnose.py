@@ -5,11 +5,13 @@ from __future__ import annotations
 import functools
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from cosim.compute.batch import Batches
+from cosim.compute.steps import TimeIsOver, may_be_left, was_left
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
@@ -66,6 +68,10 @@ from diagnosis.ways import other_ways
 TRIALS = 24
 
 
+#: What was not tried where the time was over.
+_TIME_IS_OVER = "the time that `--stop-after` gives was over: no further effect and no other description was looked for"
+
+
 @dataclass(frozen=True)
 class Options:
     """What a diagnosis works with.
@@ -77,6 +83,7 @@ class Options:
         is_brief: Verdict, findings and fit alone.
         limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
         is_checked: Whether recordings that seem to be of another experiment than the scenario are not searched.
+        is_timed: Whether its time is limited, which runs of the co-simulation do not allow for.
     """
 
     without: tuple[str, ...] = ()
@@ -85,6 +92,7 @@ class Options:
     batches: Batches = field(default_factory=Batches)
     is_brief: bool = False
     is_checked: bool = True
+    is_timed: bool = False
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -155,6 +163,9 @@ def diagnose(
     if not options.batches.place.is_local and not uses_batches(model):
         what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
         raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
+    if options.is_timed and uses_batches(model):
+        what = "runs of the co-simulation are interrupted by Ctrl-C, and kept"
+        raise InputError("--stop-after", "", what, "leave it out; `--resume` goes on from the runs that were made")
     doubts = _doubts(seen, compared, model, judge, options)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
@@ -164,19 +175,17 @@ def diagnose(
     laws = outcome.best.fit.point.lasting.terms
     moved = None if outcome.left.is_noise else with_switch_times(given, judge_before, laws)
     if moved is not None:
-        on_progress("searching again: inputs changed between rows of their tables")
-        given = moved[0]
-        outcome, model, judge = _searched(given, moved[1], settings, on_progress)
+        with suppress(TimeIsOver), may_be_left():
+            on_progress("searching again: inputs changed between rows of their tables")
+            outcome, model, judge = _searched(moved[0], moved[1], settings, on_progress)
+            given = moved[0]
     on_progress("judging by readings that it was not fitted to")
     accepted, readings = _accepted(model, judge, outcome, training, held_out, on_progress)
     if judge is not None and not is_settled(accepted) and given.can_be_searched_again:
-        ways = other_ways(with_faults(with_biases(given)), outcome, settings, on_progress)
-        for other, own in ways:
-            again, _ = _accepted(own, judge, other, training, held_out, on_progress)
-            if again.explanation.terms and is_better(accepted.after, again.after, readings):
-                outcome, model, accepted = other, own, again
-            if not again.agreement.is_rejected and other.left.is_noise:
-                break
+        both_models = with_faults(with_biases(given)), judge
+        outcome, model, accepted = _by_other_ways(
+            both_models, (outcome, model, accepted), (training, held_out), readings, settings, on_progress
+        )
     points = {
         "before": Point(np.zeros(len(model.parameters))),
         "recalibrated": outcome.base.point,
@@ -194,6 +203,8 @@ def diagnose(
     found = within_rows(found, scenario, training)
     doubts = without_explained_starts(doubts, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
+    if was_left():
+        tried = replace(tried, untried=(*tried.untried, _TIME_IS_OVER))
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = with_day(adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter), fits)
     estimated = with_instants(model.parameters, titles)
@@ -203,13 +214,14 @@ def diagnose(
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None
-    if not options.is_brief:
-        on_progress("finding out what these channels can tell apart")
-        told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])
-        on_progress("driving each unit alone")
-        located = locate(model, outcome.base, [r.title for r in training], settings.seed)
-        on_progress("designing the next experiment")
-        experiment = next_experiment(scenario, model, training, outcome, accepted, options.limits)
+    with suppress(TimeIsOver), may_be_left(not options.is_brief):
+        if not options.is_brief:
+            on_progress("finding out what these channels can tell apart")
+            told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])
+            on_progress("driving each unit alone")
+            located = locate(model, outcome.base, [r.title for r in training], settings.seed)
+            on_progress("designing the next experiment")
+            experiment = next_experiment(scenario, model, training, outcome, accepted, options.limits)
     first, left = (model.plain.residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
@@ -243,6 +255,35 @@ def diagnose(
         channel_units=dict(units.channels),
     )
     return Result(diagnosis, model, judge, points, carried)
+
+
+def _by_other_ways(
+    models: tuple[DiagnosisModel, DiagnosisModel],
+    found: tuple[Outcome, DiagnosisModel, Accepted],
+    recordings: tuple[Sequence[Recording], Sequence[Recording]],
+    readings: Readings,
+    settings: Settings,
+    on_progress: Callable[[str], None],
+) -> tuple[Outcome, DiagnosisModel, Accepted]:
+    """What was found, or what another way found that predicts better; see `diagnosis.ways`.
+
+    Args:
+        models: Of the training recordings as it was searched, and the one that judges.
+        found: Outcome, the model that it belongs to, and what of it is accepted.
+        recordings: Of the training, and held out.
+        readings: That judged.
+        settings: Of the search.
+        on_progress: Told what is being done.
+    """
+    (given, judge), (training, held_out) = models, recordings
+    with suppress(TimeIsOver), may_be_left():
+        for other, own in other_ways(given, found[0], settings, on_progress):
+            again, _ = _accepted(own, judge, other, training, held_out, on_progress)
+            if again.explanation.terms and is_better(found[2].after, again.after, readings):
+                found = other, own, again
+            if not again.agreement.is_rejected and other.left.is_noise:
+                break
+    return found
 
 
 def _doubts(

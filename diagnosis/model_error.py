@@ -9,7 +9,7 @@ from functools import partial, reduce
 
 import numpy as np
 
-from cosim.compute.steps import counted
+from cosim.compute.steps import TimeIsOver, counted, may_be_left
 from cosim.unit.protocol import Array
 from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
 from diagnosis.models.protocol import DiagnosisModel
@@ -56,6 +56,22 @@ def search_with_model_error(
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     if factor.max() <= BELIEVED:
         return outcome, model
+    try:
+        with may_be_left():
+            return _searched_again(model, outcome, factor, settings, on_progress)
+    except TimeIsOver:  # what was found stands, with errors as large as it leaves
+        found = QuasiLikelihoodModel(LawsOnly(model), factor)
+        return replace(refitted(found, outcome), first=outcome), found
+
+
+def _searched_again(
+    model: DiagnosisModel,
+    outcome: Outcome,
+    factor: Array,
+    settings: Settings,
+    on_progress: Callable[[str], None],
+) -> tuple[Outcome, DiagnosisModel]:
+    """Search once more, by errors as large as a first outcome leaves."""
     on_progress("searching again: no model meets the readings within their noise")
     faults = _earned_faults(QuasiLikelihoodModel(LawsOnly(model), factor), outcome)
     if faults_of(outcome.best.fit.point) and not faults:  # they only bent a wrong model: then laws alone are looked for

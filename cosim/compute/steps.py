@@ -6,6 +6,7 @@ say what they count with `counted` or `share`; where nobody watches, that does n
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -21,6 +22,10 @@ T = TypeVar("T")
 PAUSE = 0.5
 #: Time that a count must have run before the time left is shown [s].
 SETTLED = 2.0
+
+
+class TimeIsOver(Exception):
+    """The time that was given is over, within what may be left out; see `may_be_left`."""
 
 
 @dataclass(eq=False)
@@ -55,10 +60,16 @@ class Steps:
     Args:
         tell: Told a line.
         now: Time [s]; for tests.
+        most: Time after which what may be left out is left out [s].
     """
 
-    def __init__(self, tell: Callable[[str], None], now: Callable[[], float] = clock.monotonic) -> None:
+    def __init__(
+        self, tell: Callable[[str], None], now: Callable[[], float] = clock.monotonic, most: float = math.inf
+    ) -> None:
         self._tell, self._now = tell, now
+        self._end = now() + most
+        self.optional = 0
+        self.has_left = False
         self._stage = ""
         self._counts: list[Count] = []
         self._begin = self._last = now()
@@ -66,6 +77,7 @@ class Steps:
 
     def __call__(self, stage: str) -> None:
         """Another stage begins; within a count it stays what it is."""
+        self._check()
         if self._counts:
             return
         self._stage, self._alone, self._begin = stage, 0.0, self._now()
@@ -81,11 +93,22 @@ class Steps:
 
     def done(self, count: Count, number: int = 1) -> None:
         """So many items more are done, and with them all loops within."""
+        self._check()
         if count in self._counts:
             del self._counts[self._counts.index(count) + 1 :]
             count.done += number
             count.within = 0.0
             self._told()
+
+    def _check(self) -> None:
+        """Leave what may be left out, if the time is over.
+
+        Raises:
+            TimeIsOver: It is.
+        """
+        if self.optional and self._now() >= self._end:
+            self.has_left = True
+            raise TimeIsOver
 
     def end(self, count: Count) -> None:
         """A loop is over, and with it all loops within."""
@@ -139,6 +162,30 @@ def watched(steps: Steps) -> Iterator[Steps]:
         yield steps
     finally:
         _WATCHED.reset(token)
+
+
+@contextmanager
+def may_be_left(is_so: bool = True) -> Iterator[None]:
+    """What is done within may be left out once the time is over: `TimeIsOver` is raised where an item ends.
+
+    Args:
+        is_so: Whether it may; else as it was around it.
+    """
+    steps = _WATCHED.get()
+    if steps is None or not is_so:
+        yield
+        return
+    steps.optional += 1
+    try:
+        yield
+    finally:
+        steps.optional -= 1
+
+
+def was_left() -> bool:
+    """Whether anything was left out, as the time was over."""
+    steps = _WATCHED.get()
+    return steps is not None and steps.has_left
 
 
 def counted(items: Sequence[T], what: str, sizes: Sequence[int] | None = None) -> Iterator[T]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from cosim.components import ProgrammeComponent
@@ -40,3 +41,24 @@ def parse_limits(texts: Sequence[str], scenario: Scenario) -> dict[str, float]:
         except ValueError as error:
             raise InputError("--limit", name, str(error), f"give it in {outputs[name]}") from error
     return found
+
+
+def parse_time(text: str | None) -> float:
+    """A time that is given to a diagnosis [s]; without one it has all.
+
+    Raises:
+        InputError: It is no time, or none at all.
+
+    >>> parse_time("10 min"), parse_time(None)
+    (600.0, inf)
+    """
+    if text is None:
+        return math.inf
+    remedy = "give a time, as `10 min`"
+    try:
+        seconds = PhysicalValue.parse(text).to("s")
+    except ValueError as error:
+        raise InputError("--stop-after", text, str(error), remedy) from error
+    if not 0.0 < seconds < math.inf:
+        raise InputError("--stop-after", text, "that is no time to work in", remedy)
+    return seconds

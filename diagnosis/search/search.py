@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.compute.steps import counted
+from cosim.compute.steps import TimeIsOver, counted, may_be_left
 from cosim.unit.protocol import Array
 from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
@@ -16,7 +16,7 @@ from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, pairs, polished
 from diagnosis.search.nulls import calibrated
 from diagnosis.search.problem import Model, Parameter, Point, Term
-from diagnosis.search.score import Scoring
+from diagnosis.search.score import Score, Scoring
 from diagnosis.search.structure import Structure, structure
 
 #: Pairs of elements from which their scatter is estimated, and how many stated deviations it may grow to.
@@ -154,9 +154,11 @@ def search(
         on_progress(f"looking for {_nth(level)} effect")
         is_done = settings.stops_at_noise and structure(best.fit.residuals, model.layout, groups).is_noise
         ahead = [e for e in current if not is_done or e is best or e is named]
-        grown, scoring = grow(model, laws, ahead, settings, margin)
-        if level == 1 and not is_done:
-            grown = [*grown, *pairs(model, base, first.ranked, settings, margin)]
+        paired = (base, first.ranked) if level == 1 and not is_done else None
+        step = _grown(model, laws, ahead, settings, margin, level, paired)
+        if step is None:
+            break
+        grown, scoring = step
         grown = polished(model, grown, current[0].demerit, margin)
         first = scoring if level == 0 else first
         tried += scoring.tried
@@ -184,6 +186,34 @@ def search(
     best = shrink(model, best, margin)
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
+
+
+def _grown(
+    model: Model,
+    laws: Sequence[Term],
+    ahead: Sequence[Explanation],
+    settings: Settings,
+    margin: float,
+    level: int,
+    paired: tuple[Fit, Sequence[Score]] | None,
+) -> tuple[list[Explanation], Scoring] | None:
+    """Explanations with one term more, and the scoring; None if the time is over and something was found before.
+
+    Args:
+        model: Model and training recordings.
+        laws: Terms that may be taken.
+        ahead: Explanations that grow.
+        settings: Of the search.
+        margin: Gain that a term has to exceed.
+        level: How many terms they have.
+        paired: The recalibrated model and the scores of its terms, of which pairs are looked at too; None: none are.
+    """
+    try:
+        with may_be_left(level > 0):
+            grown, scoring = grow(model, laws, ahead, settings, margin)
+            return [*grown, *(pairs(model, paired[0], paired[1], settings, margin) if paired else [])], scoring
+    except TimeIsOver:
+        return None
 
 
 def _nth(level: int) -> str:

@@ -1,0 +1,77 @@
+"""A diagnosis whose time is limited answers with what it has found, and says that it stopped."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import pytest
+
+from cosim.compute.steps import Steps, TimeIsOver, counted, may_be_left, was_left, watched
+from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
+from diagnosis.diagnose import _TIME_IS_OVER, Options, diagnose
+from diagnosis.experiment.limits import parse_time
+from diagnosis.judge.diagnosis import Diagnosis, Verdict
+from diagnosis.recording.recording import load_recording
+from diagnosis.search.search import Settings
+from tests.diagnosis.test_pendulum_batch import made
+from tests.systems.rigs import oscillator, oscillator_recordings
+
+
+def test_only_what_may_be_left_is_left_once_the_time_is_over() -> None:
+    now = itertools.count()
+    done: list[int] = []
+    with watched(Steps(lambda text: None, now=lambda: float(next(now)), most=0.0)) as steps:
+        for n in counted([1, 2, 3], "needed"):
+            done.append(n)
+        steps("another stage")
+        assert not was_left()
+        with pytest.raises(TimeIsOver), may_be_left():
+            done.extend(counted([4, 5, 6], "optional"))
+        assert was_left()
+        with may_be_left(False):
+            steps("needed as well")
+        for n in counted([7], "needed again"):
+            done.append(n)
+    assert done == [1, 2, 3, 4, 7]  # an item that is begun is done
+    assert not was_left()  # nobody watches
+
+
+def test_nothing_is_left_while_there_is_time() -> None:
+    with watched(Steps(lambda text: None)), may_be_left():
+        assert list(counted([1, 2], "items")) == [1, 2]
+        assert not was_left()
+
+
+def answer(folder: Path, most: float, stages: list[str]) -> Diagnosis:
+    """Of an oscillator with a force that no law of the library has; its stages are told."""
+    oscillator(folder)
+    every = oscillator_recordings(folder, lambda x, v: -60.0 * x / (0.02 + abs(x)) ** 0.5, (0.4, 0.5, 0.45))
+    read = [load_recording(r) for r in every]
+    scenario = load_scenario(folder / "scenario.yaml")
+    with watched(Steps(stages.append, most=most)) as steps:
+        return diagnose(scenario, read[:2], read[2:], Settings(nulls=1), steps, Options(is_brief=True)).diagnosis
+
+
+def test_a_diagnosis_without_any_time_answers_by_its_first_effect_and_says_that_it_stopped(tmp_path: Path) -> None:
+    stages: list[str] = []
+    found = answer(tmp_path, 0.0, stages)
+    assert _TIME_IS_OVER in found.searched.untried
+    assert found.verdict in (Verdict.CANNOT_TELL, Verdict.UNNAMED_PHYSICS, Verdict.MISSING_PHYSICS)
+    assert found.adequacy is not None
+    assert found.adequacy.chi_square["after"] <= found.adequacy.chi_square["recalibrated"]
+    assert any(s.startswith("looking for a first effect") for s in stages)
+    assert not any(s.startswith(("searching again", "looking for a third effect")) for s in stages), stages
+
+
+@pytest.mark.parametrize("text", ["0 s", "-1 min", "soon", "3 m", "10"])
+def test_a_time_that_is_none_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="--stop-after"):
+        parse_time(text)
+
+
+def test_runs_of_the_co_simulation_are_resumed_and_not_cut_short(tmp_path: Path) -> None:
+    swing = made(tmp_path / "swing", 1)
+    with pytest.raises(InputError, match="--resume"):
+        diagnose(load_scenario("pendulum"), [swing], [], Settings(), options=Options(is_timed=True))
