@@ -70,6 +70,7 @@ TRIALS = 24
 
 #: What was not tried where the time was over.
 _TIME_IS_OVER = "the time that `--stop-after` gives was over: no further effect and no other description was looked for"
+_STOPPED = f"{_TIME_IS_OVER[0].upper()}{_TIME_IS_OVER[1:]}."
 
 
 @dataclass(frozen=True)
@@ -226,7 +227,7 @@ def diagnose(
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, reasons, doubts, units),
-        notes=notes(word, found, right, reasons, doubts, units),
+        notes=(*notes(word, found, right, reasons, doubts, units), *((_STOPPED,) if was_left() else ())),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
