@@ -38,33 +38,32 @@ def clocks_once_recalibrated(
     if len(compared) <= OTHERS or not model.can_be_searched_again or not model.parameters:
         return []
     found = clocks_of_one(_compared(recalibrate(model).point, model, judge, compared), RECALIBRATED)
-    titles = [one.recording.title for one in compared[: len(model.runs)]]
-    return [_by_others(told, titles, model, judge, compared) for told in found]
+    by_others = {title: _by_others(title, model, judge, compared) for title in {told.recording for told in found}}
+    return [by_others[told.recording].get(told.subject, told) for told in found]
 
 
 def _by_others(
-    told: Doubt,
-    titles: Sequence[str],
-    model: DiagnosisModel,
-    judge: DiagnosisModel | None,
-    compared: Sequence[Compared],
-) -> Doubt:
-    """A doubt as it is with numbers that were fitted to the other recordings: one whose clock is off bends them.
+    title: str, model: DiagnosisModel, judge: DiagnosisModel | None, compared: Sequence[Compared]
+) -> dict[str, Doubt]:
+    """Channel to the doubt about its clock with numbers that were fitted to the other recordings of the training.
+
+    One whose clock is off bends numbers that are fitted to it too. Nothing where it is none of the training, is alone
+    in it, or has its title in common with another.
 
     Args:
-        told: With numbers that were fitted to all recordings of the training.
-        titles: Of the recordings of the training.
+        title: Of the recording.
         model: Of the training recordings, without laws.
         judge: Of those held out, or None.
         compared: Recordings beside the scenario as it is.
     """
-    if titles.count(told.recording) != 1 or len(titles) == 1:
-        return told
+    titles = [one.recording.title for one in compared[: len(model.runs)]]
+    if titles.count(title) != 1 or len(titles) == 1:
+        return {}
     sizes = [sum(len(s.samples) for s in run.series) for run in model.runs]
     owners = np.repeat(np.arange(len(sizes)), sizes)
-    others = MaskedModel(model, owners != titles.index(told.recording))
+    others = MaskedModel(model, owners != titles.index(title))
     again = clocks_of_one(_compared(recalibrate(others).point, model, judge, compared), RECALIBRATED)
-    return next((d for d in again if (d.recording, d.subject) == (told.recording, told.subject)), told)
+    return {told.subject: told for told in again if told.recording == title}
 
 
 def _compared(

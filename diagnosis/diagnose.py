@@ -215,7 +215,7 @@ def diagnose(
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
     told_apart, located, experiment = Isolability(), Located(()), None
-    with suppress(TimeIsOver), may_be_left(not options.is_brief):
+    with suppress(TimeIsOver), may_be_left():
         if not options.is_brief:
             on_progress("finding out what these channels can tell apart")
             told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])

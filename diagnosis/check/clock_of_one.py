@@ -131,7 +131,7 @@ def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool
     """Whether a clock runs wrong by more than any constant shift explains that is no doubt.
 
     What a reading or a row of an input leaves open is one shift, or another one at each change of the input: a straight
-    line follows a few of them, and is told from `CHANGES` on.
+    line follows a few of them, and is another thing from `CHANGES` on.
 
     Args:
         one: The recording.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 import re
 from collections.abc import Sequence
@@ -117,15 +118,13 @@ def _parsed(path: Path, lines: list[str], separator: str | None) -> Sniffed | No
     """The table, if this is its separator: three rows of numbers or dates in a row, names above them."""
     before: list[str] = []
     for number in range(min(len(lines) - 3, _MOST_HEADER)):
-        names = _names(lines[number], separator)
+        cells = _names(lines[number], separator)
+        names = _with_units(before, cells) if _are_units(cells, before) else cells
         # Some loggers leave a line empty between the header and the numbers.
         rows = [line for line in lines[number + 1 : number + 6] if line.strip()][:3]
-        following = [_split(line, separator) for line in rows]
-        if _is_header(names, before, following):
-            if before and _are_units(names, before):
-                names = [f"{name} [{unit}]" if unit else name for name, unit in zip(before, map(_bare, names))]
+        if _is_header(names, [_split(line, separator) for line in rows]):
             return _table(path, lines, number, names, separator)
-        before = names if len(names) > 1 and all(names) else before if not any(names) else []
+        before = cells if len(cells) > 1 and all(cells) else before if not any(cells) else []
     return None
 
 
@@ -137,22 +136,19 @@ def _names(line: str, separator: str | None) -> list[str]:
     return names
 
 
-def _is_header(names: list[str], before: list[str], following: list[list[str]]) -> bool:
-    """Whether numbers or dates stand in the columns of these names, three rows of them.
-
-    Args:
-        names: Cells of the line.
-        before: Cells of the line before, if all of them hold something.
-        following: Rows after it.
-    """
-    if len(names) < 2 or len(following) < 3 or any(_is_value(n) for n in names):
+def _is_header(names: list[str], following: list[list[str]]) -> bool:
+    """Whether these are names, and numbers or dates stand in their columns, three rows of them."""
+    if len(names) < 2 or len(following) < 3 or not all(names) or any(_is_value(n) for n in names):
         return False
-    if not all(names) and not _are_units(names, before):
-        return False
-    width = len(before) if _are_units(names, before) else len(names)
-    if any(len(row) < width or any(row[width:]) for row in following):
+    if any(len(row) < len(names) or any(row[len(names) :]) for row in following):
         return False
     return all(sum(_is_value(cell) for cell in row) >= 2 for row in following)
+
+
+def _with_units(names: list[str], units: list[str]) -> list[str]:
+    """Names with the units of the line below them; what has none there stays as it is."""
+    both = itertools.zip_longest(names, map(_bare, units), fillvalue="")
+    return [f"{name} [{unit}]" if unit else name for name, unit in both]
 
 
 def _are_units(cells: list[str], before: list[str]) -> bool:

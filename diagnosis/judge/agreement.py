@@ -21,7 +21,6 @@ from diagnosis.judge.parameter_error import Tested
 from diagnosis.judge.unfitted import NOISE_ERROR, Readings, set_aside
 from diagnosis.models.coil_network.runs import ZERO, deviation
 from diagnosis.recording.noise import estimate_noise
-from diagnosis.recording.recording import Channel
 
 #: Probability that noise alone is taken for a departure of the model.
 LEVEL = 0.001
@@ -288,11 +287,6 @@ def _is_white(own: Array, scatter: float) -> bool:
     return statistic <= float(chdtri(float(len(lags)), LEVEL))
 
 
-def _own_scatter(channel: Channel) -> float:
-    """What neighbouring readings of a channel scatter by [unit]: its noise, as it is estimated where none is stated."""
-    return estimate_noise(channel.times, channel.values, channel.quantum)
-
-
 def _correlation(scatter: float, count: int, share: float) -> float:
     """Correlation of the noise of neighbouring readings, 0 to 1, where they differ by less than the stated noise says.
 
@@ -352,7 +346,9 @@ def agreement(residuals: Array, readings: Readings, tested: Tested | None = None
                 None if tested is None else statistic,
                 channel.is_deviation_given,
                 shares[n][1],
-                _own_scatter(channel) if is_asked and _is_white(own, scatter) else 0.0,
+                estimate_noise(channel.times, channel.values, channel.quantum)
+                if is_asked and _is_white(own, scatter)
+                else 0.0,
             )
         )
         squares += total

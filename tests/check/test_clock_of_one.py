@@ -13,7 +13,7 @@ import yaml
 
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
-from diagnosis.check.beside import compare
+from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.clocks import clocks_once_recalibrated
@@ -25,9 +25,13 @@ from tests.systems.rigs import COUNT, STEP, oscillator, oscillator_recordings
 SIZES = (0.4, 0.5, 0.45)
 
 
-def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
+def _compared(folder: Path, recordings: list[Path]) -> list[Compared]:
     scenario = load_scenario(str(folder / "scenario.yaml"))
-    return clocks_of_one([compare(scenario, load_recording(r)) for r in recordings])
+    return [compare(scenario, load_recording(r)) for r in recordings]
+
+
+def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
+    return clocks_of_one(_compared(folder, recordings))
 
 
 def _own_table(recording: Path, fast: float, late: float) -> None:
@@ -104,8 +108,7 @@ def test_a_recording_that_is_driven_harder_is_named_only_where_another_of_its_ch
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, (0.4, 0.5, 1.2))
     _own_table(recordings[2], 0.02, 0.0)
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    every = [compare(scenario, load_recording(r)) for r in recordings]
+    every = _compared(tmp_path, recordings)
     assert clocks_of_one(every) == []
     hard = every[2].channels["rig.position"]
     met = replace(hard, channel=replace(hard.channel, values=hard.at(hard.channel.times)))
@@ -122,8 +125,7 @@ def test_a_shift_within_a_row_of_an_input_is_no_clock(tmp_path: Path) -> None:
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     _own_table(recordings[1], 0.0, 0.05)
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    every = [compare(scenario, load_recording(r)) for r in recordings]
+    every = _compared(tmp_path, recordings)
     assert [d.recording for d in clocks_of_one(every)] == ["run_2"]
     (course,) = every[1].courses
     assert course.is_recorded
@@ -141,8 +143,7 @@ def test_a_clock_that_is_stated_to_be_off_by_0_1_s_may_be_so_and_may_not_drift(
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     _own_table(recordings[1], fast, late)
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    every = [compare(scenario, load_recording(r)) for r in recordings]
+    every = _compared(tmp_path, recordings)
     beside = every[1].channels["rig.position"]
     stated = replace(beside, channel=replace(beside.channel, offset_bound=0.1))
     every[1] = replace(every[1], channels={"rig.position": stated})
@@ -155,8 +156,7 @@ def test_a_drift_beside_a_few_changes_of_a_held_input_may_be_its_rows(changes: i
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     _own_table(recordings[1], 0.02, 0.0)
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    every = [compare(scenario, load_recording(r)) for r in recordings]
+    every = _compared(tmp_path, recordings)
     (course,) = every[1].courses
     rows = course.times[::20]
     few = np.searchsorted(rows[-1] * np.arange(1, changes + 1) / (changes + 1.0), rows)
@@ -169,8 +169,7 @@ def test_readings_at_switches_are_no_clock(tmp_path: Path) -> None:
     """An output that follows its input at once: two readings of one recording are of the other side of a switch."""
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    every = [compare(scenario, load_recording(r)) for r in recordings]
+    every = _compared(tmp_path, recordings)
     beside = every[1].channels["rig.position"]
     assert beside.simulated is not None
     steps = np.sign(np.sin(4.0 * beside.simulated.times))

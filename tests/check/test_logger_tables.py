@@ -45,8 +45,9 @@ def _longer(folder: Path) -> str:
         (("time,T,U", "s,degC,V"), ("time [s]", "T [degC]", "U [V]")),
         (("Logger 7", "serial 12", "time,T,U", "ms,,mV"), ("time [ms]", "T", "U [mV]")),
         (("time,T,U", "", "s,degC,V", ""), ("time [s]", "T [degC]", "U [V]")),
+        (("time,T,U", "s,degC,"), ("time [s]", "T [degC]", "U")),
     ],
-    ids=["brackets", "empty line", "bare", "lines before, one without", "empty lines"],
+    ids=["brackets", "empty line", "bare", "lines before, one without", "empty lines", "the last without"],
 )
 def test_a_line_of_units_below_the_names_belongs_to_them(
     tmp_path: Path, head: tuple[str, ...], names: tuple[str, ...]
