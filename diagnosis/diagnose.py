@@ -187,6 +187,9 @@ def diagnose(
         outcome, model, accepted = _by_other_ways(
             both_models, (outcome, model, accepted), (training, held_out), readings, settings, on_progress
         )
+    if can_be_moved(model):
+        on_progress("asking what speaks against the names of laws")
+        accepted = _with_doubts_of_names(model, accepted)
     points = {
         "before": Point(np.zeros(len(model.parameters))),
         "recalibrated": outcome.base.point,
@@ -386,9 +389,6 @@ def _accepted(
         judge is None or judge.can_be_fitted,
         on_progress,
     )
-    if can_be_moved(model):
-        on_progress("asking what speaks against the names of laws")
-        accepted = _with_doubts_of_names(model, accepted)
     return accepted, unfitted.readings
 
 

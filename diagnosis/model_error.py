@@ -21,6 +21,7 @@ from diagnosis.search.objective import bounded
 from diagnosis.search.problem import Layout, Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search, shrink
 from diagnosis.search.structure import structure
+from diagnosis.search.switches import costs_at
 from diagnosis.search.validation import Validated, Validation, chosen
 
 #: What was found is fitted again if it leaves errors whose variance is larger than was assumed by this factor.
@@ -31,6 +32,8 @@ BEAM, REFITS, MOST_TERMS = 3, 8, 4
 MANY = 1_000_000
 #: Rivals of what the first search found that are weighed then.
 WEIGHED = 4
+#: Rivals that are fitted again with larger errors: further ones neither win nor are as probable as these.
+REFITTED = 5
 #: Terms that are tried in the place of each term that was found, so that what may be exchanged is known.
 EXCHANGED = 4
 
@@ -152,12 +155,16 @@ def refitted(model: QuasiLikelihoodModel, outcome: Outcome) -> Outcome:
     """What was found with larger errors: intervals grow, and terms that are not earned any more go.
 
     It is not searched again: which laws predict does not hang on the size of the errors, and with larger ones the
-    search would stop earlier, leave more, and so on.
+    search would stop earlier, leave more, and so on. Of its rivals those are fitted again that come nearest as they
+    are.
     """
     base = recalibrate(model)
     best = shrink(model, Explanation(fit(model, outcome.best.fit.point)), outcome.margin)
-    near = [e for e in outcome.rivals if len(e.terms) == len(best.terms)]
-    return _settled(model, outcome, base, best, [Explanation(fit(model, e.fit.point)) for e in near])
+    rivals = [e for e in outcome.rivals if set(e.terms) != set(best.terms) and len(e.terms) == len(best.terms)]
+    points = [e.fit.point for e in rivals]
+    order = np.argsort(costs_at(model, base, points), kind="stable")
+    near = [Explanation(fit(model, points[n])) for n in order[:REFITTED].tolist()]
+    return _settled(model, outcome, base, best, near)
 
 
 def _validated(

@@ -309,7 +309,9 @@ def _most_probable(judge: _Judge, outcome: Outcome) -> tuple[Explanation, tuple[
 def _others(model: Model, outcome: Outcome, current: Explanation, term: Term) -> Fit:
     """The fit of an explanation without one of its terms."""
     others = current.fit.point.without(term)
-    return outcome.base if not others.terms else fit(model, others, near=current.fit)
+    if not others.terms:
+        return outcome.base
+    return current.without.get(term) or fit(model, others, near=current.fit)
 
 
 def _judged(

@@ -28,10 +28,10 @@ __all__ = ["ComponentTerm", "CosimModel", "Free", "free_parameters", "predicted"
 
 #: What simulated recordings that judge, where the co-simulation did.
 BY_FREE_RUNS = "free runs of the closed co-simulation, `cosim run` of the amended scenario"
-#: Distance in z over which a derivative is taken; both sides, so that the error is of second order.
+#: Distance in z over which a derivative is taken, to one side: its error is the change of the derivative over that.
 STEP = 1e-3
 #: Residuals that are kept: a fit asks again for those where it stands.
-KEPT = 64
+KEPT = 256
 _Key = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int, int]
 
 
@@ -228,7 +228,7 @@ class CosimModel:
             )
 
     def base_jacobian(self, point: Point) -> Array:
-        """See `diagnosis.search.problem.Model`; central differences, a number of one recording runs that one alone.
+        """See `diagnosis.search.problem.Model`; forward differences, a number of one recording runs that one alone.
 
         What recordings share moves each of them as what it has by itself does, and needs no runs of its own.
         """
@@ -236,20 +236,20 @@ class CosimModel:
         places: list[tuple[int, int]] = []
         numbers = range(len(self.recordings))
         for column, free in enumerate(self.free):
-            sides = []
-            for sign in (1.0, -1.0):
-                base = point.base.copy()
-                base[column] += sign * STEP
-                sides.append(replace(point, base=base))
-            for number in (n for n in numbers if free.belongs_to(n) and not self._parts(free, n)):
-                wanted += [(side, number) for side in sides]
-                places.append((column, number))
-        rows = self._rows(wanted)
+            base = point.base.copy()
+            base[column] += STEP
+            moved = replace(point, base=base)
+            where = [n for n in numbers if free.belongs_to(n) and not self._parts(free, n)]
+            wanted += [(moved, n) for n in where]
+            places += [(column, n) for n in where]
+        begun = sorted({number for _, number in places})
+        rows = self._rows([*((point, n) for n in begun), *wanted])
+        here = dict(zip(begun, rows))
         begin = np.concatenate([[0], np.cumsum(self._sizes)])
         jacobian = np.zeros((begin[-1], len(self.free)))
-        for (column, number), high, low in zip(places, rows[0::2], rows[1::2]):
+        for (column, number), there in zip(places, rows[len(begun) :]):
             with np.errstate(over="ignore", invalid="ignore"):
-                slope = (high - low) / (2 * STEP)
+                slope = (there - here[number]) / STEP
             jacobian[begin[number] : begin[number + 1], column] = np.where(np.isfinite(slope), slope, 0.0)
         for column, free in enumerate(self.free):
             for number in numbers:

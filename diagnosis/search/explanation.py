@@ -50,10 +50,12 @@ class Explanation:
     Args:
         fit: Converged fit of everything together.
         gains: Fall of -2 log posterior by each term, all others kept.
+        without: Fits without each term, all others kept, of the same model; empty where they were not made.
     """
 
     fit: Fit
     gains: Mapping[Term, float] = field(default_factory=dict)
+    without: Mapping[Term, Fit] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def terms(self) -> tuple[Term, ...]:

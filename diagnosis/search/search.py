@@ -269,6 +269,6 @@ def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
         worth = {t: gain - t.price for t, gain in gains.items()}
         if not worth or min(worth.values()) > margin:
-            return replace(explanation, gains=gains)
+            return replace(explanation, gains=gains, without=without)
         point = without[min(worth, key=lambda t: worth[t])].point
         explanation = Explanation(fit(model, point, widths=explanation.fit.widths))

@@ -335,6 +335,8 @@ def test_an_exchange_may_be_driven_by_a_third_quantity_where_there_is_one(tmp_pa
             "T_water": ("K", "300", "flow*(inlet - T_water)/(1.0) - UA*(T_water - T_wall)"),
             "T_wall": ("K", "300", "UA*(T_water - T_wall)"),
             "T_far": ("K", "300", "0.01*(300.0 - T_far)"),
+            "film": ("kg", "0.02", "-1e-3*film"),
+            "frost": ("kg", "0", "1e-5"),
         },
         {"temperature": ("K", "T_wall")},
     )
@@ -355,4 +357,10 @@ connections: [pump.flow -> hose.flow, tap.temperature -> hose.inlet]
     assert (law.reaction.to, law.reaction.formula) == ("der(T_wall)", "ratio * a * (T_water - T_wall) * flow")
     assert law.term.parameters[0].unit in ("1/kg", "1.0/kg")
     assert found["modulated_loss_of_inlet_of_flow", "der(T_wall)"].placed.formula == "-a * (T_wall - inlet) * flow"
+    # The exchange of the model is that of the film at the begin; of frost there is none yet.
+    wet = found["modulated_exchange_of_T_wall_of_film", "der(T_water)"].placed
+    assert wet.formula == "-a * (T_water - T_wall) * (film - o_0)"
+    assert wet.constants["o_0"].to("kg") == pytest.approx(0.02)
+    frosted = found["modulated_exchange_of_T_wall_of_frost", "der(T_water)"].placed
+    assert frosted.formula == "-a * (T_water - T_wall) * frost"
     assert not [n for n, _ in found if n.startswith("modulated_exchange") and "T_far" in n.split("_of_")[1]]

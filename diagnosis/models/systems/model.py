@@ -46,14 +46,16 @@ AGREED = 1e-3
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
 SEARCHED_AGAIN = 30_000
-#: Points whose numbers are kept.
-MOST_PLAIN = 64
+#: Points whose numbers are kept, and simulations.
+MOST_PLAIN, MOST_COURSES = 64, 8
 #: Macro-steps of the run that tells what the variables of the results are called.
 FIRST_STEPS = 3
 
 
 #: A point, the number of a recording, and steps of the integration in a macro-step.
 _Asked = tuple[Point, int, int]
+#: Numbers of a point, laws and faults of inputs that act, the number of a recording, steps.
+_Course = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int, int]
 
 
 def _row_of(given: tuple[Scenario, Sequence[Recording], Sequence[Free], Sequence[Fit]]) -> Callable[[_Asked], Array]:
@@ -92,6 +94,8 @@ class SystemModel(CompiledModel):
         self._needed: dict[frozenset[Term], int] = {} if like is None else like._needed
         #: What points without laws change, by their numbers and recording.
         self._plain: dict[tuple[bytes, int | None], Changes] = {}
+        #: Courses of the channels that were simulated last.
+        self._courses: dict[_Course, Array | None] = {}
         #: Law to what it adds, by the numbers that the compiled code has for each, and its place.
         self._found: dict[Term, tuple[range, Fit]] = {}
         placed: list[Placed] = []
@@ -258,24 +262,42 @@ class SystemModel(CompiledModel):
         return self._residual(number, self._prediction(point, number, count))
 
     def _prediction(self, point: Point, number: int, count: int | None = None) -> list[Array] | None:
+        count = self._steps_of(point) if count is None else count
+        courses = self._simulated(point, number, count)
+        if courses is None:
+            return None
+        fast = self._fast[number]
+        step = fast.per_output * fast.size / 1e9
+        found = []
+        for channel, values, (_, factor, offset, is_flow, unit) in zip(
+            self.recordings[number].channels.values(), courses, self._places[number]
+        ):
+            series = Series(fast.times, factor * values + offset, is_flow, unit)
+            found.append(read(channel, point.terms, series, step))
+        return found
+
+    def _simulated(self, point: Point, number: int, count: int) -> Array | None:
+        """What the channels of a recording measure, shape (channels, outputs); None where the simulation stopped.
+
+        It is kept for points that differ in what sensors do alone.
+        """
+        acting = tuple((t, v) for t, v in point.terms.items() if t in self._found or t.recording is not None)
+        key = point.base.tobytes(), acting, number, count
+        if key in self._courses:
+            return self._courses[key]
         changes = self._numbers_at(point, number)
         laws: dict[int, Sequence[float]] = {}
-        for term, amounts in point.terms.items():
+        for term, amounts in acting:
             if term in self._found:
                 own, fit = self._found[term]
                 laws |= {n: fit.values_of(placed, amounts) for n, placed in zip(own, fit.every)}
         fast = self._fast[number]
-        fast.set_substeps(self._steps_of(point) if count is None else count)
+        fast.set_substeps(count)
         rows = fast.simulate(changes, laws)
-        if rows is None:
-            return None
-        step = fast.per_output * fast.size / 1e9
-        found = []
-        for channel, (column, factor, offset, is_flow, unit) in zip(
-            self.recordings[number].channels.values(), self._places[number]
-        ):
-            values = factor * rows.values[:, column] + offset
-            found.append(read(channel, point.terms, Series(rows.times, values, is_flow, unit), step))
+        found = None if rows is None else rows.values[:, [place[0] for place in self._places[number]]].T.copy()
+        if len(self._courses) >= MOST_COURSES:
+            del self._courses[next(iter(self._courses))]
+        self._courses[key] = found
         return found
 
     def _set_steps(self) -> None:
@@ -288,9 +310,9 @@ class SystemModel(CompiledModel):
             now = [self._row((zero, n, 2 * count)) for n in numbers]
             with np.errstate(invalid="ignore"):
                 moved = [float(np.max(np.abs(a - b), initial=0.0)) for a, b in zip(before, now)]
-            count, before = 2 * count, now
             if all(m < EXACT for m in moved):
                 break
+            count, before = 2 * count, now
         self._substeps = count
 
 

@@ -33,6 +33,10 @@ SEED = 20
 #: A quantity that is farther from 0 than so many times what it moves has its power series from where it is: a curvature
 #: comes with a slope of twice, and a constant of the square, of that else.
 FAR = 5.0
+#: The same of a state that drives an exchange: from there on it begins away from 0.
+BEGUN = 0.5
+#: Roles of laws that drive an exchange.
+MODULATED = (Role.MODULATED, Role.MODULATED_BY_INPUT)
 #: Roles whose laws act on an input. Where the FMU hides its states, what a lag passes is held over a macro-step, late
 #: by half of one in the mean: the lag that is found is short by that.
 HELD = (Role.INPUT, Role.STARTED_INPUT, Role.PORT)
@@ -280,7 +284,7 @@ def _fit(
     if any(v in taken for v in fresh.values()):
         return None
     names = {**{s: q.name for s, q in symbols.items()}, **fresh}
-    references = _references(law, symbols, taken)
+    references = _references(law, symbols, own.states, taken)
     names |= {s: f"({names[s]} - {reference})" for s, (reference, _) in references.items()}
     scale = _Scale(symbols, target, to.startswith("der("), steps)
     try:
@@ -334,17 +338,19 @@ def _fit(
 
 
 def _references(
-    law: Law, symbols: Mapping[str, Quantity], taken: Collection[str]
+    law: Law, symbols: Mapping[str, Quantity], states: Collection[str], taken: Collection[str]
 ) -> dict[str, tuple[str, PhysicalValue]]:
     """Symbols of a power series that is counted from where the quantity is, with a constant's name and value each.
 
     The square of an absolute temperature that moves by a hundredth of itself is a large constant and a slope, which
-    nothing in the model takes back: a simulation with it runs away before its curvature is seen.
+    nothing in the model takes back: a simulation with it runs away before its curvature is seen. An exchange that
+    changes with a state is what the model has of it where the state begins, unless that is near 0.
     """
     found = {}
     for symbol in law.series_of:
         q, name = symbols[symbol], f"{symbol}_0"
-        if abs(q.middle) > FAR * q.size and name not in taken:
+        far = BEGUN if law.role in MODULATED and q.name in states else FAR
+        if abs(q.middle) > far * q.size and name not in taken:
             found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
     return found
 
