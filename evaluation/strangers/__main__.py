@@ -29,6 +29,7 @@ from evaluation.strangers import (
     ninth_set,
     second_set,
     seventh_set,
+    sixteenth_set,
     sixth_set,
     tenth_set,
     third_set,
@@ -54,6 +55,7 @@ SETS = {
     "thirteenth": thirteenth_set.CASES,
     "fourteenth": fourteenth_set.CASES,
     "fifteenth": fifteenth_set.CASES,
+    "sixteenth": sixteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
