@@ -118,9 +118,8 @@ def fit(
     """Fit all parameters of the model and of the terms in `start`, from there.
 
     Levenberg-Marquardt on the normal equations, which the prior keeps well conditioned; bounds are kept by leaving out
-    what would pass them. As long as steps gain what they promise, derivatives by the model's own parameters, of which
-    there may be hundreds, are kept (a chord method), and those by the terms' parameters follow what the residuals did
-    (a secant method). They are taken anew where steps disappoint, and the latter wherever a fit ends.
+    what would pass them. Derivatives by the terms' parameters are fresh in every iteration; those by the model's own
+    parameters, of which there are hundreds, are kept as long as steps gain what they promise (a chord method).
 
     Args:
         model: Model and recordings.
@@ -135,8 +134,7 @@ def fit(
         there until that changes nothing.
 
     Source: Nocedal, Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 10.3 and 16.7; chord: Kelley,
-    Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 5.4; secant: Broyden, Mathematics of
-    Computation 19 (1965) 577-593.
+    Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 5.4.
     """
     if widths is None:
         widths = np.ones(len(model.parameters)) if near is None else near.widths
@@ -148,33 +146,26 @@ def fit(
     is_fresh, poor, taken = near is None, 0, 0
     most = iterations if near is None else refreshes
     value, damping, is_converged = objective.cost(x, here), 1e-3, False
-    terms, are_fresh = objective.term_columns(x, here), True
-    is_exact = len(x) == count or objective.has_instants  # there is nothing to follow, or it cannot be followed
+    terms = objective.term_columns(x, here)
     farthest = 0.0
     for _ in range(iterations):
         other, there, gained, promised, damping = _descend(objective, (x, here, value), (columns, terms), damping)
-        followed = _followed(terms, columns, other - x, there - here)
         x, here, value = other, there, value - gained
         farness = max(float(np.log(max(promised, 1e-300) / (TOLERANCE * (1.0 + value)))), 0.0)  # 0: converged
         farthest = max(farthest, farness)
         share(1.0 - farness / farthest if farthest else 1.0)
         moved = float(np.max(np.abs(x[:count] - columns.at), initial=0.0))
-        is_over = promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or taken >= most)
-        if is_over and are_fresh:
+        if promised <= TOLERANCE * (1.0 + value) and (moved <= MOVED or taken >= most):
             is_converged = True
             break
-        if gained == 0.0 and are_fresh and (is_fresh or taken >= most):
+        if gained == 0.0 and (is_fresh or taken >= most):
             break
-        is_poor = gained < TRUSTED * promised
-        poor = poor + 1 if is_poor and are_fresh else 0
+        poor = poor + 1 if gained < TRUSTED * promised else 0
         columns = columns.for_now(here)
-        is_fresh = moved > MOVED or (gained == 0.0 and are_fresh) or (poor > 0 and moved > NEAR) or poor > 1
+        is_fresh = moved > MOVED or gained == 0.0 or (poor > 0 and moved > NEAR) or poor > 1
         if is_fresh and taken < most:
             taken += 1
             columns, poor, damping = Columns.of(objective.base_columns(x), x[:count], here), 0, 1e-3
-        are_fresh = is_exact or is_fresh or is_poor or is_over
-        terms = objective.term_columns(x, here) if are_fresh else followed
-    if not are_fresh:
         terms = objective.term_columns(x, here)
     point = objective.point(x)
     if refined(model, point):
@@ -211,26 +202,6 @@ def _descend(
             break
         damping *= 6.0
     return x, here, 0.0, expected, damping
-
-
-def _followed(terms: Array, columns: Columns, step: Array, change: Array) -> Array:
-    """Derivatives by the terms' parameters after a step, from what it changed beyond what they said.
-
-    Source: Broyden, Mathematics of Computation 19 (1965) 577-593, equation 4.5; those by the model's own parameters
-    are kept, so that their share of the difference is left out.
-
-    Args:
-        terms: Before it, shape (residuals, term parameters).
-        columns: By the model's own parameters.
-        step: In scaled coordinates, shape (parameters + term parameters,).
-        change: Of the residuals, shape (residuals,).
-    """
-    count = len(columns.at)
-    own, length = step[count:], float(step @ step)
-    if not length or not len(own):
-        return terms
-    beyond = change - columns.values @ step[:count].astype(columns.values.dtype) - terms @ own
-    return np.asarray(terms + np.outer(beyond, own / length))
 
 
 def _quadratic(widths: Array, x: Array, here: Array, slopes: tuple[Columns, Array]) -> tuple[Array, Array]:

@@ -59,11 +59,6 @@ class Objective:
         inside = 1e-9 * np.where(np.isfinite(width), width, 1.0)
         return np.asarray(np.clip(x, self.lower + inside, self.upper - inside))
 
-    @property
-    def has_instants(self) -> bool:
-        """Whether a parameter is an instant: single readings have its derivative, each for a while."""
-        return bool(self._is_instant.any())
-
     def residuals(self, x: Array) -> Array:
         """Residuals, shape (residuals,), always finite."""
         return bounded(self.model.residuals([self.point(x)])[0])
