@@ -3,22 +3,24 @@
 A number that is off or a law that is missing may move a response in time, but it does so in every recording. Where
 the scenario meets a channel in the other recordings and, by a straight line from its clock to that of the scenario,
 in this one too, its clock is off. A resonance that moves with its amplitude does the same to all channels of a
-recording that is driven harder than the others: none such is reported.
+recording that is driven harder than the others: none such is reported. A sensor that answers more slowly in one
+recording makes its readings late as well: what explains more of them is reported, or both.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, minimize_scalar
 
 from cosim.unit.protocol import Array
-from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.beside import Beside, Compared, lagged
 from diagnosis.check.explain import independent
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.series import sample
 from diagnosis.report.display import instant
 
 #: Share of a channel's variance that the scenario leaves at most where it meets it, all numbers as they are.
@@ -40,6 +42,9 @@ CHANGES, SHIFTS = 4, 41
 AS_IT_IS, RECALIBRATED = "the scenario as it is", "the scenario with its numbers fitted"
 #: Standard normal quantile of 97.5 %.
 _QUANTILE = 1.959964
+#: Lags that are tried, as shares of the longest, and -2 log likelihood by which a lag and a clock are told apart: one
+#: of 20,000 by chance.
+LAGS, APART = tuple(np.geomspace(1e-3, 1.0, 25).tolist()), 20.0
 
 
 @dataclass(frozen=True)
@@ -69,6 +74,15 @@ class _Clock:
             return self.rate * _since(beside)
         return np.full(len(beside.times), self.offset)
 
+    def rest(self, beside: Beside) -> Array:
+        """What it leaves of any recording of the channel, SI."""
+        return beside.measured - beside.at(beside.times - self.moves(beside))
+
+    def is_beyond(self, one: Compared, beside: Beside) -> bool:
+        """Whether it is farther off than readings and rows of inputs leave open."""
+        within = resolution(one, beside.channel) + _row(one)
+        return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within)
+
     def in_words(self) -> str:
         """What is off."""
         if self.is_rate:
@@ -76,8 +90,10 @@ class _Clock:
             rates = [self.rate + side * self.spread for side in (-1.0, 0.0, 1.0)]
             low, middle, high = sorted(100.0 * abs(rate / (1.0 - rate)) for rate in rates)
             way = "fast" if self.rate > 0.0 else "slow"
-            return f"with a clock that runs {middle:.3g} % too {way} ({low:.3g} to {high:.3g} %, 95 %)"
-        return f"with a clock that is {instant(abs(self.offset), 3)} s {'ahead' if self.offset > 0.0 else 'behind'}"
+            told = f"that runs {middle:.3g} % too {way} ({low:.3g} to {high:.3g} %, 95 %)"
+        else:
+            told = f"that is {instant(abs(self.offset), 3)} s {'ahead' if self.offset > 0.0 else 'behind'}"
+        return f"{percent(1.0 - self.left)} with a clock {told}"
 
 
 def clocks_of_one(every: Sequence[Compared], simulated: str = AS_IT_IS) -> list[Doubt]:
@@ -108,23 +124,93 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         largest = max(float(np.ptp(b.simulated_there)) for b in same)
         if not is_alone and float(np.ptp(beside.simulated_there)) > HARDER * largest:
             continue
-        clock = _clock(beside)
-        if clock is None or clock.left > MET or clock.left * TIMES > left:
-            continue
-        within = resolution(one, beside.channel) + _row(one)
-        if float(np.abs(clock.moves(beside)).max()) <= within and not _drifts(one, beside, clock, within):
-            continue
+        found = [
+            r for r in (_clock(beside), _lag(beside)) if r is not None and TIMES * r.left <= left and r.left <= MET
+        ]
+        told_apart = _best(beside, found)
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
-        if sum(_left(b, clock.moves(b)) for b in same) < WORSE * sum(usual):
+        if not told_apart or not all(
+            r.is_beyond(one, beside) and sum(_left_of(b, r.rest(b)) for b in same) >= WORSE * sum(usual)
+            for r in told_apart
+        ):
             continue
-        text = (
+        told = (
             f"of the {100.0 * COUNTED:.0f} % of its readings that {simulated} misses least, it explains at "
             f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording that shows it and "
-            f"{percent(max(1.0 - left, 0.0))} in this one, but {percent(1.0 - clock.left)} {clock.in_words()}"
+            f"{percent(max(1.0 - left, 0.0))} in this one, but {{}}"
         )
-        remedy = "compare two instants that both clocks know, and correct the times of this column's table"
-        z = float(np.sqrt(left / max(clock.left, _noise(beside))))
-        yield Doubt(one.recording.title, name, "clock", text, remedy, True, one.begin, one.end, z)
+        z = float(np.sqrt(left / max(min(r.left for r in told_apart), _noise(beside))))
+        kind, text, remedy = _in_words(told_apart)
+        yield Doubt(one.recording.title, name, kind, told.format(text), remedy, True, one.begin, one.end, z)
+
+
+def _best(beside: Beside, found: Sequence[_Clock | _Lag]) -> list[_Clock | _Lag]:
+    """Those that explain the readings as well as the best, by what they leave and as many as are independent."""
+    if not found:
+        return []
+    count = min(independent(r.rest(beside)) for r in found)
+    weights = [count * float(np.log(r.left + _noise(beside))) for r in found]
+    return [r for r, weight in zip(found, weights) if weight <= min(weights) + APART]
+
+
+def _in_words(found: Sequence[_Clock | _Lag]) -> tuple[str, str, str]:
+    """Kind of doubt, what explains the readings of one recording, and the remedy: a clock, a slower sensor, or both."""
+    clock = "compare two instants that both clocks know, and correct the times of this column's table"
+    slower = "what was changed at this sensor (a filter, its mounting)? State its lag (`lag_bound`), or leave it out"
+    first, *others = (r.in_words() for r in found)
+    if others:
+        return "late", f"{first}, and {others[0]}: the two cannot be told apart", f"{clock}; or {slower}"
+    if isinstance(found[0], _Clock):
+        return "clock", first, clock
+    return "sensor", f"{first}: the sensor answered more slowly than in the others", slower
+
+
+@dataclass(frozen=True)
+class _Lag:
+    """A channel behind a first-order lag.
+
+    Args:
+        lag: Time constant [s].
+        left: Share of the variance that it leaves of the channel.
+    """
+
+    lag: float
+    left: float
+
+    def rest(self, beside: Beside) -> Array:
+        """What it leaves of any recording of the channel, SI."""
+        return _behind(beside, self.lag)
+
+    def is_beyond(self, one: Compared, beside: Beside) -> bool:
+        """Whether it is longer than what is stated and readings and rows of inputs leave open."""
+        return self.lag > beside.channel.lag_bound + resolution(one, beside.channel) + _row(one)
+
+    def in_words(self) -> str:
+        """What is off."""
+        return f"{percent(1.0 - self.left)} behind a lag of {instant(self.lag, 3)} s"
+
+
+def _behind(beside: Beside, lag: float) -> Array:
+    """Readings of a channel without its simulated course behind a lag [s], SI."""
+    assert beside.simulated is not None
+    course = beside.simulated
+    values = replace(course, values=lagged(course.times, course.values, lag))
+    return np.asarray(beside.measured - sample(values, beside.times))
+
+
+def _lag(beside: Beside) -> _Lag | None:
+    """The first-order lag that leaves least of a channel; None where that is the shortest or the longest tried."""
+    longest = LONGEST * float(np.ptp(beside.times))
+    tried = [longest * share for share in LAGS]
+    left = [_left_of(beside, _behind(beside, lag)) for lag in tried]
+    best = int(np.argmin(left))
+    if best in (0, len(tried) - 1):
+        return None
+    ends = float(np.log(tried[best - 1])), float(np.log(tried[best + 1]))
+    finer = minimize_scalar(
+        lambda x: _left_of(beside, _behind(beside, float(np.exp(x)))), bounds=ends, method="bounded"
+    )
+    return _Lag(float(np.exp(finer.x)), float(finer.fun))
 
 
 def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool:
@@ -163,7 +249,11 @@ def _since(beside: Beside) -> Array:
 
 def _left(beside: Beside, offsets: Array | None = None) -> float:
     """Share of a channel's variance that the scenario leaves, with its clock off by so much at each reading."""
-    rest = beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets)
+    return _left_of(beside, beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets))
+
+
+def _left_of(beside: Beside, rest: Array) -> float:
+    """Share of a channel's variance that is left, of what some description of its readings leaves."""
     squares = np.sort(rest**2)[: int(np.ceil(COUNTED * len(rest)))]
     return max(float(np.mean(squares)) - beside.floor**2, 0.0) / float(np.var(beside.measured))
 

@@ -26,6 +26,7 @@ _LESS = (
     ({"no answer"}, "Readings show no answer to the inputs of the scenario"),
     ({"start"}, "The first readings of a recording are not where it is said to begin"),
     ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
+    ({"clock", "dead time", "late"}, "Readings come later than the scenario says"),
 )
 #: Share of what stays from which instants of inputs within a row are named as a possible reason.
 ROWS = 0.5

@@ -13,11 +13,13 @@ import yaml
 
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
+from diagnosis.check import clock_of_one
 from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.clocks import clocks_once_recalibrated
-from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.diagnosis import Doubt, Verdict
+from diagnosis.judge.headline import headline
 from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
 from tests.systems.rigs import COUNT, STEP, oscillator, oscillator_recordings
@@ -233,3 +235,38 @@ def test_a_law_that_shows_in_the_recording_that_is_driven_hardest_is_no_clock(tm
     _lightly_damped(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 3.75 * v - 4.0 * x - 0.4 * x**3, (0.15, 0.2, 1.2))
     assert _once_recalibrated(tmp_path, recordings) == []
+
+
+def _behind_a_lag(recording: Path, lag: float) -> None:
+    """The readings of a recording behind a first-order lag [s], at equal steps, from rest."""
+    table = pd.read_csv(recording / "data.csv")
+    found, share = [float(table["x"][0])], 1.0 - np.exp(-STEP / lag)
+    for value in table["x"][1:]:
+        found.append(found[-1] + share * (float(value) - found[-1]))
+    table["x"] = np.array(found) + 1e-3 * np.random.default_rng(9).standard_normal(COUNT)
+    table.to_csv(recording / "data.csv", index=False)
+
+
+@pytest.mark.parametrize("lag", [0.03, 0.06])
+def test_a_sensor_that_is_slower_in_one_recording_is_no_clock(lag: float, tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _behind_a_lag(recordings[1], lag)
+    (told,) = _doubts(tmp_path, recordings)
+    assert (told.recording, told.subject, told.kind) == ("run_2", "rig.position", "sensor")
+    assert told.is_serious
+    (found,) = re.findall(r"behind a lag of ([\d.]+) s: the sensor answered more slowly", told.statement)
+    assert float(found) == pytest.approx(lag, rel=0.1)
+
+
+def test_of_few_readings_neither_a_clock_nor_a_lag_is_claimed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both stand in one sentence, and in the headline neither."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], 0.0, 0.03)
+    monkeypatch.setattr(clock_of_one, "APART", 1e9)
+    (told,) = _doubts(tmp_path, recordings)
+    assert told.kind == "late"
+    assert "cannot be told apart" in told.statement
+    assert "with a clock that is 0.03" in told.statement
+    assert headline(Verdict.RECORDING_FAULT, (), None, doubts=[told]).startswith("Readings come later than the")

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from diagnosis import model_error
-from diagnosis.model_error import search_with_model_error
+from diagnosis.model_error import REFITTED, refitted, search_with_model_error
 from diagnosis.models.protocol import Labelled
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel, correlation_time, inflation
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.search.search import Explanation, Settings, search
+from diagnosis.search.search import Explanation, Outcome, Settings, search
+from diagnosis.search.structure import structure
 from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
 from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
 from tests.verdict.lines import Law
@@ -159,3 +160,28 @@ def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_agai
     # The same term against errors as large as they are: worth a tenth of what noise alone would make of it.
     assert outcome.margin < outcome.best.gains[BEND] < 0.1 * first.best.gains[BEND]
     assert sum(text.startswith("looking for a first effect") for text in said) == 1
+
+
+class Waves(Curves):
+    """A straight line, with terms that add a wave each."""
+
+    curves = {f"wave_{n}": np.sin(0.7 * n * TIMES) for n in range(1, 10)}
+
+    def groups(self) -> dict[str, np.ndarray]:
+        return {}
+
+
+def test_with_larger_errors_the_nearest_rivals_are_fitted_again_and_the_others_left_out():
+    rng = np.random.default_rng(2)
+    sizes = {"wave_3": 3.0} | {f"wave_{n}": 0.1 * n for n in (1, 2, 4, 5, 6, 7, 8, 9)}
+    truth = sum(size * Waves.curves[name] for name, size in sizes.items())
+    model = Waves(1.0 + 0.2 * TIMES + truth + rng.standard_normal(200))
+    every = [Explanation(fit(model, Point(np.zeros(2), {term(name): (0.1,)}))) for name in Waves.curves]
+    best = min(every, key=lambda e: e.fit.cost)
+    assert [t.identifier for t in best.terms] == ["wave_3"]
+    quiet = structure(best.fit.residuals, model.layout)
+    outcome = Outcome(every[0].fit, quiet, best, quiet, tuple(every), 1.0, 0.01, 9)
+    found = refitted(model, outcome)
+    near = sorted((e for e in every if e is not best), key=lambda e: e.fit.cost)[:REFITTED]
+    assert [e.terms for e in found.rivals] == [best.terms, *(e.terms for e in near)]
+    assert len(every) > 1 + REFITTED

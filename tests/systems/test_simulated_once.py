@@ -1,9 +1,6 @@
-"""What was simulated is asked for once: sensors read it again, derivatives go to one side, steps are as few as agree."""
+"""What was simulated is asked for once: sensors read it again, derivatives go to one side, steps are few."""
 
 from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,22 +10,29 @@ from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.model import EXACT, MOST_COURSES, SystemModel
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.problem import Point
+from diagnosis.search.problem import Point, Term
 from tests.systems.rigs import oscillator, oscillator_recordings
 
 
 @pytest.fixture(scope="module")
-def model(tmp_path_factory: pytest.TempPathFactory) -> SystemModel:
-    """Of two recordings of an oscillator."""
+def rig(tmp_path_factory: pytest.TempPathFactory) -> tuple[SystemModel, Term]:
+    """Of two recordings of an oscillator, and the gain of its sensor."""
     folder = tmp_path_factory.mktemp("oscillator")
     scenario = load_scenario(str(oscillator(folder)))
     found = ClosedLoopModel(scenario, [load_recording(r) for r in oscillator_recordings(folder, lambda x, v: 0.0)[:2]])
     assert isinstance(found.model, SystemModel)
-    return found.model
+    (gain,) = [t for t in found.terms() if t.identifier == "sensor_gain"]
+    return found.model, gain
 
 
 @pytest.fixture
-def simulated(model: SystemModel, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
+def model(rig: tuple[SystemModel, Term]) -> SystemModel:
+    """The model alone."""
+    return rig[0]
+
+
+@pytest.fixture
+def simulated(model: SystemModel, monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Numbers of recordings, in the order in which they are simulated."""
     found: list[int] = []
     plain = FastSystem.simulate
@@ -39,7 +43,7 @@ def simulated(model: SystemModel, monkeypatch: pytest.MonkeyPatch) -> Iterator[l
         return plain(self, *given)  # type: ignore[arg-type]
 
     monkeypatch.setattr(FastSystem, "simulate", counted)
-    yield found
+    return found
 
 
 def at(model: SystemModel, shift: float) -> Point:
@@ -47,8 +51,10 @@ def at(model: SystemModel, shift: float) -> Point:
     return Point(np.full(len(model.free), shift))
 
 
-def test_points_that_differ_in_a_sensor_alone_are_simulated_once(model: SystemModel, simulated: list[int]) -> None:
-    gain = next(t for t in model._sensor_terms() if t.identifier == "sensor_gain")
+def test_points_that_differ_in_a_sensor_alone_are_simulated_once(
+    rig: tuple[SystemModel, Term], simulated: list[int]
+) -> None:
+    model, gain = rig
     plain = at(model, 0.011)
     rows = model.residuals([plain, plain.plus(gain, (0.1,)), plain.plus(gain, (0.2,))])
     assert sorted(simulated) == [0, 1]

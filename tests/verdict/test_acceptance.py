@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from diagnosis.judge import acceptance
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.diagnosis import Standing
 from diagnosis.judge.judge import _widened, findings
@@ -15,7 +16,7 @@ from diagnosis.recording.recording import Recording
 from diagnosis.search.explanation import Settings
 from diagnosis.search.fit import fit
 from diagnosis.search.problem import Point
-from diagnosis.search.search import Explanation, Outcome, search
+from diagnosis.search.search import Explanation, Outcome, search, shrink
 from diagnosis.search.structure import Structure, structure
 from tests.search.line_model import BEND, STEP, TERMS, TIME, WAVE
 from tests.verdict.lines import Lines, renamed
@@ -221,3 +222,17 @@ def test_numbers_that_depend_on_a_law_that_is_not_identified_have_an_interval_th
     assert told.parameters[0].lower <= without <= told.parameters[0].upper
     assert told.doubts[-1].startswith("its numbers depend on")
     assert _widened(model, outcome, found, BEND, bend, [(BEND, bend), (STEP, every["jump"])]) == bend  # of the rig
+
+
+def test_fits_without_each_term_are_those_of_the_search(tmp_path, monkeypatch):
+    truth = 0.3 + 0.5 * TIME + 0.1 * np.sin(25.0 * TIME) + 0.3 * TIME**2
+    model = Lines(truth, 1)
+    outcome = forced(model, WAVE, BEND)
+    searched = replace(outcome, best=shrink(model, outcome.best, 1.0))
+    assert set(searched.best.without) == {WAVE, BEND}
+    _, anew = judged(model, Lines(truth, 2), tmp_path, outcome)
+    monkeypatch.setattr(acceptance, "fit", lambda *given, **named: pytest.fail("it was fitted already"))
+    _, found = judged(model, Lines(truth, 2), tmp_path, searched)
+    assert set(found.explanation.terms) == {WAVE, BEND}
+    for term in (WAVE, BEND):
+        assert found.gains[term].total == pytest.approx(anew.gains[term].total, rel=1e-6)
