@@ -68,7 +68,10 @@ def test_without_an_outage_no_reading_is_left_out(tmp_path: Path) -> None:
     assert "unknown input" not in one.recording.channels["rig.position"].dropped
 
 
-def test_a_rig_that_never_forgets_keeps_its_readings_and_the_doubt_says_so(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("lost", "left_out"), [((60, 100), True), ((20, 60), False)])
+def test_of_a_rig_that_never_forgets_readings_before_an_outage_are_compared_if_they_are_many(
+    lost: tuple[int, int], left_out: bool, tmp_path: Path
+) -> None:
     """What flowed into a tank with a small outlet stays: all readings after the outage are of an unknown level."""
     leak = 1e-5
     path = tank(tmp_path, "4000 s", "10 s")
@@ -83,12 +86,17 @@ def test_a_rig_that_never_forgets_keeps_its_readings_and_the_doubt_says_so(tmp_p
         tmp_path / "run", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
     )
     table = pd.read_csv(folder / "data.csv")
-    table.drop(index=range(60, 100)).to_csv(folder / "data.csv", index=False)
+    table.drop(index=range(*lost)).to_csv(folder / "data.csv", index=False)
     scenario, recording = load_scenario(path), load_recording(folder)
-    one = compare(scenario, recording)
-    assert "unknown input" not in one.recording.channels["tank.level"].dropped
+    compared = compare(scenario, recording).recording.channels["tank.level"]
     (doubt,) = [d for d in check_recordings(scenario, [recording]) if d.subject == "pump.inflow" and d.kind == "input"]
-    assert "the last value is held" in doubt.statement
+    if left_out:  # those after it, 300 of 360
+        assert compared.dropped["unknown input"] == pytest.approx(300, abs=2)
+        assert compared.times[-1] < 10.0 * lost[0] + 10.0
+        assert f"{compared.dropped['unknown input']} readings that depend on such gaps" in doubt.statement
+    else:
+        assert "unknown input" not in compared.dropped
+        assert "the last value is held" in doubt.statement
 
 
 @pytest.mark.parametrize(
