@@ -105,9 +105,7 @@ def diagnose(
                 )
             base = load_scenario(scenario)
             limits = parse_limits(limit or [], base)
-            options = Options(
-                tuple(without or ()), jobs, limits, batches, brief, not despite_doubts, stop_after is not None
-            )
+            options = Options(tuple(without or ()), jobs, limits, batches, brief, not despite_doubts)
             training, judges = prepared(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )

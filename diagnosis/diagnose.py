@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cosim.compute.batch import Batches
-from cosim.compute.steps import TimeIsOver, may_be_left, was_left
+from cosim.compute.steps import TimeIsOver, is_limited, may_be_left, was_left
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
@@ -84,7 +84,6 @@ class Options:
         is_brief: Verdict, findings and fit alone.
         limits: Greatest values in a next experiment, `component.output` to a number in the unit of that output.
         is_checked: Whether recordings that seem to be of another experiment than the scenario are not searched.
-        is_timed: Whether its time is limited, which runs of the co-simulation do not allow for.
     """
 
     without: tuple[str, ...] = ()
@@ -93,7 +92,6 @@ class Options:
     batches: Batches = field(default_factory=Batches)
     is_brief: bool = False
     is_checked: bool = True
-    is_timed: bool = False
 
     def catalogue(self) -> tuple[CandidateTerm, ...]:
         """Candidates that it knows.
@@ -164,7 +162,7 @@ def diagnose(
     if not options.batches.place.is_local and not uses_batches(model):
         what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
         raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
-    if options.is_timed and uses_batches(model):
+    if is_limited() and uses_batches(model):
         what = "runs of the co-simulation are interrupted by Ctrl-C, and kept"
         raise InputError("--stop-after", "", what, "leave it out; `--resume` goes on from the runs that were made")
     doubts = _doubts(seen, compared, model, judge, options)

@@ -67,6 +67,7 @@ class Steps:
         self, tell: Callable[[str], None], now: Callable[[], float] = clock.monotonic, most: float = math.inf
     ) -> None:
         self._tell, self._now = tell, now
+        self.has_end = math.isfinite(most)
         self._end = now() + most
         self.optional = 0
         self.has_left = False
@@ -180,6 +181,12 @@ def may_be_left(is_so: bool = True) -> Iterator[None]:
         yield
     finally:
         steps.optional -= 1
+
+
+def is_limited() -> bool:
+    """Whether a time was given after which what may be left out is left out."""
+    steps = _WATCHED.get()
+    return steps is not None and steps.has_end
 
 
 def was_left() -> bool:

@@ -74,5 +74,5 @@ def test_a_time_that_is_none_is_refused(text: str) -> None:
 
 def test_runs_of_the_co_simulation_are_resumed_and_not_cut_short(tmp_path: Path) -> None:
     swing = made(tmp_path / "swing", 1)
-    with pytest.raises(InputError, match="--resume"):
-        diagnose(load_scenario("pendulum"), [swing], [], Settings(), options=Options(is_timed=True))
+    with pytest.raises(InputError, match="--resume"), watched(Steps(lambda text: None, most=60.0)) as steps:
+        diagnose(load_scenario("pendulum"), [swing], [], Settings(), steps)
