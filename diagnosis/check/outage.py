@@ -29,8 +29,8 @@ ROWS, REGULAR = 50, 0.9
 LOST = 5
 #: Deviations of the noise by which a reading may depend on what is not known.
 DEPENDS = 0.5
-#: Share of a channel's readings that may be left out: what depends on an unknown input judges nothing, but of a rig that
-#: never forgets little else may be there.
+#: Share of readings of a channel that may be left out: what depends on an unknown input judges nothing, but of a rig
+#: that never forgets little else may be there.
 MOST = 0.9
 #: Why readings are left out: see `diagnosis.recording.usage`.
 REASON = "unknown input"

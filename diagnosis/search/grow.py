@@ -31,7 +31,7 @@ OUTDONE = 1.6
 #: Equations of which a generic law is fitted all the same where what is best leaves structure.
 EQUATIONS = 3
 #: Combinations of the first values of a law that is tried whatever the straight line says of it.
-STARTS, TRIED_STARTS = 32, 2
+STARTS, TRIED_STARTS = 96, 2
 #: Share of the sum of squares of all residuals by which a law changes them that does something.
 FELT = 0.01
 #: Instants from which a fit may begin where the model does not say which.
