@@ -78,9 +78,9 @@ class _Clock:
         """What it leaves of any recording of the channel, SI."""
         return beside.measured - beside.at(beside.times - self.moves(beside))
 
-    def is_beyond(self, one: Compared, beside: Beside) -> bool:
-        """Whether it is farther off than readings and rows of inputs leave open."""
-        within = resolution(one, beside.channel) + _row(one)
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+        """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
+        within = resolution(one, beside.channel) + row
         return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within)
 
     def in_words(self) -> str:
@@ -128,9 +128,11 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
             r for r in (_clock(beside), _lag(beside)) if r is not None and TIMES * r.left <= left and r.left <= MET
         ]
         told_apart = _best(beside, found)
+        # rows that were written late move all that follows their input, and not one channel alone
+        row = 0.0 if is_alone and len(one.switches()) >= CHANGES else _row(one)
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
         if not told_apart or not all(
-            r.is_beyond(one, beside) and sum(_left_of(b, r.rest(b)) for b in same) >= WORSE * sum(usual)
+            r.is_beyond(one, beside, row) and sum(_left_of(b, r.rest(b)) for b in same) >= WORSE * sum(usual)
             for r in told_apart
         ):
             continue
@@ -181,9 +183,9 @@ class _Lag:
         """What it leaves of any recording of the channel, SI."""
         return _behind(beside, self.lag)
 
-    def is_beyond(self, one: Compared, beside: Beside) -> bool:
-        """Whether it is longer than what is stated and readings and rows of inputs leave open."""
-        return self.lag > beside.channel.lag_bound + resolution(one, beside.channel) + _row(one)
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+        """Whether it is longer than what is stated and readings and rows of inputs leave open, the latter [s]."""
+        return self.lag > beside.channel.lag_bound + resolution(one, beside.channel) + row
 
     def in_words(self) -> str:
         """What is off."""

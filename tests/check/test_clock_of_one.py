@@ -40,7 +40,7 @@ def _own_table(recording: Path, fast: float, late: float) -> None:
     """The channel in a table of its own, whose clock runs so much too fast and is ahead by so much [s]."""
     about = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
     table = pd.read_csv(recording / "data.csv")
-    (channel,) = about["channels"].values()
+    channel = about["channels"]["rig.position"]
     own = pd.DataFrame({"t": (1.0 + fast) * table["t"] + late, channel["column"]: table.pop(channel["column"])})
     own.to_csv(recording / "own.csv", index=False)
     table.to_csv(recording / "data.csv", index=False)
@@ -270,3 +270,25 @@ def test_of_few_readings_neither_a_clock_nor_a_lag_is_claimed(tmp_path: Path, mo
     assert "cannot be told apart" in told.statement
     assert "with a clock that is 0.03" in told.statement
     assert headline(Verdict.RECORDING_FAULT, (), None, doubts=[told]).startswith("Readings come later than the")
+
+
+@pytest.mark.parametrize("has_speed", [True, False], ids=["another channel is met", "alone"])
+def test_rows_that_were_written_late_explain_no_channel_that_is_late_alone(
+    has_speed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A row of an input may be late by its length; then all that follows the input is."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    for recording in recordings:
+        table = pd.read_csv(recording / "data.csv")
+        noise = 0.02 * np.random.default_rng(7).standard_normal(COUNT)
+        table["v"] = np.gradient(table["x"].rolling(5, center=True, min_periods=1).mean(), STEP) + noise
+        if has_speed:
+            table.to_csv(recording / "data.csv", index=False)
+            about = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
+            about["channels"]["rig.speed"] = {"column": "v", "unit": "m/s", "noise": "50 mm/s"}
+            (recording / "recording.yaml").write_text(yaml.safe_dump(about, sort_keys=False), encoding="utf-8")
+    _own_table(recordings[1], 0.0, 0.05)
+    monkeypatch.setattr(clock_of_one, "_row", lambda one: 1.0)
+    told = _doubts(tmp_path, recordings)
+    assert [(d.recording, d.subject, d.kind) for d in told] == ([("run_2", "rig.position", "clock")] * has_speed)
