@@ -298,9 +298,9 @@ def _doubts(
     """Doubts beside the scenario as it is, and about clocks beside it once recalibrated."""
     if not options.is_checked or of_another_experiment(found):
         return found
-    known = {(d.recording, d.subject, d.kind) for d in found}
     again = clocks_once_recalibrated(model, judge, compared)
-    return (*(d for d in again if (d.recording, d.subject, d.kind) not in known), *found)
+    known = {(d.recording, d.subject, d.kind) for d in again}
+    return (*again, *(d for d in found if (d.recording, d.subject, d.kind) not in known))
 
 
 def _unsearched(
