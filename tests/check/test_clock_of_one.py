@@ -12,12 +12,14 @@ import pytest
 import yaml
 
 from cosim.scenario import load_scenario
+from diagnosis import diagnose as asked
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check import clock_of_one
 from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import check_recordings
 from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.clocks import clocks_once_recalibrated
+from diagnosis.diagnose import Options
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.judge.headline import headline
 from diagnosis.models.build import models_of
@@ -292,3 +294,10 @@ def test_rows_that_were_written_late_explain_no_channel_that_is_late_alone(
     monkeypatch.setattr(clock_of_one, "_row", lambda one: 1.0)
     told = _doubts(tmp_path, recordings)
     assert [(d.recording, d.subject, d.kind) for d in told] == ([("run_2", "rig.position", "clock")] * has_speed)
+
+
+def test_a_doubt_that_is_seen_twice_is_told_once_beside_the_fitted_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = Doubt("run_2", "rig.position", "sensor", "behind a lag of 0.05 s", "leave it out", True, 0.0, 4.0, 9.0)
+    again, other = replace(first, statement="behind a lag of 0.06 s"), replace(first, subject="rig.speed")
+    monkeypatch.setattr(asked, "clocks_once_recalibrated", lambda *given: [again])
+    assert asked._doubts((first, other), (), None, None, Options()) == (again, other)  # type: ignore[arg-type]
