@@ -16,7 +16,10 @@ LAW = Law(
         Number("wave_number", "1/x", "radians of a period for each unit of the way", _WAVES, 40.0, 2.5),
         Number("phase", "x/x", "phase where the position is 0", (0.0, 1.6), 7.0, -7.0),
     ),
-    source="first harmonic: Hendershot and Miller, Design of Brushless Permanent-Magnet Machines, Motor Design 2010, "
-    "section 3.6 (cogging torque)",
-    confused_with={"cubic_spring": "more periods within the way decide, or a longer way"},
+    source="first harmonic of a cogging torque: Hendershot and Miller, Design of Brushless Permanent-Magnet Machines, "
+    "Motor Design Books 2010",
+    confused_with={
+        "cubic_spring": "more periods within the way decide, or a longer way",
+        "unbalance": "its period decides: one turn, or a part of it",
+    },
 )
