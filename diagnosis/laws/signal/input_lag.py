@@ -9,6 +9,6 @@ LAW = Law(
     formula="(passed - u) * lag_time / (lag_time + step)",
     numbers=(Number("lag_time", "u/rate", "time constant", (1.0, 5.0), 1000.0, 0.0),),
     source="first-order actuator: Astrom and Hagglund, Advanced PID Control, ISA 2006, section 2.4",
-    constants={"step": ("u/rate", 0.4)},  # of a reading: one step of the classical Runge-Kutta method stays stable
+    constants={"step": ("u/rate", 0.2)},
     states=(OwnState("passed", "(u - passed) / (lag_time + step)", "u", "u"),),
 )
