@@ -67,7 +67,6 @@ class Steps:
         self, tell: Callable[[str], None], now: Callable[[], float] = clock.monotonic, most: float = math.inf
     ) -> None:
         self._tell, self._now = tell, now
-        self.has_end = math.isfinite(most)
         self._end = now() + most
         self.optional = 0
         self.has_left = False
@@ -75,6 +74,11 @@ class Steps:
         self._counts: list[Count] = []
         self._begin = self._last = now()
         self._alone = 0.0  # share of a stage that counts nothing
+
+    @property
+    def has_end(self) -> bool:
+        """Whether a time was given after which what may be left out is left out."""
+        return math.isfinite(self._end)
 
     def __call__(self, stage: str) -> None:
         """Another stage begins; within a count it stays what it is."""

@@ -76,7 +76,7 @@ class _Clock:
 
     def rest(self, beside: Beside) -> Array:
         """What it leaves of any recording of the channel, SI."""
-        return beside.measured - beside.at(beside.times - self.moves(beside))
+        return _rest(beside, self.moves(beside))
 
     def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
         """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
@@ -251,7 +251,12 @@ def _since(beside: Beside) -> Array:
 
 def _left(beside: Beside, offsets: Array | None = None) -> float:
     """Share of a channel's variance that the scenario leaves, with its clock off by so much at each reading."""
-    return _left_of(beside, beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets))
+    return _left_of(beside, _rest(beside, offsets))
+
+
+def _rest(beside: Beside, offsets: Array | None) -> Array:
+    """What the scenario leaves of a channel, with its clock off by so much at each reading, SI."""
+    return np.asarray(beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets))
 
 
 def _left_of(beside: Beside, rest: Array) -> float:
@@ -277,7 +282,7 @@ def _clock(beside: Beside) -> _Clock | None:
     weights = np.column_stack([1.0 - since / span, since / span])
 
     def misfit(ends: Array) -> Array:
-        return np.asarray(beside.measured - beside.at(beside.times - weights @ ends))
+        return _rest(beside, weights @ ends)
 
     squares = [(float(np.sum(misfit(np.array([a, b])) ** 2)), a, b) for a in tried for b in tried]
     _, *start = min(squares)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 import xarray as xr
@@ -52,9 +53,11 @@ MOST_PLAIN, MOST_COURSES = 64, 8
 FIRST_STEPS = 3
 
 
+_Key = TypeVar("_Key")
+_Value = TypeVar("_Value")
 #: A point, the number of a recording, and steps of the integration in a macro-step.
 _Asked = tuple[Point, int, int]
-#: Numbers of a point, laws and faults of inputs that act, the number of a recording, steps.
+#: Numbers of a point, laws and faults of inputs that act in a recording, its number, steps.
 _Course = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int, int]
 
 
@@ -141,9 +144,7 @@ class SystemModel(CompiledModel):
             return super().changes_at(Point(point.base, faults), number)
         key = point.base.tobytes(), number
         if key not in self._plain:  # a law is tried with many of its values where nothing else moves
-            if len(self._plain) >= MOST_PLAIN:
-                del self._plain[next(iter(self._plain))]
-            self._plain[key] = super().changes_at(Point(point.base), number)
+            _keep(self._plain, key, super().changes_at(Point(point.base), number), MOST_PLAIN)
         return self._plain[key]
 
     def predictions(self, wanted: Sequence[tuple[Point, int]]) -> list[list[Array] | None]:
@@ -281,7 +282,7 @@ class SystemModel(CompiledModel):
 
         It is kept for points that differ in what sensors do alone.
         """
-        acting = tuple((t, v) for t, v in point.terms.items() if t in self._found or t.recording is not None)
+        acting = tuple((t, v) for t, v in point.terms.items() if t in self._found or t.recording == number)
         key = point.base.tobytes(), acting, number, count
         if key in self._courses:
             return self._courses[key]
@@ -295,9 +296,7 @@ class SystemModel(CompiledModel):
         fast.set_substeps(count)
         rows = fast.simulate(changes, laws)
         found = None if rows is None else rows.values[:, [place[0] for place in self._places[number]]].T.copy()
-        if len(self._courses) >= MOST_COURSES:
-            del self._courses[next(iter(self._courses))]
-        self._courses[key] = found
+        _keep(self._courses, key, found, MOST_COURSES)
         return found
 
     def _set_steps(self) -> None:
@@ -318,6 +317,13 @@ class SystemModel(CompiledModel):
 
 #: Column of the rows, factor and offset to SI, whether it is a flow, SI unit.
 _Place = tuple[int, float, float, bool, str]
+
+
+def _keep(kept: dict[_Key, _Value], key: _Key, value: _Value, most: int) -> None:
+    """Keep a value, and forget the oldest of so many."""
+    if len(kept) >= most:
+        del kept[next(iter(kept))]
+    kept[key] = value
 
 
 def _channel_places(scenario: Scenario, recording: Recording, fast: FastSystem) -> list[_Place]:

@@ -23,7 +23,7 @@ from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
 from diagnosis.models.systems.steps import resolve
 from diagnosis.models.systems.surroundings import surroundings
-from diagnosis.models.systems.targets import SURROUNDINGS, is_of, targets
+from diagnosis.models.systems.targets import MODULATED, SURROUNDINGS, is_of, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -35,8 +35,6 @@ SEED = 20
 FAR = 5.0
 #: The same of a state that drives an exchange: from there on it begins away from 0.
 BEGUN = 0.5
-#: Roles of laws that drive an exchange.
-MODULATED = (Role.MODULATED, Role.MODULATED_BY_INPUT)
 #: Roles whose laws act on an input. Where the FMU hides its states, what a lag passes is held over a macro-step, late
 #: by half of one in the mean: the lag that is found is short by that.
 HELD = (Role.INPUT, Role.STARTED_INPUT, Role.PORT)

@@ -17,6 +17,8 @@ SURROUNDINGS = "surroundings"
 _LENGTHS = ("m", "rad", "m^3", "Pa")
 #: Share of its middle by which an input has to move to be told from a constant.
 HARDLY = 0.05
+#: Roles of laws that drive an exchange.
+MODULATED = (Role.MODULATED, Role.MODULATED_BY_INPUT)
 #: `added_terms` target, its quantity, and symbol to quantity.
 Target = tuple[str, Quantity, dict[str, Quantity]]
 
@@ -36,7 +38,7 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
         yield from _coupled(own, role, free)
     elif role in (Role.READING, Role.INPUT, Role.STARTED_INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
         yield from _at_ports(own, role)
-    elif role in (Role.MODULATED, Role.MODULATED_BY_INPUT):
+    elif role in MODULATED:
         yield from _modulated(own, role, free)
     elif role is Role.PAIR:
         for name, q in free.items():
