@@ -196,8 +196,10 @@ def _behind(beside: Beside, lag: float) -> Array:
     """Readings of a channel without its simulated course behind a lag [s], SI."""
     assert beside.simulated is not None
     course = beside.simulated
-    values = replace(course, values=lagged(course.times, course.values, lag))
-    return np.asarray(beside.measured - sample(values, beside.times))
+    # beside fitted numbers it is known at the readings alone, which need not be at equal steps
+    even = np.linspace(course.times[0], course.times[-1], len(course.times))
+    values = lagged(even, sample(course, even), lag)
+    return np.asarray(beside.measured - sample(replace(course, times=even, values=values), beside.times))
 
 
 def _lag(beside: Beside) -> _Lag | None:

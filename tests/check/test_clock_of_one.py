@@ -301,3 +301,17 @@ def test_a_doubt_that_is_seen_twice_is_told_once_beside_the_fitted_numbers(monke
     again, other = replace(first, statement="behind a lag of 0.06 s"), replace(first, subject="rig.speed")
     monkeypatch.setattr(asked, "clocks_once_recalibrated", lambda *given: [again])
     assert asked._doubts((first, other), (), None, None, Options()) == (again, other)  # type: ignore[arg-type]
+
+
+def test_a_lag_is_of_time_and_not_of_readings(tmp_path: Path) -> None:
+    """Readings with jitter and a gap; a straight line behind a lag tau is t - tau (1 - exp(-t / tau))."""
+    oscillator(tmp_path)
+    (beside,) = _compared(tmp_path, oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES[:1]))[0].channels.values()
+    rng, lag = np.random.default_rng(4), 0.3
+    times = np.sort(np.concatenate([rng.uniform(0.0, 1.0, 400), rng.uniform(2.5, 4.0, 100)]))
+    times[0], times[-1] = 0.0, 4.0
+    assert beside.simulated is not None
+    uneven = replace(beside, simulated=replace(beside.simulated, times=times, values=times))
+    behind = uneven.measured - clock_of_one._behind(uneven, lag)
+    expected = uneven.times - lag * (1.0 - np.exp(-uneven.times / lag))
+    np.testing.assert_allclose(behind, expected, atol=0.01)
