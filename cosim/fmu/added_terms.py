@@ -1,11 +1,11 @@
-"""Terms that the master adds to an FMU of somebody else: to derivatives of states, to inputs, to outputs."""
+"""Terms that the master adds to an FMU of somebody else: to derivatives, inputs, outputs, and shares of parameters."""
 
 from __future__ import annotations
 
 import functools
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,14 +14,17 @@ import numpy as np
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
 from cosim.fmu.delays import INSTANT, DelayedInput, DelayedInputs
+from cosim.fmu.moved_parameter import MovedParameter
 from cosim.fmu.settings import AddedDelay, AddedState, AddedTerm, Table
 from cosim.fmu.units import is_known
+from cosim.fmu.variables import FmuVariable
 from cosim.formula import Formula, FormulaError, to_base
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array, Causality, UnitError
 from cosim.unit.quantity import PhysicalValue, parse_unit
 
 _DERIVATIVE = re.compile(r"^der\((?P<state>.+)\)$")
+_PARAMETER = re.compile(r"^parameter\((?P<parameter>.+)\)$")
 _TIME = "time"
 
 
@@ -30,13 +33,13 @@ class _Term:
     """One term, ready to be evaluated.
 
     Args:
-        target: Name of the state, input or output.
+        target: Name of the state, input, output or parameter.
         formula: Its formula.
         parameters: In SI base units.
         factor: From SI base units to those of the target.
         own: Its own states, where it has some.
         delayed: Inputs as they were some time ago.
-        is_share: Whether it is a share of the derivative as the FMU has it.
+        is_share: Whether it is a share of the derivative as the FMU has it, or of the parameter.
     """
 
     target: str
@@ -139,6 +142,7 @@ class AddedTerms:
     derivatives: list[_Term] = field(default_factory=list)
     inputs: list[_Term] = field(default_factory=list)
     outputs: list[_Term] = field(default_factory=list)
+    parameters: list[_Term] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         #: State to the places of its elements among the continuous states, shape of the variable.
@@ -150,6 +154,10 @@ class AddedTerms:
         self.owners: list[OwnStates] = []
         #: Delayed inputs of all terms.
         self.delayed = DelayedInputs()
+        #: Parameter that a term changes to the instances that tell what that does; the unit makes them.
+        self.moved: dict[str, MovedParameter] = {}
+        #: Time and states where the FMU stands at a communication point; None: it is being initialised.
+        self.where: Callable[[], tuple[float, Array] | None] = lambda: None
         if not self.table.settings.added_terms:
             return
         if self.is_model_exchange:
@@ -166,7 +174,7 @@ class AddedTerms:
     @property
     def is_empty(self) -> bool:
         """Whether there is none."""
-        return not (self.derivatives or self.inputs or self.outputs)
+        return not (self.derivatives or self.inputs or self.outputs or self.parameters)
 
     def continuous_states(self) -> dict[str, AnyArray]:
         """State to the places of its elements among the continuous states; empty where the FMU does not say."""
@@ -195,9 +203,9 @@ class AddedTerms:
         return arrays
 
     def _add(self, given: AddedTerm, key: str) -> None:
-        match = _DERIVATIVE.match(given.to)
-        target = match["state"] if match else given.to
-        unit = self._target_unit(given, target, bool(match), key)
+        match, changed = _DERIVATIVE.match(given.to), _PARAMETER.match(given.to)
+        target = match["state"] if match else changed["parameter"] if changed else given.to
+        unit = self._parameter_unit(given, target, key) if changed else self._target_unit(given, target, bool(match), key)
         units = dict(self._units)
         parameters = {}
         for name, value in given.parameters.items():
@@ -213,12 +221,12 @@ class AddedTerms:
             parameters[name] = np.asarray(factor * value.number + offset)
         delayed = self._delayed_inputs(given, units, parameters, key)
         own = self._own_states(given, units, parameters, delayed, key)
-        if given.is_share and not match:
+        if given.is_share and not (match or changed):
             raise InputError(
                 self.table.archive.path,
                 f"{key}.is_share",
-                f"`{target}` is no derivative, of which a term may be a share",
-                "leave it out, or add to der(state)",
+                f"`{target}` is no derivative or parameter, of which a term may be a share",
+                "leave it out, or add to der(state) or parameter(name)",
             )
         try:
             formula = Formula(given.formula, units, "1" if given.is_share else f"({unit})/s" if match else unit)
@@ -226,7 +234,9 @@ class AddedTerms:
             raise InputError(self.table.archive.path, f"{key}.formula", str(error), "correct the formula") from error
         factor = 1.0 if given.is_share else 1.0 / to_base(unit)[0]
         term = _Term(target, formula, parameters, factor, own, delayed, given.is_share)
-        if match:
+        if changed:
+            self.parameters.append(term)
+        elif match:
             self.derivatives.append(term)
         elif self.table.all[target].variable.causality is Causality.INPUT:
             self.inputs.append(term)
@@ -389,13 +399,45 @@ class AddedTerms:
             )
         return self._units[target]
 
+    def _parameter_unit(self, given: AddedTerm, target: str, key: str) -> str:
+        """Unit of the parameter that a term changes; what cannot be is refused."""
+        where = self.table.archive.path, f"{key}.to"
+        if not self.is_model_exchange:
+            raise InputError(
+                *where,
+                "its own solver integrates this FMU, with parameters that stay as they were set",
+                "use `integrator: cvode`, or add to an input or output",
+            )
+        names = [n for n, v in self.table.all.items() if is_changeable(v)]
+        if target not in names:
+            raise InputError(
+                *where,
+                f"the FMU has no floating-point parameter `{target}` that is one number",
+                f"it has: {', '.join(names) or 'none'}",
+            )
+        problem = unchanging(self.table)
+        if problem:
+            raise InputError(*where, f"no parameter of this FMU can change: {problem}", "leave the term out")
+        if not self.table.value_of(target):
+            raise InputError(*where, f"`{target}` is 0, and a share of that is nothing", "give it another value")
+        if any(t.target == target for t in self.parameters):
+            raise InputError(*where, f"two terms change `{target}`", "write them as one")
+        if not given.is_share:
+            raise InputError(
+                self.table.archive.path,
+                f"{key}.is_share",
+                "what changes a parameter is a share of its value",
+                "write `is_share: true`, and a formula that is a pure number",
+            )
+        return "1"
+
     def bind(self, binding: Binding, values: Mapping[str, AnyArray]) -> None:
         """Connect to an instance; `values` are its inputs (as given from outside) and outputs."""
         self._outside = values
         #: Outputs that terms add to, as the FMU has them: what formulas see.
         self._own_outputs = {t.target: np.zeros(self.table.all[t.target].variable.shape) for t in self.outputs}
         self._own_output_readers = [binding.reader(self.table.all[n], v) for n, v in self._own_outputs.items()]
-        used = {n for t in (*self.derivatives, *self.inputs) for n in t.names}
+        used = {n for t in (*self.derivatives, *self.inputs, *self.parameters) for n in t.names}
         self._inner: dict[str, AnyArray] = {}
         self._readers: list[Access] = []
         self._writers: dict[str, tuple[Access, AnyArray]] = {}
@@ -407,18 +449,22 @@ class AddedTerms:
         #: States that terms at outputs use, at a communication point; nobody else reads them there.
         self._states_there: dict[str, AnyArray] = {}
         self._state_readers: list[Access] = []
-        for name in {n for t in self.outputs for n in t.names} & set(self.states) - set(values):
+        for name in {n for t in (*self.outputs, *self.parameters) for n in t.names} & set(self.states) - set(values):
             self._states_there[name] = np.zeros(self.table.all[name].variable.shape)
             self._state_readers.append(binding.reader(self.table.all[name], self._states_there[name]))
         for term in self.inputs:
             own = np.zeros(self.table.all[term.target].variable.shape)
             self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
 
+    @property
+    def _every(self) -> tuple[_Term, ...]:
+        return (*self.derivatives, *self.inputs, *self.outputs, *self.parameters)
+
     def _environment(self, time: float, states: Array | None) -> dict[str, AnyArray]:
         """Every quantity in SI base units at a point of the integration; without states at a communication point."""
         found: dict[str, AnyArray] = {_TIME: np.asarray(time)}
         inside = states is not None
-        for name in {n for t in (*self.derivatives, *self.inputs, *self.outputs) for n in t.names}:
+        for name in {n for t in self._every for n in t.names}:
             if name not in self._units or name == _TIME:
                 continue
             if inside and name in self.states:
@@ -446,6 +492,8 @@ class AddedTerms:
         """
         if self.owners:
             self.take_own(np.asarray(states)[-self.own_count :])
+        if self.moved:
+            self._placed = time, np.array(states[: len(states) - self.own_count])
         if self.inputs:
             self._read()
             self._write_inputs(self._environment(time, states))
@@ -469,9 +517,10 @@ class AddedTerms:
 
     def add_rates(self, time: float, states: Array, rates: Array) -> None:
         """Add to derivatives; fill those of terms, which come last. Shape (states,)."""
-        if self.derivatives or self.owners:
+        if self.derivatives or self.owners or self.parameters:
             self._read()
             environment = self._environment(time, states)
+            self._change_rates(time, states, rates, environment)
             for term in (t for t in self.derivatives if t.is_share):  # before anything is added to what the FMU has
                 places = self.states[term.target]
                 rates[places] *= 1.0 + np.broadcast_to(self._amount(term, environment), places.shape)
@@ -481,8 +530,58 @@ class AddedTerms:
             if self.owners:
                 rates[-self.own_count :] = np.concatenate([o.rates(environment) for o in self.owners])
 
+    def _change_rates(self, time: float, states: Array, rates: Array, environment: Mapping[str, AnyArray]) -> None:
+        """What parameters that change do to the derivatives, before anything else is added."""
+        count = len(states) - self.own_count
+        here, inputs = rates[:count].copy(), self._held_inputs()
+        for term in self.parameters:
+            share = self._share(term, environment)
+            rates[:count] += self.moved[term.target].rates(time, states[:count], inputs, share, here)
+
+    def _change_outputs(self) -> None:
+        """What they do to the outputs that were just read; in Initialization Mode an FMU need not know its states."""
+        where = self.where() if self.moved else None
+        if where is None:
+            return
+        for read in self._state_readers:
+            read()
+        environment, inputs = self._environment(self.time, None), self._held_inputs()
+        names = [
+            n
+            for n, v in self.table.exposed.items()
+            if v.variable.causality is not Causality.INPUT and v.variable.type.is_float
+        ]
+        here = {n: np.array(self._outside[n], dtype=np.float64) for n in names}
+        for term in self.parameters:
+            share = self._share(term, environment)
+            found = self.moved[term.target].outputs(*where, inputs, share, here)
+            for name, amount in found.items():
+                self._outside[name][...] += amount
+
+    def complete_step(self) -> None:
+        """The FMU has come to the point where it was placed last: so have the instances with other parameters."""
+        for moved in self.moved.values():
+            for instance in moved.instances:
+                instance.complete_step(*self._placed, self._held_inputs())
+
+    def _held_inputs(self) -> dict[str, AnyArray]:
+        """Floating-point inputs as the FMU has them."""
+        names = (n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT)
+        return {n: self._writers[n][1] if n in self._writers else self._outside[n] for n in names}
+
+    def _share(self, term: _Term, environment: Mapping[str, AnyArray]) -> float:
+        share = float(self._amount(term, environment))
+        if not share > -1.0:
+            raise UnitError(
+                self.name,
+                f"the term at the parameter {term.target} changes it by {100.0 * share:.3g} %, so that its sign changes",
+                remedy=f"check `{term.formula.text}`",
+            )
+        return share
+
     def add_outputs(self) -> None:
         """Add to outputs that were just read."""
+        self._change_outputs()
         if self.outputs:
             for name, own in self._own_outputs.items():
                 own[...] = self._outside[name]
@@ -514,7 +613,30 @@ class AddedTerms:
         for term in self.outputs:
             at_once = {d.of for d in term.delayed.inputs.values() if d.by <= INSTANT}
             found[term.target] = found.get(term.target, frozenset()) | ((term.formula.names | at_once) & inputs)
+        at_parameters = frozenset(n for t in self.parameters for n in t.names) & inputs
+        for name, variable in self.table.exposed.items() if at_parameters else ():
+            if variable.variable.causality is not Causality.INPUT:  # any of them may hold the parameter
+                found[name] = found.get(name, frozenset()) | at_parameters
         return found
+
+
+def is_changeable(variable: FmuVariable) -> bool:
+    """Whether a term may change a variable: a parameter that is one floating-point number."""
+    v = variable.variable
+    is_set = v.causality is Causality.PARAMETER and not variable.is_structural and not variable.is_constant
+    return is_set and v.type.is_float and not v.shape
+
+
+def unchanging(table: Table) -> str:
+    """Why no parameter of an FMU can change during a run; empty where one can."""
+    description = table.archive.description
+    if description.numberOfEventIndicators or description.eventIndicators:
+        return "it has event indicators, and events might come at other times with another value"
+    if description.modelExchange is not None and description.modelExchange.canBeInstantiatedOnlyOncePerProcess:
+        return "it can be instantiated only once in a process"
+    inputs = [v for v in table.exposed.values() if v.variable.causality is Causality.INPUT]
+    others = [v.variable.name for v in inputs if not v.variable.type.is_float]
+    return f"its input `{others[0]}` is no floating-point number" if others else ""
 
 
 def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:

@@ -131,4 +131,6 @@ class ContinuousModel:
     def completed_integrator_step(self) -> tuple[bool, bool]:
         """Tell the FMU that the step is accepted; whether it wants Event Mode, and whether it terminates."""
         self._completed(True, ctypes.addressof(self._wants_event), ctypes.addressof(self._terminate))
+        if self._added is not None:
+            self._added.complete_step()
         return bool(self._wants_event.value), bool(self._terminate.value)

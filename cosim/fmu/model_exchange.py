@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,8 +14,18 @@ import numpy as np
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.continuous import ContinuousModel
 from cosim.fmu.integrator import Integrator, load_cvode
+from cosim.fmu.moved_parameter import MovedParameter, moved_parameter, refuse_event
 from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, is_worth_reporting
-from cosim.unit.protocol import NANOSECONDS, Array, StepOutcome, StepStatus, UnitError, seconds
+from cosim.unit.protocol import (
+    NANOSECONDS,
+    AnyArray,
+    Array,
+    StepOutcome,
+    StepStatus,
+    UnitError,
+    are_equal,
+    seconds,
+)
 
 RELATIVE_TOLERANCE = 1e-8
 #: Events in a row at practically the same instant before the FMU is given up: it chatters.
@@ -41,6 +54,12 @@ class ModelExchangeUnit(FmuUnit):
         load_cvode(name)  # now: a run must not begin and then find that it is missing
         super().__init__(name, archive, settings, "model_exchange")
         self._next_event: float | None = None
+        try:
+            self.added.moved = {t.target: self.moved_parameter(t.target) for t in self.added.parameters}
+            self.added.where = self._where
+        except BaseException:
+            self.binding.free()
+            raise
 
     @property
     def next_event(self) -> float | None:
@@ -50,6 +69,88 @@ class ModelExchangeUnit(FmuUnit):
     def continuous_states(self) -> Array:
         """Continuous states, shape (states,), a copy."""
         return self._model.get_states()[: self._model.states]
+
+    def moved_parameter(self, name: str) -> MovedParameter:
+        """Instances in which a parameter is smaller and larger, with nothing added."""
+        settings = replace(self.settings, added_terms=())
+        with contextlib.chdir(Path.cwd()):  # fmpy changes the working folder while it loads a library
+            return moved_parameter(self, name, lambda: ModelExchangeUnit(self.name, self.archive, settings))
+
+    @property
+    def _instances(self) -> list[ModelExchangeUnit]:
+        return [i for moved in self.added.moved.values() for i in moved.instances]
+
+    def begin_again(self) -> None:
+        """See `FmuUnit`."""
+        super().begin_again()
+        for instance in self._instances:
+            instance.begin_again()
+
+    def set_parameters(self, parameters: Mapping[str, Any]) -> None:
+        """See `FmuUnit`."""
+        super().set_parameters(parameters)
+        for moved in self.added.moved.values():
+            moved.set_parameters(self, parameters)
+
+    def set(self, name: str, value: AnyArray) -> None:
+        """See `FmuUnit`."""
+        super().set(name, value)
+        if self._mode is not Mode.INSTANTIATED:
+            for instance in self._instances:
+                instance.set(name, value)
+
+    def initialise(self, time: int) -> None:
+        """See `FmuUnit`."""
+        for instance in self._instances:
+            for name in self._given:
+                instance.set(name, self.buffers.values[name])
+            instance.initialise(time)
+        super().initialise(time)
+
+    def exit_initialisation(self) -> None:
+        """See `FmuUnit`."""
+        for instance in self._instances:
+            instance.exit_initialisation()
+        super().exit_initialisation()
+
+    def terminate(self) -> None:
+        """See `FmuUnit`."""
+        for instance in self._instances:
+            instance.binding.free()
+        super().terminate()
+
+    def rates_at(self, time: float, states: Array, inputs: Mapping[str, AnyArray]) -> Array:
+        """Derivatives of the states at a point, shape (states,), with inputs as they are given."""
+        self._hold(inputs)
+        rates = np.zeros(self._model.states)
+        self._model.derivatives(time, states, rates)
+        return rates
+
+    def outputs_at(self, time: float, states: Array, inputs: Mapping[str, AnyArray]) -> Mapping[str, AnyArray]:
+        """Outputs at a point, with inputs as they are given."""
+        self._hold(inputs)
+        self._model.move_to(time, states)
+        self.buffers.read()
+        return self.buffers.values
+
+    def complete_step(self, time: float, states: Array, inputs: Mapping[str, AnyArray]) -> None:
+        """Tell the FMU that an integration has come to a point; another instance decides whether that is an event."""
+        self._hold(inputs)
+        self._model.move_to(time, states)
+        self._model.completed_integrator_step()
+
+    def _hold(self, inputs: Mapping[str, AnyArray]) -> None:
+        if self._mode is Mode.EVENT:
+            self._leave_event_mode()
+        for name, value in inputs.items():
+            if not are_equal(self.buffers.values[name], value):
+                self.buffers.values[name][...] = value
+                self.writers[name]()
+
+    def _where(self) -> tuple[float, Array] | None:
+        if self._mode is Mode.INITIALISATION:
+            return None
+        return self._now, self._integrator.states[: self._model.states]
 
     def _begin(self, time: int) -> None:
         """From Initialization Mode through Event Mode to Continuous-Time Mode."""
@@ -67,6 +168,8 @@ class ModelExchangeUnit(FmuUnit):
         """Iterate the discrete states until they settle, then go on with the states that result."""
         settled = self._settle()
         self._next_event = settled.next_event
+        if self.added.moved and self._next_event is not None:
+            raise refuse_event(self.name, self._next_event)
         self._enter_continuous()
         self._mode = Mode.RUNNING
         if settled.nominals_changed:
@@ -122,6 +225,8 @@ class ModelExchangeUnit(FmuUnit):
             self._now = now = stop if reached is None else reached.time
             if reached is not None and reached.terminates:
                 raise self._terminated()
+            if reached is not None and reached.is_step_event and self.added.moved:
+                raise refuse_event(self.name, now)
             has_jumped = now < end - INSTANT and self._follow_delayed(now)
             if reached is not None and not (reached.is_root or reached.is_step_event) and not self._is_due(now):
                 if has_jumped:

@@ -58,12 +58,13 @@ class AddedTerm:
     """A term that the master adds.
 
     Args:
-        to: `der(state)`, or the name of an input or output.
+        to: `der(state)`, the name of an input or output, or `parameter(name)`.
         formula: In the names of the FMU's variables, `time`, the parameters, its own states and delayed inputs.
         parameters: Numbers with units.
         states: Its own states.
         delays: Delayed inputs.
-        is_share: Whether the formula is a share of the derivative as the FMU has it: a capacity that is larger, say.
+        is_share: Whether the formula is a share of the derivative as the FMU has it (a capacity that is larger, say), or
+            of a parameter.
     """
 
     to: str
@@ -171,6 +172,16 @@ class Table:
             array = self._array("parameters", key, variable, value)
             binding.give(variable, array)
             self._given[key] = variable, array
+
+    def value_of(self, name: str) -> AnyArray:
+        """A parameter as it was given last, or its start value, in the FMU's own unit."""
+        if name in self._given:
+            return self._given[name][1]
+        variable = self.all[name]
+        if name in self.settings.parameters:
+            return self._array("parameters", name, variable, self.settings.parameters[name])
+        start = start_value(variable.declared, variable.variable.type, variable.variable.shape)
+        return np.asarray(0.0 if start is None else start)
 
     def check_accepted(self, binding: Binding) -> None:
         """Read the numbers that were given to parameters back, in Initialization Mode.

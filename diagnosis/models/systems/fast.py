@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from cosim.assemble import Assembly, assemble
 from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import ConnectionFault, Transfer
+from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu.variables import start_value
 from cosim.formula import to_base
@@ -70,6 +71,7 @@ class FastSystem:
             raise NotFast(f"the algorithm {scenario.algorithm.kind} repeats steps")
         self.scenario = scenario
         self.assembly: Assembly = assemble(scenario)
+        self.fmus: dict[str, FastFmu] = {}
         try:
             self._build(laws)
         except BaseException:
@@ -78,12 +80,13 @@ class FastSystem:
 
     def close(self) -> None:
         """Free the FMUs; safe to call twice."""
+        for fmu in self.fmus.values():
+            fmu.close()
         self.assembly.system.terminate()
 
     def _build(self, laws: Sequence[Placed]) -> None:
         self._measure_feedthrough()
         system = self.assembly.system
-        self.fmus: dict[str, FastFmu] = {}
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):
                 if unit.binding.capabilities.canBeInstantiatedOnlyOncePerProcess:
@@ -135,6 +138,8 @@ class FastSystem:
             if name not in fmu.states:
                 raise NotFast(f"{law.component} has no state {name}")
             target = fmu.states[name]
+        elif law.to.startswith("parameter("):
+            name, kind, target = law.to[len("parameter(") : -1], Kind.PARAMETER, 0
         elif law.to in fmu.outputs:
             name, kind, target = law.to, Kind.OUTPUT, 0
             if fmu.outputs[name].size != 1:
@@ -144,7 +149,7 @@ class FastSystem:
             if name not in fmu.inputs or fmu.inputs[name].stop - fmu.inputs[name].start != 1:
                 raise NotFast(f"{law.component} has no input {name}")
             target = fmu.inputs[name].start
-        scale = 1.0 if kind is Kind.SHARE else 1.0 / to_base(fmu.units[name])[0]
+        scale = 1.0 if kind in (Kind.SHARE, Kind.PARAMETER) else 1.0 / to_base(fmu.units[name])[0]
         delays, delayed = self._delays(number, law)
         found = AddedLayout(
             kind=kind,
@@ -159,6 +164,8 @@ class FastSystem:
         )
         if kind is Kind.OUTPUT:
             found.output = fmu.outputs[name].ctypes.data
+        if kind is Kind.PARAMETER:
+            found.moved = ctypes.addressof(fmu.moved_parameter(name).layout)
         for i in range(len(law.states)):
             found.rates[i] = self._compiled.address(f"law_{number}_rate_{i}")
             found.starts[i] = self._compiled.address(f"law_{number}_start_{i}")
@@ -318,11 +325,12 @@ class FastSystem:
             What was recorded, valid until the next simulation; None where a unit failed or a number is not finite.
         """
         changes = changes or Changes()
+        acting = {**self._given, **(laws or {})}
         try:
-            self._initialise(changes)
+            self._initialise(changes, acting)
         except (UnitError, InputError, ConnectionFault):
             return None
-        self._set_laws({**self._given, **(laws or {})})
+        self._set_laws(acting)
         columns = {key: self._changed_column(key, changes) for key in self._columns}
         sampled = []
         for key, values in columns.items():
@@ -364,15 +372,22 @@ class FastSystem:
         kind = type(next(iter(self.fmus.values())).layout)
         return (kind * len(self.fmus))(*(f.layout for f in self.fmus.values()))
 
-    def _initialise(self, changes: Changes) -> None:
+    def _initialise(self, changes: Changes, laws: Collection[int]) -> None:
         system = self.assembly.system
+        moved: dict[str, dict[str, Any]] = {}
         for name, fmu in self.fmus.items():
             fmu.unit.begin_again()
             own: dict[str, Any] = {**changes.parameters.get(name, {}), **changes.lists.get(name, {})}
             back = {n: self.parameter(name, n) for n in fmu.moved if n not in own}
             fmu.moved = frozenset(own)
-            fmu.unit.set_parameters({**back, **own})
+            moved[name] = {**back, **own}
+            fmu.unit.set_parameters(moved[name])
         system.initialise(self.start, self.assembly.start)
+        for law in (self.laws[n] for n in laws):
+            fmu = self.fmus[law.component]
+            if law.to.startswith("parameter(") and isinstance(fmu.unit, ModelExchangeUnit):
+                instances = fmu.moved_parameter(law.to[len("parameter(") : -1])
+                instances.begin(fmu.unit, self.start, moved[law.component])
 
     def parameter(self, component: str, name: str) -> Any:
         """What the scenario, its parameter set or the FMU says of a parameter."""

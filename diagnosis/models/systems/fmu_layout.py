@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 
 from cosim.fmu.access import Access, address_of
+from cosim.fmu.added_terms import unchanging
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
+from cosim.fmu.moved_parameter import MovedParameter
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu.units import is_known
 from cosim.formula import to_base
 from cosim.unit.protocol import Array, Causality
-from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, Kind, UnitLayout
+from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, Kind, MovedLayout, UnitLayout
 
 #: States that the laws of one FMU may have together.
 MOST_ADDED = 64
@@ -24,6 +26,34 @@ MOST_ADDED = 64
 
 class NotFast(Exception):
     """Compiled code cannot step this system; the text says why."""
+
+
+class Instances:
+    """Instances of an FMU in which a parameter is smaller and larger, as structures.
+
+    Args:
+        moved: The instances.
+        inputs: Floating-point inputs of the FMU, all elements.
+        count: Its states or outputs, what is more.
+    """
+
+    def __init__(self, moved: MovedParameter, inputs: int, count: int) -> None:
+        self.moved = moved
+        self._held, self._values = np.zeros((2, max(inputs, 1))), np.zeros((2, count))
+        self.layout = (MovedLayout * 2)(
+            *(
+                MovedLayout(i.binding.fmu.component, held.ctypes.data, values.ctypes.data)
+                for i, held, values in zip(moved.instances, self._held, self._values)
+            )
+        )
+
+    def begin(self, unit: ModelExchangeUnit, time: int, parameters: Mapping[str, Any]) -> None:
+        """Initialise them as the FMU is, which has its parameters and inputs."""
+        for instance in self.moved.instances:
+            instance.begin_again()
+        self.moved.set_parameters(unit, parameters)
+        self.moved.begin(unit, time)
+        self._held.fill(np.nan)  # what they have is written once more before they are asked
 
 
 class FastFmu:
@@ -70,6 +100,8 @@ class FastFmu:
         #: Name of a continuous state to its place, for scalars and elements of arrays.
         self.states = _state_names(unit) if self.is_model_exchange else {}
         self.state_count = len(self.states)
+        #: Parameter to the instances in which it is smaller and larger.
+        self.instances: dict[str, Instances] = {}
         #: Parameters that the last simulation has moved.
         self.moved: frozenset[str] = frozenset()
         self._build()
@@ -175,6 +207,26 @@ class FastFmu:
         layout.has_delays = any(a.delay_count for a in added)
         layout.has_inputs_added = any(a.kind == Kind.INPUT for a in added)
         layout.has_outputs_added = any(a.kind == Kind.OUTPUT for a in added)
+        layout.has_parameters_added = any(a.kind == Kind.PARAMETER for a in added)
+
+    def moved_parameter(self, name: str) -> Instances:
+        """Instances in which a parameter is smaller and larger; they stay.
+
+        Raises:
+            NotFast: It cannot change.
+        """
+        if name not in self.instances:
+            if not isinstance(self.unit, ModelExchangeUnit) or (problem := unchanging(self.unit.table)):
+                raise NotFast(f"no parameter of {self.name} can change" + (f": {problem}" if problem else ""))
+            count = max(self.state_count, sum(a.buffer.size for a in self.readers), 1)
+            self.instances[name] = Instances(self.unit.moved_parameter(name), len(self.outer), count)
+        return self.instances[name]
+
+    def close(self) -> None:
+        """Free the instances with other parameters."""
+        for instances in self.instances.values():
+            for instance in instances.moved.instances:
+                instance.binding.free()
 
     def take_over(self) -> None:
         """Inputs, states and the next event as the initialisation has left them."""

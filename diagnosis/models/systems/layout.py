@@ -29,6 +29,7 @@ class Kind(IntEnum):
     INPUT = 1
     OUTPUT = 2
     SHARE = 3
+    PARAMETER = 4
 
 
 class AccessLayout(ctypes.Structure):
@@ -69,6 +70,16 @@ class DelayLayout(ctypes.Structure):
     )
 
 
+class MovedLayout(ctypes.Structure):
+    """An instance with another value of a parameter."""
+
+    _fields_ = (
+        ("component", ctypes.c_void_p),
+        ("held", ctypes.c_void_p),
+        ("values", ctypes.c_void_p),
+    )
+
+
 class AddedLayout(ctypes.Structure):
     """A law that is added."""
 
@@ -86,6 +97,7 @@ class AddedLayout(ctypes.Structure):
         ("delay_count", ctypes.c_int64),
         ("delays", ctypes.c_void_p),
         ("delayed", ctypes.c_void_p),
+        ("moved", ctypes.c_void_p),
     )
 
 
@@ -117,6 +129,7 @@ class UnitLayout(ctypes.Structure):
         ("has_delays", ctypes.c_int64),
         ("step", ctypes.c_int64),
         ("has_outputs_added", ctypes.c_int64),
+        ("has_parameters_added", ctypes.c_int64),
     )
 
 

@@ -26,11 +26,14 @@ typedef int (*StepFmi3)(void *, double, double, bool, bool *, bool *, bool *, do
 
 enum { WARNING = 1, MOST_SWEEPS = 100, MOST_EVENTS = 1000, MOST_OWN = 2, BISECTIONS = 50 };
 enum { COPY, PUT, GET, STEP };
-enum { RATE, INPUT, OUTPUT, SHARE };
+enum { RATE, INPUT, OUTPUT, SHARE, PARAMETER };
 enum { DONE = 0, FAILED = 1 };
 
 /* What is practically the same instant [s]: a tenth of the resolution of simulated time. */
 static const double INSTANT = 1e-10;
+
+/* cosim/fmu/moved_parameter.py says what these are. */
+static const double REACH = 0.25, MOST_RATIO = 4.0, LEAST = 0.05;
 
 typedef struct {
     void *call;
@@ -56,8 +59,15 @@ typedef struct {
     double before, after;  /* its values then */
 } Delay;
 
+/* An instance of the FMU in which a parameter has another value. */
 typedef struct {
-    int64_t kind;   /* RATE, INPUT, OUTPUT or SHARE (of the FMU's own rate) */
+    void *component;
+    double *held;   /* inputs as it has them */
+    double *values; /* derivatives or outputs there */
+} Moved;
+
+typedef struct {
+    int64_t kind;   /* RATE, INPUT, OUTPUT, SHARE (of the FMU's own rate) or PARAMETER (a share of it) */
     int64_t target; /* number of the state or of the input */
     double scale;   /* from SI base units to those of the target */
     Law amount;
@@ -69,6 +79,7 @@ typedef struct {
     int64_t delay_count;
     Delay *delays;
     double *delayed; /* what they are now, SI base units */
+    Moved *moved;    /* of the kind PARAMETER: where it is smaller and larger by REACH of itself */
 } Added;
 
 typedef struct {
@@ -97,6 +108,7 @@ typedef struct {
     int64_t has_delays;
     int64_t step; /* number of the macro-step; -1 before the first */
     int64_t has_outputs_added;
+    int64_t has_parameters_added;
 } Unit;
 
 typedef struct {
@@ -124,10 +136,15 @@ typedef struct {
     int64_t steps, per_output, start, size; /* times in ns */
 } System;
 
+static int access_of(const Unit *u, void *component, const Access *a)
+{
+    return u->is_fmi3 ? ((AccessFmi3)a->call)(component, a->references, a->reference_count, a->values, a->count)
+                      : ((AccessFmi2)a->call)(component, a->references, a->reference_count, a->values);
+}
+
 static int access(const Unit *u, const Access *a)
 {
-    return u->is_fmi3 ? ((AccessFmi3)a->call)(u->component, a->references, a->reference_count, a->values, a->count)
-                      : ((AccessFmi2)a->call)(u->component, a->references, a->reference_count, a->values);
+    return access_of(u, u->component, a);
 }
 
 static void look_around(const Unit *u, double time)
@@ -229,13 +246,132 @@ static double next_jump(const Unit *u, double time)
     return next;
 }
 
-/* Outputs as the FMU has them; laws see these. */
-static int read_own_outputs(const Unit *u)
+/* By how much equations change where a parameter changes by a share of itself: `change` of cosim/fmu/moved_parameter.py. */
+static double change(double share, double below, double here, double above)
 {
+    const double fall = (here - below) / REACH, rise = (above - here) / REACH;
+    const double bend = (fall - rise) / REACH, denominator = fall + rise + share * bend;
+    if (!(share > -1.0)) {
+        return NAN;
+    }
+    if (fall * rise > 0.0 && fmax(fabs(fall), fabs(rise)) <= MOST_RATIO * fmin(fabs(fall), fabs(rise))) {
+        return denominator / (fall + rise) < LEAST ? NAN : 2.0 * rise * fall * share / denominator;
+    }
+    return 0.5 * share * (fall + rise - share * bend);
+}
+
+/* An instance with another parameter stands where the FMU does, with the same inputs. */
+static int move_instance(const Unit *u, const Moved *m, double time, double *x)
+{
+    if (((SetTime)u->set_time)(m->component, time) > WARNING) {
+        return FAILED;
+    }
+    if (u->states && ((Vector)u->set_states)(m->component, x, (size_t)u->states) > WARNING) {
+        return FAILED;
+    }
+    if (!memcmp(u->inner, m->held, (size_t)u->inputs * sizeof(double))) {
+        return DONE;
+    }
+    for (int64_t i = 0; i < u->writer_count; ++i) {
+        if (access_of(u, m->component, u->writers + i) > WARNING) {
+            return FAILED;
+        }
+    }
+    memcpy(m->held, u->inner, (size_t)u->inputs * sizeof(double));
+    return DONE;
+}
+
+/* What every instance gives, in `values`; then, in that of the first of each two, what their parameter changes. */
+static void compare_instances(const Unit *u, const double *own, const double *here, int64_t first, int64_t count)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        if (a->kind == PARAMETER) {
+            const double share = a->amount(u->environment, a->values, own + a->first, a->delayed);
+            for (int64_t k = 0; k < count; ++k) {
+                double *const below = a->moved[0].values + first + k;
+                *below = change(share, *below, here[k], a->moved[1].values[first + k]);
+            }
+        }
+    }
+}
+
+/* What the parameters change together. */
+static void add_changes(const Unit *u, double *here, int64_t first, int64_t count)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        const Added *a = u->added + i;
+        for (int64_t k = 0; a->kind == PARAMETER && k < count; ++k) {
+            here[k] += a->moved[0].values[first + k];
+        }
+    }
+}
+
+/* What parameters that change do to derivatives, before anything else is added; the environment is that of the point. */
+static int change_rates(const Unit *u, double time, double *x, double *rates)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        for (int64_t side = 0; u->added[i].kind == PARAMETER && side < 2; ++side) {
+            const Moved *m = u->added[i].moved + side;
+            if (move_instance(u, m, time, x) != DONE ||
+                ((Vector)u->get_derivatives)(m->component, m->values, (size_t)u->states) > WARNING) {
+                return FAILED;
+            }
+        }
+    }
+    compare_instances(u, x + u->states, rates, 0, u->states);
+    add_changes(u, rates, 0, u->states);
+    return DONE;
+}
+
+/* Outputs of every instance, in `values`; all of them are read into the places of the FMU's own. */
+static int read_instances(const Unit *u, double time)
+{
+    for (int64_t i = 0; i < u->added_count; ++i) {
+        for (int64_t side = 0; u->added[i].kind == PARAMETER && side < 2; ++side) {
+            const Moved *m = u->added[i].moved + side;
+            double *to = m->values;
+            if (move_instance(u, m, time, u->state) != DONE) {
+                return FAILED;
+            }
+            for (int64_t k = 0; k < u->reader_count; to += u->readers[k++].count) {
+                if (access_of(u, m->component, u->readers + k) > WARNING) {
+                    return FAILED;
+                }
+                memcpy(to, u->readers[k].values, u->readers[k].count * sizeof(double));
+            }
+        }
+    }
+    return DONE;
+}
+
+/* What parameters that change do to outputs that were just read. */
+static void change_outputs(const Unit *u, double time)
+{
+    int64_t first = 0;
+    if (u->states) {
+        memcpy(u->seen, u->state, (size_t)u->states * sizeof(double));
+    }
+    look_around(u, time);
+    for (int64_t k = 0; k < u->reader_count; first += (int64_t)u->readers[k++].count) {
+        compare_instances(u, u->state + u->states, u->readers[k].values, first, (int64_t)u->readers[k].count);
+        add_changes(u, u->readers[k].values, first, (int64_t)u->readers[k].count);
+    }
+}
+
+/* Outputs as the FMU has them; laws see these. */
+static int read_own_outputs(const Unit *u, double time)
+{
+    if (u->has_parameters_added && read_instances(u, time) != DONE) {
+        return FAILED;
+    }
     for (int64_t i = 0; i < u->reader_count; ++i) {
         if (access(u, u->readers + i) > WARNING) {
             return FAILED;
         }
+    }
+    if (u->has_parameters_added) {
+        change_outputs(u, time);
     }
     for (int64_t i = 0; i < u->own_output_count; ++i) {
         *u->own_outputs[i].to = *u->own_outputs[i].from;
@@ -263,7 +399,7 @@ static void add_to_outputs(const Unit *u, double time)
 
 static int read_outputs(const Unit *u, double time)
 {
-    if (read_own_outputs(u) != DONE) {
+    if (read_own_outputs(u, time) != DONE) {
         return FAILED;
     }
     add_to_outputs(u, time);
@@ -318,6 +454,9 @@ static int derivatives(Unit *u, double time, double *x, double *rates)
         return FAILED;
     }
     if (u->states && ((Vector)u->get_derivatives)(u->component, rates, (size_t)u->states) > WARNING) {
+        return FAILED;
+    }
+    if (u->has_parameters_added && change_rates(u, time, x, rates) != DONE) {
         return FAILED;
     }
     for (int64_t i = 0; i < u->added_count; ++i) { /* before anything is added to what the FMU has */
@@ -412,6 +551,9 @@ static int leave_event_mode(Unit *u)
 
 static int handle_event(Unit *u)
 {
+    if (u->has_parameters_added) { /* the other instances might have events at other times */
+        return FAILED;
+    }
     return ((Plain)u->enter_event_mode)(u->component) > WARNING ? FAILED : leave_event_mode(u);
 }
 
@@ -469,19 +611,32 @@ static double advance(Unit *u, double time, double end)
     return high;
 }
 
-static int report_step(Unit *u)
+static int complete(const Unit *u, void *component, bool *wants_event, bool *ends)
+{
+    int event = 0, end = 0;
+    if (u->is_fmi3) {
+        return ((CompletedFmi3)u->completed)(component, true, wants_event, ends) > WARNING ? FAILED : DONE;
+    }
+    if (((CompletedFmi2)u->completed)(component, 1, &event, &end) > WARNING) {
+        return FAILED;
+    }
+    *wants_event = event, *ends = end;
+    return DONE;
+}
+
+static int report_step(Unit *u, double time)
 {
     bool wants_event, ends;
-    if (u->is_fmi3) {
-        if (((CompletedFmi3)u->completed)(u->component, true, &wants_event, &ends) > WARNING) {
-            return FAILED;
+    for (int64_t i = 0; u->has_parameters_added && i < u->added_count; ++i) {
+        for (int64_t side = 0; u->added[i].kind == PARAMETER && side < 2; ++side) {
+            const Moved *m = u->added[i].moved + side;
+            if (move_instance(u, m, time, u->state) != DONE || complete(u, m->component, &wants_event, &ends) != DONE) {
+                return FAILED;
+            }
         }
-    } else {
-        int event = 0, end = 0;
-        if (((CompletedFmi2)u->completed)(u->component, 1, &event, &end) > WARNING) {
-            return FAILED;
-        }
-        wants_event = event, ends = end;
+    }
+    if (complete(u, u->component, &wants_event, &ends) != DONE) {
+        return FAILED;
     }
     return ends ? FAILED : wants_event ? handle_event(u) : DONE;
 }
@@ -508,6 +663,9 @@ static int integrate(Unit *u, double begin, double end, double length)
     const double step = (end - begin) / (double)u->substeps, instant = INSTANT;
     double time = begin;
     int events = 0;
+    if (u->has_parameters_added && isfinite(u->next_event)) {
+        return FAILED;
+    }
     if (u->has_delays) {
         plan_delayed(u, begin, length);
         if (move_delayed(u, begin) && hand_over(u, begin) != DONE) {
@@ -543,7 +701,7 @@ static int integrate(Unit *u, double begin, double end, double length)
                     return FAILED;
                 }
             }
-            if (u->reports_steps && (move_to(u, time, u->state) != DONE || report_step(u) != DONE)) {
+            if (u->reports_steps && (move_to(u, time, u->state) != DONE || report_step(u, time) != DONE)) {
                 return FAILED;
             }
         }
@@ -657,7 +815,7 @@ static int begin_laws(Unit *u, double time)
     if (!u->added_count) {
         return DONE;
     }
-    if ((u->own_output_count || u->has_outputs_added) && read_own_outputs(u) != DONE) {
+    if ((u->own_output_count || u->has_outputs_added) && read_own_outputs(u, time) != DONE) {
         return FAILED;
     }
     if (u->states) {

@@ -1,0 +1,169 @@
+"""Terms that change a parameter of an FMU while it runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.fmu.moved_parameter import change
+from cosim.run import RunStopped, run
+from cosim.scenario import load_scenario
+from cosim.unit.errors import InputError
+from diagnosis.models.systems.fast import FastSystem
+from evaluation.fmus.model import OdeModel
+
+#: A winding that warms itself; with `k` its resistance grows with the temperature.
+NUMBERS = {
+    "L": (0.2, "H"),
+    "R": (1.5, "ohm"),
+    "C": (40.0, "J/K"),
+    "h": (0.3, "W/K"),
+    "T_0": (293.15, "K"),
+}
+STATES = {
+    "i": ("A", "0", "(u - RES*i)/L"),
+    "T": ("K", "T_0", "(RES*i*i - h*(T - T_0))/C"),
+}
+
+
+def _winding(name: str, resistance: str, **more: tuple[float, str]) -> OdeModel:
+    states = {n: (unit, start, rate.replace("RES", resistance)) for n, (unit, start, rate) in STATES.items()}
+    outputs = {"current": ("A", "i"), "temperature": ("K", "T"), "heat": ("W", f"{resistance}*i*i")}
+    return OdeModel(name, {**NUMBERS, **more}, {"u": "V"}, states, outputs)
+
+
+PLAIN = _winding("winding", "R")
+TRUTH = _winding("truth", "R*(1.0 + k*(T - T_0))", k=(0.004, "1/K"))
+CONDUCTIVE = _winding("conductive", "1.0/G", G=(1.0 / 1.5, "S"))
+TERM = "{to: parameter(R), is_share: true, formula: k * (T - T_b), parameters: {k: 0.004 1/K, T_b: 293.15 K}}"
+SCENARIO = """
+title: A winding
+time: {stop: 400 s, macro_step: 0.05 s, output_step: 1 s}
+components:
+  drive: {kind: programme, outputs: {u: {unit: V, points: [[0 s, 6 V], [150 s, 9 V], [260 s, 3 V]]}}}
+  winding:
+    kind: fmu
+    fmu: NAME.fmu
+    integrator: cvode
+    MORE
+connections: [drive.u -> winding.u]
+"""
+
+
+def _scenario(folder: Path, model: OdeModel, more: str = "") -> Path:
+    model.build(folder)
+    path = folder / f"{model.name}.yaml"
+    path.write_text(SCENARIO.replace("NAME", model.name).replace("MORE", more), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("power", [1.0, -1.0])
+def test_what_a_parameter_does_is_exact_in_proportion_and_in_its_reciprocal(power: float) -> None:
+    three = [np.array([3.0 + 2.0 * (1.0 + s) ** power]) for s in (-0.25, 0.0, 0.25)]
+    for share in (-0.6, -0.1, 0.0, 0.2, 1.5):
+        assert change(share, *three)[0] == pytest.approx(2.0 * (1.0 + share) ** power - 2.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("power", "most"), [(2.0, 0.02), (0.5, 0.02), (-2.0, 0.02), (3.0, 0.04)])
+def test_other_powers_are_met_to_a_few_per_cent_within_a_third(power: float, most: float) -> None:
+    three = [np.array([(1.0 + s) ** power]) for s in (-0.25, 0.0, 0.25)]
+    for share in np.linspace(-0.3, 0.3, 13):
+        true = (1.0 + share) ** power
+        assert 1.0 + change(float(share), *three)[0] == pytest.approx(true, rel=most)
+
+
+def test_what_does_not_move_with_a_parameter_stays_and_what_turns_is_a_parabola() -> None:
+    here = np.array([1.0, 0.0])
+    found = change(0.5, np.array([1.0, 0.0625]), here, np.array([1.0, 0.0625]))
+    np.testing.assert_allclose(found, [0.0, 0.25])
+
+
+def test_a_parameter_that_would_change_its_sign_is_no_number() -> None:
+    assert np.isnan(change(-1.0, np.array([0.75]), np.array([1.0]), np.array([1.25]))[0])
+
+
+def test_a_resistance_that_grows_with_the_temperature_is_that_of_equations_that_have_it(tmp_path: Path) -> None:
+    """States and an output that holds the parameter; by the co-simulation and by compiled code."""
+    expected = run(load_scenario(str(_scenario(tmp_path, TRUTH))))
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{TERM}]")
+    found = run(load_scenario(str(path)))
+    system = FastSystem(load_scenario(str(path)))
+    system.set_substeps(2)
+    rows = system.simulate()
+    assert rows is not None
+    plain = run(load_scenario(str(_scenario(tmp_path, PLAIN))))
+    for name in ("current", "temperature", "heat"):
+        true = expected[f"winding.{name}"].to_numpy()
+        size = float(np.std(true))
+        assert float(np.max(np.abs(plain[f"winding.{name}"].to_numpy() - true))) > 0.1 * size
+        np.testing.assert_allclose(found[f"winding.{name}"].to_numpy(), true, atol=1e-5 * size)
+        np.testing.assert_allclose(rows.values[:, system.recorded["winding", name]].ravel(), true, atol=1e-4 * size)
+    system.close()
+
+
+def test_a_conductance_that_falls_by_its_reciprocal_is_the_same(tmp_path: Path) -> None:
+    term = TERM.replace("parameter(R)", "parameter(G)").replace("k * (T - T_b)", "1/(1 + k*(T - T_b)) - 1")
+    expected = run(load_scenario(str(_scenario(tmp_path, TRUTH))))
+    found = run(load_scenario(str(_scenario(tmp_path, CONDUCTIVE, f"added_terms: [{term}]"))))
+    true = expected["winding.heat"].to_numpy()
+    np.testing.assert_allclose(found["winding.heat"].to_numpy(), true, atol=1e-5 * float(np.std(true)))
+
+
+BESIDE = "{to: u, formula: -0.5 * u}, {to: der(T), formula: q, parameters: {q: 0.02 K/s}}"
+
+
+def test_beside_terms_at_an_input_and_a_derivative_both_simulators_agree(tmp_path: Path) -> None:
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{BESIDE}, {TERM}]")
+    found = run(load_scenario(str(path)))
+    system = FastSystem(load_scenario(str(path)))
+    system.set_substeps(2)
+    rows = system.simulate()
+    assert rows is not None
+    equations = {n: (u, s, r.replace("(u -", "(0.5*u -")) for n, (u, s, r) in TRUTH.states.items()}
+    unit, start, rate = equations["T"]
+    equations["T"] = unit, start, f"{rate} + 0.02"
+    both = OdeModel("both", TRUTH.parameters, TRUTH.inputs, equations, TRUTH.outputs)
+    expected = run(load_scenario(str(_scenario(tmp_path, both))))
+    for name in ("current", "temperature", "heat"):
+        true = expected[f"winding.{name}"].to_numpy()
+        size = float(np.std(true))
+        np.testing.assert_allclose(found[f"winding.{name}"].to_numpy(), true, atol=1e-5 * size)
+        np.testing.assert_allclose(rows.values[:, system.recorded["winding", name]].ravel(), true, atol=1e-4 * size)
+    system.close()
+
+
+@pytest.mark.parametrize(
+    ("term", "where", "what"),
+    [
+        (TERM.replace("(R)", "(Q)"), "to", "no floating-point parameter `Q`.*"),
+        (TERM.replace(" is_share: true,", ""), "is_share", "a share of its value"),
+        (TERM.replace("k * (T - T_b)", "k * T * R"), "formula", "R"),
+        (TERM.replace("k * (T - T_b)", "T - T_b"), "formula", ""),
+        (f"{TERM}, {TERM}", "to", "two terms change `R`"),
+    ],
+)
+def test_a_change_that_cannot_be_is_refused(tmp_path: Path, term: str, where: str, what: str) -> None:
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{term}]")
+    with pytest.raises(InputError, match=rf"added_terms\[\d\].{where}.*{what}"):
+        run(load_scenario(str(path)))
+
+
+def test_a_parameter_of_zero_is_refused(tmp_path: Path) -> None:
+    path = _scenario(tmp_path, PLAIN, f"parameters: {{R: 0 ohm}}\n    added_terms: [{TERM}]")
+    with pytest.raises(InputError, match="`R` is 0"):
+        run(load_scenario(str(path)))
+
+
+def test_an_fmu_that_solves_itself_is_refused(tmp_path: Path) -> None:
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{TERM}]")
+    path.write_text(path.read_text(encoding="utf-8").replace("cvode", "internal"), encoding="utf-8")
+    with pytest.raises(InputError, match="use `integrator: cvode`"):
+        run(load_scenario(str(path)))
+
+
+def test_a_run_stops_where_the_parameter_would_change_its_sign(tmp_path: Path) -> None:
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{TERM.replace('0.004', '-0.05')}]")
+    with pytest.raises(RunStopped, match="parameter R changes it by"):
+        run(load_scenario(str(path)))
