@@ -205,7 +205,9 @@ class AddedTerms:
     def _add(self, given: AddedTerm, key: str) -> None:
         match, changed = _DERIVATIVE.match(given.to), _PARAMETER.match(given.to)
         target = match["state"] if match else changed["parameter"] if changed else given.to
-        unit = self._parameter_unit(given, target, key) if changed else self._target_unit(given, target, bool(match), key)
+        unit = (
+            self._parameter_unit(given, target, key) if changed else self._target_unit(given, target, bool(match), key)
+        )
         units = dict(self._units)
         parameters = {}
         for name, value in given.parameters.items():
@@ -574,7 +576,7 @@ class AddedTerms:
         if not share > -1.0:
             raise UnitError(
                 self.name,
-                f"the term at the parameter {term.target} changes it by {100.0 * share:.3g} %, so that its sign changes",
+                f"the term at the parameter {term.target} changes it by {100.0 * share:.3g} %: its sign changes",
                 remedy=f"check `{term.formula.text}`",
             )
         return share

@@ -63,8 +63,8 @@ class AddedTerm:
         parameters: Numbers with units.
         states: Its own states.
         delays: Delayed inputs.
-        is_share: Whether the formula is a share of the derivative as the FMU has it (a capacity that is larger, say), or
-            of a parameter.
+        is_share: Whether the formula is a share of the derivative as the FMU has it (a capacity that is larger, say),
+            or of a parameter.
     """
 
     to: str

@@ -15,6 +15,9 @@ Written by `python -m diagnosis.laws.document` from the files in `diagnosis/laws
 characteristic size of the product named.
 """
 
+#: What a share is one of: a derivative, or a parameter.
+_SHARE_OF = (" of the derivative as it is", " of the parameter")
+
 
 def lines() -> Iterator[str]:
     """The page."""
@@ -31,7 +34,7 @@ def lines() -> Iterator[str]:
 
 def _row(law: Law) -> str:
     name = f"**{law.name}** `{law.identifier}`" if law.is_named else f"`{law.identifier}` (no name)"
-    formula = f"`{law.formula}`{' of the derivative as it is' if law.is_share else ''}" + "".join(
+    formula = f"`{law.formula}`{_SHARE_OF[law.role is Role.PARAMETER] if law.is_share else ''}" + "".join(
         f"; `d{s.name}/dt = {s.rate}`, from `{s.start}`" for s in law.states
     )
     formula += "".join(f"; `{d.name}(t) = {d.of}(t - {d.by})`" for d in law.delays)

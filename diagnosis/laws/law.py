@@ -42,6 +42,8 @@ class Role(Enum):
     MODULATED = "rate of a state over its difference to another one and a third quantity"
     #: Derivative of a state s over its difference to an input r of its unit, and a third quantity o.
     MODULATED_BY_INPUT = "rate of a state over its difference to an input and a third quantity"
+    #: A parameter p of an FMU that shows its states, wherever its equations hold it, over a state or input o.
+    PARAMETER = "parameter over a state or input"
     #: An output y of an FMU that shows its states, which is none of them nor a derivative, over a state or input o.
     READING = "output that is no state, over a state or input"
     #: An input u.
@@ -142,7 +144,8 @@ class Law:
         reaction: What is added to the derivative of `reacts_on` with it, in the same symbols: what one part loses the
             other one gets, as a share that inertias or capacities decide.
         reacts_on: Symbol of the other part.
-        is_share: Whether the formula is a share of the derivative as the FMU has it, and a pure number.
+        is_share: Whether the formula is a share of the derivative as the FMU has it, or of the parameter, and a pure
+            number.
         series_of: Symbols of quantities of which it is a power series: of one far from 0 it is about a typical value.
         is_completing: Whether it belongs to a basis that is tried only where all other laws leave more than noise.
     """

@@ -58,7 +58,7 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
-    return [*found, *_scaled(), *_read(), _beside_a_state(), *_with_memory(), *_corrections()]
+    return [*found, *_scaled(), _changing(), *_read(), _beside_a_state(), *_with_memory(), *_corrections()]
 
 
 def _read() -> list[Law]:
@@ -88,6 +88,24 @@ def _scaled() -> list[Law]:
     other = _law("rate_scaled", "capacity or inertia that changes with another quantity", Role.PAIR, "a * o", "1/o")
     other = replace(other, identifier="rate_scaled_by_another")
     return [replace(law, is_share=True, series_of=(of,)) for law, of in ((own, "s"), (other, "o"))]
+
+
+def _changing() -> Law:
+    """A parameter that is no constant: a resistance that grows with the temperature, a valve's coefficient, a gap."""
+    words = "parameter that changes with a quantity"
+    strength = Number("a", "1/o", "change over the parameter's value", (-0.3, 0.3), 2.0, None)
+    formula, series = "a * o", ("o",)
+    return Law(
+        "parameter_change",
+        words,
+        Role.PARAMETER,
+        formula,
+        (strength,),
+        _FORM,
+        is_named=False,
+        is_share=True,
+        series_of=series,
+    )
 
 
 def _beside_a_state() -> Law:

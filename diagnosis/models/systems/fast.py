@@ -37,6 +37,8 @@ from diagnosis.models.systems.placed import Placed, placed_of
 from diagnosis.models.systems.source import compiled
 from diagnosis.search.cosim_run import Changes
 
+#: How the target of a term at a parameter begins.
+_PARAMETER = "parameter("
 _KINDS = ("gauss_seidel", "jacobi")
 
 
@@ -138,8 +140,8 @@ class FastSystem:
             if name not in fmu.states:
                 raise NotFast(f"{law.component} has no state {name}")
             target = fmu.states[name]
-        elif law.to.startswith("parameter("):
-            name, kind, target = law.to[len("parameter(") : -1], Kind.PARAMETER, 0
+        elif law.to.startswith(_PARAMETER):
+            name, kind, target = law.to[len(_PARAMETER) : -1], Kind.PARAMETER, 0
         elif law.to in fmu.outputs:
             name, kind, target = law.to, Kind.OUTPUT, 0
             if fmu.outputs[name].size != 1:
@@ -385,8 +387,8 @@ class FastSystem:
         system.initialise(self.start, self.assembly.start)
         for law in (self.laws[n] for n in laws):
             fmu = self.fmus[law.component]
-            if law.to.startswith("parameter(") and isinstance(fmu.unit, ModelExchangeUnit):
-                instances = fmu.moved_parameter(law.to[len("parameter(") : -1])
+            if law.to.startswith(_PARAMETER) and isinstance(fmu.unit, ModelExchangeUnit):
+                instances = fmu.moved_parameter(law.to[len(_PARAMETER) : -1])
                 instances.begin(fmu.unit, self.start, moved[law.component])
 
     def parameter(self, component: str, name: str) -> Any:

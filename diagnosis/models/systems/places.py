@@ -15,6 +15,7 @@ from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
 from diagnosis.laws.law import Law, Number, Role
+from diagnosis.models.systems.changeable import changeable
 from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
@@ -23,7 +24,7 @@ from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
 from diagnosis.models.systems.steps import resolve
 from diagnosis.models.systems.surroundings import surroundings
-from diagnosis.models.systems.targets import MODULATED, SURROUNDINGS, is_of, targets
+from diagnosis.models.systems.targets import MODULATED, SURROUNDINGS, is_of, parameter, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -108,6 +109,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.readings = _quantities(fmu, composed, [(name, n) for n in composed], courses, step)
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
+        own.parameters = changeable(systems[0], fmu, own)
         own.room = surroundings(systems[0], fmu, own, *probed)
         own.untried = _untried(fmu, own)
         found.append(own)
@@ -313,7 +315,8 @@ def _fit(
             _check(own, one, one.to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
-    domain = domain_of(target.unit, own)
+    changed = own.parameters.get(target.name) if law.role is Role.PARAMETER else None
+    domain = domain_of(target.unit if changed is None else own.states[changed.moves[0]].unit, own)
     is_held = law.role in HELD and bool(law.states) and not own.states
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1], is_held) for n in law.numbers)
     label = f"{own.component}.{target.name}"
@@ -323,6 +326,7 @@ def _fit(
     what += "".join(f", {s.name} = 0 at the begin" for s in placed.states if s.start.startswith("0 * "))
     what += "".join(f", {d.name}(t) = {d.of}(t - {d.by})" for d in placed.delays)
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
+    what += "" if changed is None else "".join(f", or {parameter(n)} alike" for n in changed.alike)
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
     beside = ""
     if law.reacts_on or "r" in symbols:
@@ -342,12 +346,13 @@ def _references(
 
     The square of an absolute temperature that moves by a hundredth of itself is a large constant and a slope, which
     nothing in the model takes back: a simulation with it runs away before its curvature is seen. An exchange that
-    changes with a state is what the model has of it where the state begins, unless that is near 0.
+    changes with a state is what the model has of it where the state begins, unless that is near 0. So is a parameter.
     """
     found = {}
     for symbol in law.series_of:
         q, name = symbols[symbol], f"{symbol}_0"
-        far = BEGUN if law.role in MODULATED and q.name in states else FAR
+        begins = law.role is Role.PARAMETER or (law.role in MODULATED and q.name in states)
+        far = BEGUN if begins else FAR
         if abs(q.middle) > far * q.size and name not in taken:
             found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
     return found
@@ -415,7 +420,7 @@ def _evaluated(of: str, values: Mapping[str, object]) -> Any:
 def _check(own: Places, placed: Placed, to: str) -> None:
     """Whether the co-simulation will take the formula, units and all."""
     every = (*own.states.values(), *own.inputs.values(), *own.outputs.values(), *own.readings.values())
-    units = {q.name: q.unit for q in every}
+    units = {q.name: q.unit for q in every} | dict.fromkeys(map(parameter, own.parameters), "1")
     units |= own.output_units
     units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}
     units |= {s.name: s.unit for s in placed.states}

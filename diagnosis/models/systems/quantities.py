@@ -31,6 +31,21 @@ class Quantity:
         return self.stated or (self.middle, self.size)
 
 
+@dataclass(frozen=True)
+class Changeable:
+    """A parameter that may change with a quantity.
+
+    Args:
+        quantity: The parameter; its size is its value.
+        moves: States whose derivatives hold it.
+        alike: Other parameters that only act as a product with it.
+    """
+
+    quantity: Quantity
+    moves: tuple[str, ...]
+    alike: tuple[str, ...] = ()
+
+
 @dataclass
 class Places:
     """Quantities of the FMUs of a system.
@@ -47,6 +62,7 @@ class Places:
         output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
         acted_on_by: State to the other states that its derivative depends on.
+        parameters: Parameters that its derivatives hold.
         room: Temperature of the surroundings [K], where no input has it and the equations tell it.
         untried: Where no law can be tried, and why.
     """
@@ -62,5 +78,6 @@ class Places:
     derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
     output_units: dict[str, str] = field(default_factory=dict)
     acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
+    parameters: dict[str, Changeable] = field(default_factory=dict)
     room: float | None = None
     untried: list[str] = field(default_factory=list)

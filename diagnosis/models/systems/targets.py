@@ -40,12 +40,26 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
         yield from _at_ports(own, role)
     elif role in MODULATED:
         yield from _modulated(own, role, free)
-    elif role is Role.PAIR:
-        for name, q in free.items():
-            others = [o for o in (*own.states.values(), *own.inputs.values()) if o.name != name]
-            yield from ((f"der({name})", q, {"s": q, "o": other}) for other in others)
+    elif role in (Role.PARAMETER, Role.PAIR):
+        yield from _over_another(own, role, free)
     else:
         yield from _single(own, role, free)
+
+
+def parameter(name: str) -> str:
+    """`added_terms` target of a parameter."""
+    return f"parameter({name})"
+
+
+def _over_another(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
+    """Parameters or states, over every other quantity."""
+    every = (*own.states.values(), *own.inputs.values())
+    if role is Role.PARAMETER:
+        for name, changed in own.parameters.items():
+            yield from ((parameter(name), changed.quantity, {"p": changed.quantity, "o": o}) for o in every)
+    else:
+        for name, q in free.items():
+            yield from ((f"der({name})", q, {"s": q, "o": o}) for o in every if o.name != name)
 
 
 def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
