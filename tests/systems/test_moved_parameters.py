@@ -46,7 +46,7 @@ CONDUCTIVE = _winding("conductive", "1.0/G", G=(1.0 / 1.5, "S"))
 TERM = "{to: parameter(R), is_share: true, formula: k * (T - T_b), parameters: {k: 0.004 1/K, T_b: 293.15 K}}"
 SCENARIO = """
 title: A winding
-time: {stop: 400 s, macro_step: 0.5 s, output_step: 1 s}
+time: {stop: 400 s, macro_step: 0.5 s, output_step: 0.5 s}
 components:
   drive: {kind: programme, outputs: {u: {unit: V, points: [[0 s, 6 V], [150 s, 9 V], [260 s, 3 V]]}}}
   winding:
@@ -170,13 +170,14 @@ def test_an_fmu_that_solves_itself_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_run_stops_where_the_parameter_would_change_its_sign(tmp_path: Path) -> None:
-    path = _scenario(tmp_path, PLAIN, f"added_terms: [{TERM.replace('0.004', '-0.05')}]")
+    term = "{to: parameter(R), is_share: true, formula: w * time, parameters: {w: -0.01 1/s}}"
+    path = _scenario(tmp_path, PLAIN, f"added_terms: [{term}]")
     with pytest.raises(RunStopped, match="parameter R changes it by"):
         run(load_scenario(str(path)))
 
 
 def _diagnosed(folder: Path, k: float) -> Diagnosis:
-    """Three runs of a winding whose numbers are 3 % off; its current is read with 10 mA and its temperature with 0.2 K."""
+    """Three runs of a winding whose numbers are 3 % off; noise of 10 mA and 0.2 K."""
     path = _scenario(folder, PLAIN)
     every = []
     for number in range(3):
@@ -195,18 +196,21 @@ def _diagnosed(folder: Path, k: float) -> Diagnosis:
             "T": states[:, 1] + 0.2 * rng.standard_normal(len(states)),
         }
         channels = {"winding.current": ("I", "A", "0.01 A"), "winding.temperature": ("T", "K", "0.2 K")}
-        every.append(load_recording(write_recording(folder / f"run_{number}", columns, {"drive.u": ("U", "V")}, channels)))
+        every.append(
+            load_recording(write_recording(folder / f"run_{number}", columns, {"drive.u": ("U", "V")}, channels))
+        )
     scenario = load_scenario(str(path))
     return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
 
 
 def test_a_resistance_that_grows_with_the_temperature_is_found_with_its_coefficient(tmp_path: Path) -> None:
     found = _diagnosed(tmp_path, 0.004)
-    print(found)
     assert found.verdict is Verdict.UNNAMED_PHYSICS
     (finding,) = [f for f in found.findings if f.is_accepted]
-    print(found)
-    assert finding.place == "winding.R"
+    assert (finding.effect, finding.place) == ("parameter_change_of_T", "winding.R")
+    assert finding.law == "parameter(R) *= 1 + a * (T - o_0), o_0 = 293.1 K"
+    assert finding.parameters[0].value == pytest.approx(0.004, rel=0.01)
+    assert finding.parameters[0].unit == "1/K"
 
 
 def test_a_winding_whose_resistance_stays_has_no_such_law(tmp_path: Path) -> None:
