@@ -184,11 +184,13 @@ class AddedDelayEntry(Strict):
 class AddedTermEntry(Strict):
     """A term that the master adds to an FMU."""
 
-    to: StrictStr = Field(description="der(state) of a Model Exchange FMU, or the name of an input or output.")
+    to: StrictStr = Field(
+        description="der(state) or parameter(name) of a Model Exchange FMU, or the name of an input or output."
+    )
     formula: StrictStr = Field(description="In the FMU's variables, `time` and the parameters; units are checked.")
     is_share: bool = Field(
         default=False,
-        description="The formula is a pure number: a share of the derivative as the FMU has it (der(state) alone).",
+        description="The formula is a pure number: a share of the derivative as the FMU has it, or of the parameter.",
     )
     parameters: dict[str, AnyQuantity] = {}
     states: dict[str, AddedStateEntry] = Field(

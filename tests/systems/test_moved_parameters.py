@@ -14,7 +14,10 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
+from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.places import fits, places_of
+from diagnosis.models.systems.quantities import Places
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
@@ -215,3 +218,27 @@ def test_a_resistance_that_grows_with_the_temperature_is_found_with_its_coeffici
 
 def test_a_winding_whose_resistance_stays_has_no_such_law(tmp_path: Path) -> None:
     assert not [f for f in _diagnosed(tmp_path, 0.0).findings if f.is_accepted]
+
+
+def _places(folder: Path, model: OdeModel) -> Places:
+    system = FastSystem(load_scenario(str(_scenario(folder, model))))
+    try:
+        return places_of([system])[0]
+    finally:
+        system.close()
+
+
+def test_parameters_of_the_derivatives_may_change_and_a_start_temperature_may_not(tmp_path: Path) -> None:
+    found = _places(tmp_path, PLAIN).parameters
+    assert {n: c.moves for n, c in found.items()} == {"R": ("i", "T"), "L": ("i",), "C": ("T",), "h": ("T",)}
+
+
+def test_parameters_that_act_as_a_product_are_one_place_that_names_both(tmp_path: Path) -> None:
+    states = {n: (unit, start, rate.replace("h*", "u_wall*area*")) for n, (unit, start, rate) in PLAIN.states.items()}
+    numbers = {**NUMBERS, "u_wall": (30.0, "W/m^2/K"), "area": (0.01, "m^2")}
+    model = OdeModel("wall", numbers, PLAIN.inputs, states, PLAIN.outputs)
+    own = _places(tmp_path, model)
+    assert "h" not in own.parameters
+    assert own.parameters["u_wall"].alike == ("area",)
+    (law,) = [f for f in fits([own], library(), 1.0) if f.placed.to == "parameter(u_wall)"][:1]
+    assert law.term.law.endswith("or parameter(area) alike")

@@ -56,10 +56,11 @@ def changeable(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, Chang
     """
     if not isinstance(fmu.unit, ModelExchangeUnit) or not fmu.states or set(fmu.states) != set(own.states):
         return {}
-    if unchanging(fmu.unit.table) or np.isfinite(fmu.layout.next_event):
+    if why_none(fmu):
         return {}
     groups: list[list[_Effect]] = []
-    for effect in sorted(_effects(system, fmu, fmu.unit, own), key=lambda e: -e.size)[:MOST]:
+    # Of parameters that do the same but for rounding, the first that the FMU declares comes first.
+    for effect in sorted(_effects(system, fmu, fmu.unit, own), key=lambda e: -float(f"{e.size:.6g}"))[:MOST]:
         like = next((g for g in groups if effect.is_like(g[0])), None)
         if like is None:
             groups.append([effect])
@@ -71,6 +72,13 @@ def changeable(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, Chang
         moves = tuple(n for n, is_moved in zip(fmu.states, moved) if is_moved)
         found[first.quantity.name] = Changeable(first.quantity, moves, tuple(o.quantity.name for o in others))
     return found
+
+
+def why_none(fmu: FastFmu) -> str:
+    """Why no parameter of a Model Exchange FMU can change; empty where one can. After a simulation."""
+    if np.isfinite(fmu.layout.next_event):
+        return "it has time events, which might come at other times with another value"
+    return unchanging(fmu.unit.table)
 
 
 def _effects(system: FastSystem, fmu: FastFmu, unit: ModelExchangeUnit, own: Places) -> Iterator[_Effect]:

@@ -15,7 +15,7 @@ from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
 from diagnosis.laws.law import Law, Number, Role
-from diagnosis.models.systems.changeable import changeable
+from diagnosis.models.systems.changeable import changeable, why_none
 from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
 from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
@@ -127,7 +127,11 @@ def _untried(fmu: FastFmu, own: Places) -> list[str]:
     if fmu.state_count and not fmu.states:
         return [f"`{own.component}` does not say which variables its states are: no law was tried at their derivatives"]
     lost = [n for n in fmu.states if n not in own.states]
-    return [f"`{own.component}.{n}` has a unit or a name that no formula can use: no law was tried there" for n in lost]
+    found = [
+        f"`{own.component}.{n}` has a unit or a name that no formula can use: no law was tried there" for n in lost
+    ]
+    held = why_none(fmu) if fmu.states else ""
+    return [*found, *([f"no parameter of `{own.component}` was tried as one that changes: {held}"] if held else [])]
 
 
 def _listed(kind: str, names: Collection[str]) -> str:
