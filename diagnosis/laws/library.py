@@ -93,7 +93,7 @@ def _scaled() -> list[Law]:
 def _changing() -> Law:
     """A parameter that is no constant: a resistance that grows with the temperature, a valve's coefficient, a gap."""
     words = "parameter that changes with a quantity"
-    strength = Number("a", "1/o", "change over the parameter's value", (-0.3, 0.3), 2.0, None)
+    strength = Number("a", "1/o_peak", "change over the parameter's value", (-0.1, 0.1), 2.0, None)
     formula, series = "a * o", ("o",)
     return Law(
         "parameter_change",

@@ -159,13 +159,14 @@ def _quantities(
         slopes = [np.gradient(v, step) for v in values if len(v) > 1]
         rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
         size = size or max(abs(middle), 1.0)
+        peak = max(float(np.max(np.abs(v - middle))) for v in values)
         unit, stated = fmu.units[name], None
         if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
             stated = middle, size
             factor, offset = conversion(unit, "K")
-            unit, size, rate = "K", factor * size, factor * rate
+            unit, size, rate, peak = "K", factor * size, factor * rate, factor * peak
             middle = factor * middle + (0.0 if is_difference else offset)
-        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9), stated)
+        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9), stated, peak)
     return found
 
 
@@ -386,7 +387,7 @@ def _used(placed: Placed) -> tuple[tuple[str, str], ...]:
 
 
 #: Symbols of products that every place has.
-_SCALES = {"rate", "reading", "T_abs"}
+_SCALES = {"rate", "reading", "T_abs", "o_peak"}
 
 
 class _Scale:
@@ -403,6 +404,8 @@ class _Scale:
         units["reading"], sizes["reading"] = seconds, max(steps)
         if "T" in symbols:
             units["T_abs"], sizes["T_abs"] = registry().Quantity(1.0, "K"), 300.0
+        if "o" in symbols:
+            units["o_peak"], sizes["o_peak"] = units["o"], symbols["o"].peak or symbols["o"].size
         self._units, self._sizes = units, sizes
 
     def unit(self, of: str) -> str:

@@ -16,6 +16,7 @@ class Quantity:
         middle: Value about which it moves.
         rate: How fast it changes, per second.
         stated: Middle and size in the unit that the FMU states, where that is another one.
+        peak: Farthest that it goes from its middle in the recordings, in `unit`; 0: not known.
     """
 
     name: str
@@ -24,6 +25,7 @@ class Quantity:
     middle: float
     rate: float
     stated: tuple[float, float] | None = None
+    peak: float = 0.0
 
     @property
     def in_fmu(self) -> tuple[float, float]:
