@@ -16,11 +16,13 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import fits, places_of
 from diagnosis.models.systems.quantities import Places
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
+from tests.fmi.fmi_models import build
 from tests.systems.rigs import held, write_recording
 
 #: A winding that warms itself; with `k` its resistance grows with the temperature.
@@ -242,3 +244,60 @@ def test_parameters_that_act_as_a_product_are_one_place_that_names_both(tmp_path
     assert own.parameters["u_wall"].alike == ("area",)
     (law,) = [f for f in fits([own], library(), 1.0) if f.placed.to == "parameter(u_wall)"][:1]
     assert law.term.law.endswith("or parameter(area) alike")
+
+
+def _many() -> OdeModel:
+    """Ten losses of a lump, of which each is a parameter."""
+    numbers = {f"loss_{n}": (0.01 * (n + 1), "W/K") for n in range(10)}
+    sum_of = " + ".join(numbers)
+    rate = {"T": ("K", "300", f"(power - ({sum_of})*(T - 293.15))/50.0")}
+    return OdeModel("many", numbers, {"power": "W"}, rate, {"temperature": ("K", "T")})
+
+
+def test_instances_of_parameters_that_were_asked_for_long_ago_are_made_again(tmp_path: Path) -> None:
+    """A lump of ten losses, one of which grows by a third: the same before and after all others were asked."""
+    _many().build(tmp_path)
+    text = SCENARIO.replace("NAME", "many").replace("MORE", "").replace("V", "W").replace("winding.u", "winding.power")
+    path = tmp_path / "many.yaml"
+    path.write_text(text, encoding="utf-8")
+    strength = (("a", "1"),)
+    laws = [Placed("winding", f"parameter(loss_{n})", "a", strength, is_share=True) for n in range(10)]
+    system = FastSystem(load_scenario(str(path)), laws)
+    column = system.recorded["winding", "temperature"]
+
+    def course(*numbers: int) -> Array | None:
+        rows = system.simulate(laws=dict.fromkeys(numbers, (1.0 / 3.0,)))
+        return None if rows is None else rows.values[:, column].ravel().copy()
+
+    first, plain = course(9), course()
+    assert first is not None
+    assert plain is not None
+    assert all(course(n) is not None for n in range(9))
+    again = course(9)
+    assert again is not None
+    np.testing.assert_array_equal(again, first)
+    assert float(np.max(np.abs(first - plain))) > 0.1
+    assert course(*range(8)) is not None
+    assert course(*range(9)) is None
+    system.close()
+
+
+def test_a_parameter_beside_whose_value_the_equations_have_none_is_no_place(tmp_path: Path) -> None:
+    states = {**PLAIN.states, "i": ("A", "0", "(u - R*i)/L*sqrt(0.5 - edge)")}
+    model = OdeModel("edge", {**NUMBERS, "edge": (0.45, "1")}, PLAIN.inputs, states, PLAIN.outputs)
+    assert set(_places(tmp_path, model).parameters) == {"R", "L", "C", "h"}
+
+
+def test_an_fmu_with_events_says_that_its_parameters_were_not_tried(tmp_path: Path) -> None:
+    """It climbs a stair every 0.3 s."""
+    path = tmp_path / "stair.yaml"
+    stair = build("stair", 2, tmp_path)
+    text = "{title: A stair, time: {stop: 2 s, macro_step: 0.1 s, output_step: 0.1 s}, components: {stair: FMU}}"
+    fmu = f"{{kind: fmu, fmu: '{stair}', integrator: cvode}}"
+    path.write_text(text.replace("FMU", fmu), encoding="utf-8")
+    system = FastSystem(load_scenario(str(path)))
+    (own,) = places_of([system])
+    assert own.parameters == {}
+    (said,) = [t for t in own.untried if "parameter" in t]
+    assert said.startswith("no parameter of `stair` was tried as one that changes: it has time events")
+    system.close()

@@ -10,7 +10,8 @@ import numpy as np
 from cosim.fmu.added_terms import unchanging
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.moved_parameter import MovedParameter
-from cosim.unit.protocol import AnyArray, Array
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array, UnitError
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu
 from diagnosis.models.systems.numbers import scalar_parameters
@@ -96,9 +97,12 @@ def _effects(system: FastSystem, fmu: FastFmu, unit: ModelExchangeUnit, own: Pla
         quantity = Quantity(name, unit_text, abs(value), value, 0.0)
         if value == 0.0 or is_of(quantity, "K"):
             continue
-        moved = fmu.moved_parameter(name)
-        moved.begin(unit, system.start, {})
-        rates = _rates(moved.moved, system.start / 1e9, points, given) / sizes
+        try:
+            moved = fmu.moved_parameter(name)
+            moved.begin(unit, system.start, {})
+            rates = _rates(moved.moved, system.start / 1e9, points, given) / sizes
+        except (UnitError, InputError):
+            continue  # the FMU does not take another value
         effect = float(np.max(np.ptp(rates, axis=0)))
         if np.isfinite(rates).all() and effect > ROUNDING * float(np.max(np.abs(rates))):
             yield _Effect(quantity, rates, effect)

@@ -21,7 +21,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array, UnitError
 from diagnosis.models.systems.feedthrough import with_measured_feedthrough
-from diagnosis.models.systems.fmu_layout import FastFmu, NotFast, flat_address
+from diagnosis.models.systems.fmu_layout import MOST_MOVED, FastFmu, NotFast, flat_address
 from diagnosis.models.systems.layout import (
     MOST_DELAYS,
     AddedLayout,
@@ -167,7 +167,7 @@ class FastSystem:
         if kind is Kind.OUTPUT:
             found.output = fmu.outputs[name].ctypes.data
         if kind is Kind.PARAMETER:
-            found.moved = ctypes.addressof(fmu.moved_parameter(name).layout)
+            fmu.check_changeable()
         for i in range(len(law.states)):
             found.rates[i] = self._compiled.address(f"law_{number}_rate_{i}")
             found.starts[i] = self._compiled.address(f"law_{number}_start_{i}")
@@ -385,11 +385,17 @@ class FastSystem:
             moved[name] = {**back, **own}
             fmu.unit.set_parameters(moved[name])
         system.initialise(self.start, self.assembly.start)
-        for law in (self.laws[n] for n in laws):
+        changing = [self.laws[n].component for n in laws if self.laws[n].to.startswith(_PARAMETER)]
+        for name in set(changing):
+            if changing.count(name) > MOST_MOVED:
+                raise UnitError(name, f"more than {MOST_MOVED} of its parameters change at once")
+        for number in laws:
+            law = self.laws[number]
             fmu = self.fmus[law.component]
             if law.to.startswith(_PARAMETER) and isinstance(fmu.unit, ModelExchangeUnit):
                 instances = fmu.moved_parameter(law.to[len(_PARAMETER) : -1])
                 instances.begin(fmu.unit, self.start, moved[law.component])
+                self._added[number].moved = ctypes.addressof(instances.layout)
 
     def parameter(self, component: str, name: str) -> Any:
         """What the scenario, its parameter set or the FMU says of a parameter."""

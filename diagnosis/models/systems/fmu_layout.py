@@ -20,6 +20,8 @@ from cosim.formula import to_base
 from cosim.unit.protocol import Array, Causality
 from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, Kind, MovedLayout, UnitLayout
 
+#: Parameters of one FMU that may change together, and whose instances stay: an FMU may need much memory.
+MOST_MOVED = 8
 #: States that the laws of one FMU may have together.
 MOST_ADDED = 64
 
@@ -54,6 +56,11 @@ class Instances:
         self.moved.set_parameters(unit, parameters)
         self.moved.begin(unit, time)
         self._held.fill(np.nan)  # what they have is written once more before they are asked
+
+    def close(self) -> None:
+        """Free them."""
+        for instance in self.moved.instances:
+            instance.binding.free()
 
 
 class FastFmu:
@@ -209,24 +216,36 @@ class FastFmu:
         layout.has_outputs_added = any(a.kind == Kind.OUTPUT for a in added)
         layout.has_parameters_added = any(a.kind == Kind.PARAMETER for a in added)
 
-    def moved_parameter(self, name: str) -> Instances:
-        """Instances in which a parameter is smaller and larger; they stay.
+    def check_changeable(self) -> None:
+        """Whether its parameters can change during a run.
 
         Raises:
-            NotFast: It cannot change.
+            NotFast: They cannot.
         """
-        if name not in self.instances:
-            if not isinstance(self.unit, ModelExchangeUnit) or (problem := unchanging(self.unit.table)):
-                raise NotFast(f"no parameter of {self.name} can change" + (f": {problem}" if problem else ""))
+        problem = unchanging(self.unit.table) if self.is_model_exchange else "it integrates itself"
+        if problem:
+            raise NotFast(f"no parameter of {self.name} can change: {problem}")
+
+    def moved_parameter(self, name: str) -> Instances:
+        """Instances in which a parameter is smaller and larger; the last few stay.
+
+        Raises:
+            InputError: No other instance can be made.
+        """
+        if name in self.instances:
+            self.instances[name] = self.instances.pop(name)  # the last one asked for
+        else:
+            assert isinstance(self.unit, ModelExchangeUnit)
             count = max(self.state_count, sum(a.buffer.size for a in self.readers), 1)
+            if len(self.instances) == MOST_MOVED:
+                self.instances.pop(next(iter(self.instances))).close()
             self.instances[name] = Instances(self.unit.moved_parameter(name), len(self.outer), count)
         return self.instances[name]
 
     def close(self) -> None:
         """Free the instances with other parameters."""
         for instances in self.instances.values():
-            for instance in instances.moved.instances:
-                instance.binding.free()
+            instances.close()
 
     def take_over(self) -> None:
         """Inputs, states and the next event as the initialisation has left them."""
