@@ -10,6 +10,8 @@ import pytest
 from cosim.fmu.moved_parameter import change
 from cosim.run import RunStopped, run
 from cosim.scenario import load_scenario
+from cosim.ssp.command import scenario_of
+from cosim.ssp.export import export_ssp
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.diagnose import Options, diagnose
@@ -301,3 +303,33 @@ def test_an_fmu_with_events_says_that_its_parameters_were_not_tried(tmp_path: Pa
     (said,) = [t for t in own.untried if "parameter" in t]
     assert said.startswith("no parameter of `stair` was tried as one that changes: it has time events")
     system.close()
+
+
+class _Limited(OdeModel):
+    """An FMU that keeps its heat capacity at 40 J/K at most."""
+
+    def source(self, guid: str) -> str:
+        kept = "m->p[k] = k == 2 && v[i] > 40.0 ? 40.0 : v[i]; continue;"
+        found = super().source(guid).replace("m->p[k] = v[i]; continue;", kept)
+        assert kept in found
+        return found
+
+
+def test_a_parameter_that_the_fmu_limits_is_no_place(tmp_path: Path) -> None:
+    limited = _Limited("limited", NUMBERS, PLAIN.inputs, PLAIN.states, PLAIN.outputs)
+    assert set(_places(tmp_path, limited).parameters) == {"R", "L", "h"}
+
+
+def test_a_term_at_such_a_parameter_is_refused(tmp_path: Path) -> None:
+    limited = _Limited("limited", NUMBERS, PLAIN.inputs, PLAIN.states, PLAIN.outputs)
+    path = _scenario(tmp_path, limited, f"added_terms: [{TERM.replace('(R)', '(C)')}]")
+    with pytest.raises(InputError, match="the FMU does not take 50: it keeps 40"):
+        run(load_scenario(str(path)))
+
+
+def test_a_scenario_with_such_a_term_returns_from_ssp(tmp_path: Path) -> None:
+    scenario = load_scenario(str(_scenario(tmp_path, PLAIN, f"added_terms: [{TERM}]")))
+    export_ssp(scenario, tmp_path / "winding.ssp")
+    again = scenario_of(tmp_path / "winding.ssp", tmp_path / "again")
+    expected, found = (run(s)["winding.heat"].to_numpy() for s in (scenario, again))
+    np.testing.assert_array_equal(found, expected)
