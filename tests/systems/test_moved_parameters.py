@@ -215,6 +215,7 @@ def test_a_resistance_that_grows_with_the_temperature_is_found_with_its_coeffici
     assert found.verdict is Verdict.UNNAMED_PHYSICS
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert (finding.effect, finding.place) == ("parameter_change_of_T", "winding.R")
+    assert "parameter that changes with a quantity (T)), winding.R" in finding.statement
     assert finding.law == "parameter(R) *= 1 + a * (T - o_0), o_0 = 293.1 K"
     assert finding.parameters[0].value == pytest.approx(0.004, rel=0.01)
     assert finding.parameters[0].unit == "1/K"

@@ -50,7 +50,8 @@ class Fit:
         placed: In the names of the FMU.
         term: For the search.
         reaction: What is added with it to the other part of which it loses or gets something; None: nothing.
-        beside: Name of that part, or of the surroundings where there are several; empty where there is one choice.
+        beside: Name of that part, of the surroundings where there are several, or of what a parameter changes with;
+            empty where there is one choice.
         read: The same in outputs that are derivatives which it is added to: an accelerometer reads a force that the
             equations of the FMU do not have.
     """
@@ -333,15 +334,20 @@ def _fit(
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
     what += "" if changed is None else "".join(f", or {parameter(n)} alike" for n in changed.alike)
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
-    beside = ""
-    if law.reacts_on or "r" in symbols:
-        beside = symbols[law.reacts_on or "r"].name
-    elif "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
-        beside = symbols["T_a"].name  # which of them are the surroundings
-    others = [n for n in (beside, symbols["o"].name if "o" in symbols else "") if n]
+    beside = _beside(own, law, symbols, needed)
+    others = [n for n in dict.fromkeys((beside, symbols["o"].name if "o" in symbols else "")) if n]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)
+
+
+def _beside(own: Places, law: Law, symbols: Mapping[str, Quantity], needed: Collection[str]) -> str:
+    """Name of what a law acts with, where there are several; see `Fit`."""
+    if law.reacts_on or "r" in symbols:
+        return symbols[law.reacts_on or "r"].name
+    if "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
+        return symbols["T_a"].name  # which of them are the surroundings
+    return symbols["o"].name if law.role is Role.PARAMETER else ""
 
 
 def _references(
