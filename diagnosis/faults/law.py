@@ -104,8 +104,20 @@ UNSTATED = FaultLaw(
         "sensor_offset_in_interval": "another sensor of the same part decides",
     },
 )
-#: Faults of inputs: what is stated was another, or acted where nothing was stated.
-OF_INPUTS = (INPUT, UNSTATED)
+HELD = FaultLaw(
+    "input_held_in_interval",
+    "input that stayed where it was for a while",
+    f"input = stated + share * box(t) * (held - stated); {_INTERVAL}; held: what is stated at its begin",
+    "share",
+    {
+        "input_gain_in_interval": "a record of the input itself decides",
+        "sensor_offset_in_interval": "another sensor of the same part decides",
+    },
+)
+#: Faults of inputs: what is stated was another, acted where nothing was stated, or stayed.
+OF_INPUTS = (INPUT, UNSTATED, HELD)
+#: Strength of an input that stayed.
+STAYED = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it stayed")
 #: Stretches in which an input is stated as zero of which each may be wrong; of more the longest.
 STRETCHES = 4
 #: Share by which an input is off that is no finding: laboratory supplies hold what is set on them to about 1 %. What is

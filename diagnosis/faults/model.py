@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from cosim.unit.protocol import Array
 from diagnosis.faults.law import (
     AGAIN,
+    HELD,
     OCCASIONS,
     OF_INPUTS,
     OFFSET,
@@ -22,7 +24,7 @@ from diagnosis.faults.law import (
     sensor_gain,
 )
 from diagnosis.faults.readings import Readings, readings_of
-from diagnosis.faults.scan import input_scores, sensor_scores
+from diagnosis.faults.scan import held_scores, input_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.fit import Fit
@@ -188,9 +190,24 @@ class FaultyModel(WrappedModel):
             tasks = [(term, (step, float(a), float(b))) for a, b in itertools.pairwise(edges)]
             return strength_slopes(self, base.point, None, tasks)
 
+        def moved(term: Term, intervals: Array) -> Array:
+            points = [base.point.plus(term, (1.0, float(a), float(b))) for a, b in intervals]
+            rows = self.residuals([base.point, *points])
+            return np.asarray(rows[1:] - rows[0])
+
         own = {r: self._residuals_of(r) for r in {t.recording for t in terms}}
         pieces = PIECES if self.is_fast else FEW_PIECES
-        return input_scores(projection, scaled, [(t, own[t.recording]) for t in terms], slopes, pieces)
+        held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
+        others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
+        found = input_scores(projection, scaled, others, slopes, pieces)
+        if not (held and self.can_be_searched_again):
+            return found
+        stayed = held_scores(base, scaled, held, moved)
+        return replace(
+            found,
+            ranked=sorted((*found.ranked, *stayed.ranked), key=lambda s: -s.gain),
+            tried=found.tried + stayed.tried,
+        )
 
     def _residuals_of(self, recording: int | None) -> slice:
         every = [r.own for r in self.readings if r.recording == recording]

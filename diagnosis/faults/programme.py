@@ -12,7 +12,19 @@ from cosim.formula import to_base
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import PhysicalValue
-from diagnosis.faults.law import INPUT, Span, added, fault_term, gain, is_zero, occasion, unstated_terms, zero_stretches
+from diagnosis.faults.law import (
+    HELD,
+    INPUT,
+    STAYED,
+    Span,
+    added,
+    fault_term,
+    gain,
+    is_zero,
+    occasion,
+    unstated_terms,
+    zero_stretches,
+)
 from diagnosis.recording.recording import Recording
 from diagnosis.recording.units import si_unit
 from diagnosis.search.problem import Term
@@ -33,6 +45,7 @@ class InputChange:
         end: [s].
         is_added: Whether it acts where nothing is stated.
         is_everywhere: Whether it is added to whatever is stated.
+        is_held: Whether the amount is a share of the way back to what is stated where it begins.
     """
 
     amount: float
@@ -40,10 +53,12 @@ class InputChange:
     end: float
     is_added: bool = False
     is_everywhere: bool = False
+    is_held: bool = False
 
-    def key(self) -> tuple[str, str, str, bool, bool]:
+    def key(self) -> tuple[str, str, str, bool, bool, bool]:
         """Every number to its last bit."""
-        return self.amount.hex(), self.begin.hex(), self.end.hex(), self.is_added, self.is_everywhere
+        numbers = self.amount.hex(), self.begin.hex(), self.end.hex()
+        return *numbers, self.is_added, self.is_everywhere, self.is_held
 
     def shares(self, low: Array, step: float) -> Array:
         """Share of each macro-step that lies in the interval, shape (steps,).
@@ -62,7 +77,11 @@ class InputChange:
             stated: In the unit of the output.
             shares: See `shares`.
         """
+        inside = np.flatnonzero(shares)
         shares = shares.reshape(-1, *[1] * (stated.ndim - 1))
+        if self.is_held:
+            stays = stated[inside[0]] if len(inside) else stated
+            return np.asarray(self.amount * shares * (stays - stated))
         if not self.is_added:
             return np.asarray(stated * self.amount * shares)
         if self.is_everywhere:
@@ -75,6 +94,8 @@ def input_change(term: Term, values: Sequence[float], given: ProgrammeOutput) ->
     amount, begin, end = values
     if term.identifier == INPUT.identifier:
         return InputChange(amount, begin, end)
+    if term.identifier == HELD.identifier:
+        return InputChange(amount, begin, end, is_held=True)
     return InputChange(amount / to_base(given.unit)[0], begin, end, True)
 
 
@@ -98,6 +119,8 @@ def programme_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recordi
                     continue
                 label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
                 found[fault_term(INPUT, label, gain(), span, number)] = (name, output)
+                if np.ptp(values, axis=0).any():  # what never moves has stayed all the time
+                    found[fault_term(HELD, label, STAYED, span, number)] = (name, output)
                 stretches = _zero_stretches(given, values, span)
                 if stretches:
                     largest = to_base(given.unit)[0] * float(np.abs(values).max())

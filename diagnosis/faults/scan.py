@@ -14,11 +14,14 @@ from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.score import Projection, Score, Scoring
+from diagnosis.search.switches import costs_of
 
 #: Pieces of a channel whose ends are tried as begin and end of a fault; around the best of them every sample is tried.
 PIECES = 24
 #: Pieces of which a sensor that is stuck is tried to hold.
 STUCK_PIECES = 64
+#: Begins and ends of an input that stays: what it stays at changes with the begin.
+HELD_BEGINS, HELD_ENDS = 24, 12
 #: Begins and ends that are tried at once near the best; the number of intervals grows with the square of it.
 MOST_CUTS = 400
 
@@ -149,6 +152,35 @@ def _stuck(found: _Collected, base: Fit, scaled: Scaled, readings: Readings, ter
     if best is not None:
         first, last, gain = best
         found.score(term, gain, (1.0, float(readings.edges[first]), float(readings.edges[last])))
+
+
+def held_scores(
+    base: Fit, scaled: Scaled, terms: Sequence[tuple[Term, slice]], moved: Callable[[Term, Array], Array]
+) -> Scoring:
+    """Scores of inputs that stayed from some instant on, each of many intervals simulated; there are no nulls of it.
+
+    What stays depends on the begin, so that intervals are no sums of pieces.
+
+    Args:
+        base: Converged fit.
+        scaled: What wrapping models make of changes of residuals.
+        terms: Faults with the residuals of their recordings.
+        moved: Changes of all residuals by a term in intervals, shape (intervals, 2) to (intervals, residuals).
+    """
+    found = _Collected(0)
+    for term, own in terms:
+        _, begin, _ = term.parameters
+        begins = np.linspace(begin.lower, begin.upper, HELD_BEGINS + 1)
+        ends = begins[:: HELD_BEGINS // HELD_ENDS]
+        intervals = np.array([(a, b) for a in begins for b in ends if a < b])
+        rows = np.repeat(base.residuals[None], len(intervals), axis=0)
+        rows[:, own] += scaled(moved(term, intervals)[:, own], own)
+        gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(intervals)))
+        best = int(np.argmax(np.where(np.isfinite(gains), gains, -np.inf)))
+        found.tried += len(intervals)
+        if np.isfinite(gains[best]):
+            found.score(term, float(gains[best]), (1.0, *map(float, intervals[best])))
+    return found.scoring()
 
 
 def input_scores(

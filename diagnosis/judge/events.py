@@ -88,10 +88,15 @@ def instant_interval(term: Term, fit: Fit, model: DiagnosisModel, doubt: float =
         model: Their model.
         doubt: Factor on the errors: where more than noise is left, so much larger is the rise that is no surprise.
     """
-    values = fit.point.terms[term]
     number = next((i for i, p in enumerate(term.parameters) if p.is_instant), None)
     if number is None or term.recording is not None:
         return None
+    return _as_good(term, number, fit, model, doubt)
+
+
+def _as_good(term: Term, number: int, fit: Fit, model: DiagnosisModel, doubt: float) -> tuple[float, float]:
+    """See `instant_interval`; of any instant of a term by its number."""
+    values = fit.point.terms[term]
     parameter, now = term.parameters[number], values[number]
     most = RISE * doubt**2
     ends = []
@@ -158,6 +163,30 @@ def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisM
         after = int(np.clip(np.searchsorted(times, e.value), 1, len(times) - 1))
         half = 0.5 * float(times[after] - times[after - 1]) if p.is_instant else 0.0
         found.append(replace(e, lower=e.lower - half, upper=e.upper + half))
+    return tuple(found)
+
+
+def of_what_stays(
+    estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
+) -> tuple[Estimate, ...]:
+    """Estimates of an input that stayed, whose begin and end may be anywhere while nothing else was stated.
+
+    There the curvature says nothing, see `instant_interval`. Estimates of other terms are as they were.
+
+    Args:
+        estimates: One for each parameter of the term, in order.
+        term: Any term.
+        fit: Of the recordings; the term is one of its.
+        model: Model of the recordings that were fitted, wrapped or not.
+        doubt: As in `instant_interval`.
+    """
+    is_of_input = term.recording is not None and model.where(term)[1].channels is None
+    if not is_of_input or not term.parameters[0].is_switch:
+        return tuple(estimates)
+    found = []
+    for number, (e, p) in enumerate(zip(estimates, term.parameters)):
+        lower, upper = _as_good(term, number, fit, model, doubt) if p.is_instant else (e.lower, e.upper)
+        found.append(replace(e, lower=min(e.lower, lower), upper=max(e.upper, upper)))
     return tuple(found)
 
 

@@ -30,7 +30,7 @@ from diagnosis.judge.diagnosis import (
     class_places,
 )
 from diagnosis.judge.doubts import MEASURED, ODD, accuses, far_starts, faults, is_physics, late_responses
-from diagnosis.judge.events import between_samples, event_of, local_estimates, since
+from diagnosis.judge.events import between_samples, event_of, local_estimates, of_what_stays, since
 from diagnosis.judge.form import EXPLAINED
 from diagnosis.judge.headline import noise_of
 from diagnosis.judge.plausibility import implausible
@@ -404,6 +404,7 @@ def estimated(model: DiagnosisModel, fit: Fit, term: Term, doubt: float) -> tupl
     """Parameters of a term with intervals by all that is known of them: instants on the clock of their recording."""
     found = estimates(fit, term, doubt, model.scale_uncertainty(term))
     told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
+    told = of_what_stays(told, term, fit, model, doubt)
     simulated = model.simulated_interval(term)
     if simulated is None:
         return told
