@@ -200,7 +200,7 @@ class FaultyModel(WrappedModel):
         held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
         others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
         found = input_scores(projection, scaled, others, slopes, pieces)
-        if not (held and self.can_be_searched_again):
+        if not held:
             return found
         stayed = held_scores(base, scaled, held, moved)
         return replace(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,6 +107,32 @@ def programme_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recordi
         recordings: The recordings.
     """
     found = {}
+    for number, span, label, end, given in _outputs(scenarios, recordings):
+        values = _values(given)
+        if not np.any(values):
+            continue
+        found[fault_term(INPUT, label, gain(), span, number)] = end
+        stretches = _zero_stretches(given, values, span)
+        if stretches:
+            largest = to_base(given.unit)[0] * float(np.abs(values).max())
+            strength = added(si_unit(given.unit), largest)
+            found.update(dict.fromkeys(unstated_terms(label, strength, stretches, span, number), end))
+    return found
+
+
+def held_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) -> dict[Term, tuple[str, str]]:
+    """The same of outputs that may have stayed where they were; what never moves has stayed all the time."""
+    return {
+        fault_term(HELD, label, STAYED, span, number): end
+        for number, span, label, end, given in _outputs(scenarios, recordings)
+        if np.ptp(_values(given), axis=0).any()
+    }
+
+
+def _outputs(
+    scenarios: Sequence[Scenario], recordings: Sequence[Recording]
+) -> Iterator[tuple[int, Span, str, tuple[str, str], ProgrammeOutput]]:
+    """Outputs of programmes that are no temperature: number of the recording, when, place, component and name."""
     for number, (scenario, recording) in enumerate(zip(scenarios, recordings)):
         times = np.unique(np.concatenate([c.times for c in recording.channels.values()]))
         span = Span(scenario.time.start.to("s"), float(times[-1]), len(times))
@@ -114,20 +140,9 @@ def programme_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recordi
             if not isinstance(component, ProgrammeComponent) or not span.begin < span.end:
                 continue
             for output, given in component.outputs.items():
-                values = _values(given)
-                if given.unit in _TEMPERATURES or not np.any(values):
-                    continue
-                label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
-                found[fault_term(INPUT, label, gain(), span, number)] = (name, output)
-                if np.ptp(values, axis=0).any():  # what never moves has stayed all the time
-                    found[fault_term(HELD, label, STAYED, span, number)] = (name, output)
-                stretches = _zero_stretches(given, values, span)
-                if stretches:
-                    largest = to_base(given.unit)[0] * float(np.abs(values).max())
-                    strength = added(si_unit(given.unit), largest)
-                    terms = unstated_terms(label, strength, stretches, span, number)
-                    found.update(dict.fromkeys(terms, (name, output)))
-    return found
+                if given.unit not in _TEMPERATURES:
+                    label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
+                    yield number, span, label, (name, output), given
 
 
 def _zero_stretches(given: ProgrammeOutput, values: Array, span: Span) -> list[tuple[float, float]]:

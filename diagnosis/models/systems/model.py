@@ -18,6 +18,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion
+from diagnosis.faults.programme import held_inputs
 from diagnosis.laws.library import library
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.sensor_chain import read
@@ -47,6 +48,9 @@ AGREED = 1e-3
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
 SEARCHED_AGAIN = 30_000
+#: Steps of the integration over a recording from which an input that stayed is not looked for: that takes hundreds of
+#: simulations for each, of some 0.1 s then.
+HELD_STEPS = 200_000
 #: Points whose numbers are kept, and simulations.
 MOST_PLAIN, MOST_COURSES = 64, 8
 #: Macro-steps of the run that tells what the variables of the results are called.
@@ -108,6 +112,8 @@ class SystemModel(CompiledModel):
         self._fast = [FastSystem(s, placed) for s in self.scenarios]
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
+        if self._substeps * max(fast.steps for fast in self._fast) < HELD_STEPS:
+            self.inputs |= held_inputs(self.scenarios, recordings)
         place = self._batches.place
         self._given = given = (scenario, self.recordings, self.free, list(found))
         #: Residuals of a recording at a point, by this process and by copies of this model in others.
