@@ -457,6 +457,12 @@ class AddedTerms:
         for term in self.inputs:
             own = np.zeros(self.table.all[term.target].variable.shape)
             self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
+        inputs = [n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT]
+        #: Inputs as the FMU has them, and outputs that may hold a parameter.
+        self._held = {n: self._writers[n][1] if n in self._writers else values[n] for n in inputs}
+        self._changeable_outputs = [
+            n for n, v in self.table.exposed.items() if n not in self._held and v.variable.type.is_float
+        ]
 
     @property
     def _every(self) -> tuple[_Term, ...]:
@@ -522,7 +528,8 @@ class AddedTerms:
         if self.derivatives or self.owners or self.parameters:
             self._read()
             environment = self._environment(time, states)
-            self._change_rates(time, states, rates, environment)
+            if self.parameters:
+                self._change_rates(time, states, rates, environment)
             for term in (t for t in self.derivatives if t.is_share):  # before anything is added to what the FMU has
                 places = self.states[term.target]
                 rates[places] *= 1.0 + np.broadcast_to(self._amount(term, environment), places.shape)
@@ -535,28 +542,18 @@ class AddedTerms:
     def _change_rates(self, time: float, states: Array, rates: Array, environment: Mapping[str, AnyArray]) -> None:
         """What parameters that change do to the derivatives, before anything else is added."""
         count = len(states) - self.own_count
-        here, inputs = rates[:count].copy(), self._held_inputs()
+        here = rates[:count].copy()
         for term in self.parameters:
             share = self._share(term, environment)
-            rates[:count] += self.moved[term.target].rates(time, states[:count], inputs, share, here)
+            rates[:count] += self.moved[term.target].rates(time, states[:count], self._held, share, here)
 
-    def _change_outputs(self) -> None:
-        """What they do to the outputs that were just read; in Initialization Mode an FMU need not know its states."""
-        where = self.where() if self.moved else None
-        if where is None:
-            return
-        for read in self._state_readers:
-            read()
-        environment, inputs = self._environment(self.time, None), self._held_inputs()
-        names = [
-            n
-            for n, v in self.table.exposed.items()
-            if v.variable.causality is not Causality.INPUT and v.variable.type.is_float
-        ]
-        here = {n: np.array(self._outside[n], dtype=np.float64) for n in names}
+    def _change_outputs(self, where: tuple[float, Array]) -> None:
+        """What they do to the outputs that were just read."""
+        environment = self._environment(self.time, None)
+        here = {n: np.array(self._outside[n], dtype=np.float64) for n in self._changeable_outputs}
         for term in self.parameters:
             share = self._share(term, environment)
-            found = self.moved[term.target].outputs(*where, inputs, share, here)
+            found = self.moved[term.target].outputs(*where, self._held, share, here)
             for name, amount in found.items():
                 self._outside[name][...] += amount
 
@@ -564,12 +561,7 @@ class AddedTerms:
         """The FMU has come to the point where it was placed last: so have the instances with other parameters."""
         for moved in self.moved.values():
             for instance in moved.instances:
-                instance.complete_step(*self._placed, self._held_inputs())
-
-    def _held_inputs(self) -> dict[str, AnyArray]:
-        """Floating-point inputs as the FMU has them."""
-        names = (n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT)
-        return {n: self._writers[n][1] if n in self._writers else self._outside[n] for n in names}
+                instance.complete_step(*self._placed, self._held)
 
     def _share(self, term: _Term, environment: Mapping[str, AnyArray]) -> float:
         share = float(self._amount(term, environment))
@@ -583,12 +575,14 @@ class AddedTerms:
 
     def add_outputs(self) -> None:
         """Add to outputs that were just read."""
-        self._change_outputs()
+        where = self.where() if self.moved else None  # in Initialization Mode an FMU need not know its states
+        for read in self._state_readers if self.outputs or where else ():
+            read()
+        if where:
+            self._change_outputs(where)
         if self.outputs:
             for name, own in self._own_outputs.items():
                 own[...] = self._outside[name]
-            for read in self._state_readers:
-                read()
             environment = self._environment(self.time, None)
             for term in self.outputs:
                 self._outside[term.target][...] += self._amount(term, environment)

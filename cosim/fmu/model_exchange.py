@@ -14,7 +14,7 @@ import numpy as np
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.continuous import ContinuousModel
 from cosim.fmu.integrator import Integrator, load_cvode
-from cosim.fmu.moved_parameter import MovedParameter, moved_parameter, refuse_event
+from cosim.fmu.moved_parameter import MovedParameter, refuse_event
 from cosim.fmu.unit import FmuSettings, FmuUnit, Mode, is_worth_reporting
 from cosim.unit.protocol import (
     NANOSECONDS,
@@ -74,7 +74,14 @@ class ModelExchangeUnit(FmuUnit):
         """Instances in which a parameter is smaller and larger, with nothing added."""
         settings = replace(self.settings, added_terms=())
         with contextlib.chdir(Path.cwd()):  # fmpy changes the working folder while it loads a library
-            return moved_parameter(self, name, lambda: ModelExchangeUnit(self.name, self.archive, settings))
+            below = ModelExchangeUnit(self.name, self.archive, settings)
+            try:
+                found = MovedParameter(name, below, ModelExchangeUnit(self.name, self.archive, settings))
+            except BaseException:
+                below.binding.free()
+                raise
+        found.set_parameters(self, {})
+        return found
 
     @property
     def _instances(self) -> list[ModelExchangeUnit]:
@@ -115,8 +122,8 @@ class ModelExchangeUnit(FmuUnit):
 
     def terminate(self) -> None:
         """See `FmuUnit`."""
-        for instance in self._instances:
-            instance.binding.free()
+        for moved in self.added.moved.values():
+            moved.free()
         super().terminate()
 
     def rates_at(self, time: float, states: Array, inputs: Mapping[str, AnyArray]) -> Array:

@@ -6,7 +6,7 @@ more instances of the FMU, which stand at the same time, states and inputs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -93,6 +93,11 @@ class MovedParameter:
             instance.initialise(time)
             instance.exit_initialisation()
 
+    def free(self) -> None:
+        """Free both; safe to call twice."""
+        for instance in self.instances:
+            instance.binding.free()
+
     def rates(self, time: float, states: Array, inputs: Mapping[str, AnyArray], share: float, here: Array) -> Array:
         """What is added to the derivatives of the states, shape (states,).
 
@@ -125,27 +130,6 @@ class MovedParameter:
         """
         below, above = (i.outputs_at(time, states, inputs) for i in self.instances)
         return {n: change(share, below[n], values, above[n]) for n, values in here.items()}
-
-
-def moved_parameter(unit: ModelExchangeUnit, name: str, build: Callable[[], ModelExchangeUnit]) -> MovedParameter:
-    """Make the two instances.
-
-    Args:
-        unit: The FMU.
-        name: Its parameter.
-        build: Makes an instance with its settings, without what is added to it.
-
-    Raises:
-        InputError: No other instance can be made.
-    """
-    below = build()
-    try:
-        found = MovedParameter(name, below, build())
-    except BaseException:
-        below.binding.free()
-        raise
-    found.set_parameters(unit, {})
-    return found
 
 
 def refuse_event(name: str, time: float) -> UnitError:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -200,14 +199,7 @@ class FaultyModel(WrappedModel):
         held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
         others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
         found = input_scores(projection, scaled, others, slopes, pieces)
-        if not held:
-            return found
-        stayed = held_scores(base, scaled, held, moved)
-        return replace(
-            found,
-            ranked=sorted((*found.ranked, *stayed.ranked), key=lambda s: -s.gain),
-            tried=found.tried + stayed.tried,
-        )
+        return found.joined(held_scores(base, projection, scaled, held, moved)) if held else found
 
     def _residuals_of(self, recording: int | None) -> slice:
         every = [r.own for r in self.readings if r.recording == recording]

@@ -155,7 +155,11 @@ def _stuck(found: _Collected, base: Fit, scaled: Scaled, readings: Readings, ter
 
 
 def held_scores(
-    base: Fit, scaled: Scaled, terms: Sequence[tuple[Term, slice]], moved: Callable[[Term, Array], Array]
+    base: Fit,
+    projection: Projection,
+    scaled: Scaled,
+    terms: Sequence[tuple[Term, slice]],
+    moved: Callable[[Term, Array], Array],
 ) -> Scoring:
     """Scores of inputs that stayed from some instant on, each of many intervals simulated; there are no nulls of it.
 
@@ -163,11 +167,12 @@ def held_scores(
 
     Args:
         base: Converged fit.
+        projection: Of that fit.
         scaled: What wrapping models make of changes of residuals.
         terms: Faults with the residuals of their recordings.
         moved: Changes of all residuals by a term in intervals, shape (intervals, 2) to (intervals, residuals).
     """
-    found = _Collected(0)
+    found = _Collected(projection.draws)
     for term, own in terms:
         _, begin, _ = term.parameters
         begins = np.linspace(begin.lower, begin.upper, HELD_BEGINS + 1)

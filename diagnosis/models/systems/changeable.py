@@ -99,7 +99,7 @@ def _effects(system: FastSystem, fmu: FastFmu, unit: ModelExchangeUnit, own: Pla
             continue
         try:
             moved = fmu.moved_parameter(name)
-            moved.begin(unit, system.start, {})
+            moved.begin(system.start, {})
             rates = _rates(moved.moved, system.start / 1e9, points, given) / sizes
         except (UnitError, InputError):
             continue  # the FMU does not take another value

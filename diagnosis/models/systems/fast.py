@@ -12,7 +12,6 @@ import numpy as np
 from cosim.assemble import Assembly, assemble
 from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import ConnectionFault, Transfer
-from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu.variables import start_value
 from cosim.formula import to_base
@@ -37,8 +36,6 @@ from diagnosis.models.systems.placed import Placed, placed_of
 from diagnosis.models.systems.source import compiled
 from diagnosis.search.cosim_run import Changes
 
-#: How the target of a term at a parameter begins.
-_PARAMETER = "parameter("
 _KINDS = ("gauss_seidel", "jacobi")
 
 
@@ -140,8 +137,8 @@ class FastSystem:
             if name not in fmu.states:
                 raise NotFast(f"{law.component} has no state {name}")
             target = fmu.states[name]
-        elif law.to.startswith(_PARAMETER):
-            name, kind, target = law.to[len(_PARAMETER) : -1], Kind.PARAMETER, 0
+        elif law.parameter:
+            name, kind, target = law.parameter, Kind.PARAMETER, 0
         elif law.to in fmu.outputs:
             name, kind, target = law.to, Kind.OUTPUT, 0
             if fmu.outputs[name].size != 1:
@@ -385,16 +382,15 @@ class FastSystem:
             moved[name] = {**back, **own}
             fmu.unit.set_parameters(moved[name])
         system.initialise(self.start, self.assembly.start)
-        changing = [self.laws[n].component for n in laws if self.laws[n].to.startswith(_PARAMETER)]
+        changing = [self.laws[n].component for n in laws if self.laws[n].parameter]
         for name in set(changing):
             if changing.count(name) > MOST_MOVED:
                 raise UnitError(name, f"more than {MOST_MOVED} of its parameters change at once")
         for number in laws:
             law = self.laws[number]
-            fmu = self.fmus[law.component]
-            if law.to.startswith(_PARAMETER) and isinstance(fmu.unit, ModelExchangeUnit):
-                instances = fmu.moved_parameter(law.to[len(_PARAMETER) : -1])
-                instances.begin(fmu.unit, self.start, moved[law.component])
+            if law.parameter:
+                instances = self.fmus[law.component].moved_parameter(law.parameter)
+                instances.begin(self.start, moved[law.component])
                 self._added[number].moved = ctypes.addressof(instances.layout)
 
     def parameter(self, component: str, name: str) -> Any:

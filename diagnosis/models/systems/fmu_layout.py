@@ -13,7 +13,6 @@ from cosim.fmu.access import Access, address_of
 from cosim.fmu.added_terms import unchanging
 from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
-from cosim.fmu.moved_parameter import MovedParameter
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu.units import is_known
 from cosim.formula import to_base
@@ -34,33 +33,29 @@ class Instances:
     """Instances of an FMU in which a parameter is smaller and larger, as structures.
 
     Args:
-        moved: The instances.
+        unit: The FMU.
+        parameter: Its parameter.
         inputs: Floating-point inputs of the FMU, all elements.
         count: Its states or outputs, what is more.
     """
 
-    def __init__(self, moved: MovedParameter, inputs: int, count: int) -> None:
-        self.moved = moved
+    def __init__(self, unit: ModelExchangeUnit, parameter: str, inputs: int, count: int) -> None:
+        self._unit, self.moved = unit, unit.moved_parameter(parameter)
         self._held, self._values = np.zeros((2, max(inputs, 1))), np.zeros((2, count))
         self.layout = (MovedLayout * 2)(
             *(
                 MovedLayout(i.binding.fmu.component, held.ctypes.data, values.ctypes.data)
-                for i, held, values in zip(moved.instances, self._held, self._values)
+                for i, held, values in zip(self.moved.instances, self._held, self._values)
             )
         )
 
-    def begin(self, unit: ModelExchangeUnit, time: int, parameters: Mapping[str, Any]) -> None:
+    def begin(self, time: int, parameters: Mapping[str, Any]) -> None:
         """Initialise them as the FMU is, which has its parameters and inputs."""
         for instance in self.moved.instances:
             instance.begin_again()
-        self.moved.set_parameters(unit, parameters)
-        self.moved.begin(unit, time)
+        self.moved.set_parameters(self._unit, parameters)
+        self.moved.begin(self._unit, time)
         self._held.fill(np.nan)  # what they have is written once more before they are asked
-
-    def close(self) -> None:
-        """Free them."""
-        for instance in self.moved.instances:
-            instance.binding.free()
 
 
 class FastFmu:
@@ -238,14 +233,14 @@ class FastFmu:
             assert isinstance(self.unit, ModelExchangeUnit)
             count = max(self.state_count, sum(a.buffer.size for a in self.readers), 1)
             if len(self.instances) == MOST_MOVED:
-                self.instances.pop(next(iter(self.instances))).close()
-            self.instances[name] = Instances(self.unit.moved_parameter(name), len(self.outer), count)
+                self.instances.pop(next(iter(self.instances))).moved.free()
+            self.instances[name] = Instances(self.unit, name, len(self.outer), count)
         return self.instances[name]
 
     def close(self) -> None:
         """Free the instances with other parameters."""
         for instances in self.instances.values():
-            instances.close()
+            instances.moved.free()
 
     def take_over(self) -> None:
         """Inputs, states and the next event as the initialisation has left them."""

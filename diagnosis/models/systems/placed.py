@@ -65,6 +65,12 @@ class Placed:
     delays: tuple[PlacedDelay, ...] = ()
     is_share: bool = False
 
+    @property
+    def parameter(self) -> str:
+        """Parameter of which it is a share; empty where it is added to something else."""
+        begin = "parameter("
+        return self.to[len(begin) : -1] if self.to.startswith(begin) else ""
+
     def entry(self, values: tuple[float, ...]) -> AddedTermEntry:
         """The same in a scenario, with values of its numbers."""
         numbers = {name: PhysicalValue(v, unit) for (name, unit), v in zip(self.numbers, values)}
