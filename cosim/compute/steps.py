@@ -22,6 +22,8 @@ T = TypeVar("T")
 PAUSE = 0.5
 #: Time that a count must have run before the time left is shown [s].
 SETTLED = 2.0
+#: A stage that was so far and is at less than half of that has begun another part: how many follow is not known.
+FINISHED = 0.95
 
 
 class TimeIsOver(Exception):
@@ -74,6 +76,7 @@ class Steps:
         self._counts: list[Count] = []
         self._begin = self._last = now()
         self._alone = 0.0  # share of a stage that counts nothing
+        self._has_parts = False  # whether such a stage was at its end and went on
 
     @property
     def has_end(self) -> bool:
@@ -85,7 +88,7 @@ class Steps:
         self._check()
         if self._counts:
             return
-        self._stage, self._alone, self._begin = stage, 0.0, self._now()
+        self._stage, self._alone, self._has_parts, self._begin = stage, 0.0, False, self._now()
         self._last = self._begin
         self._tell(stage)
 
@@ -125,6 +128,7 @@ class Steps:
         if self._counts:
             self._counts[-1].within = max(self._counts[-1].within, min(value, 1.0))
         else:
+            self._has_parts |= self._alone >= FINISHED and value < 0.5 * self._alone
             self._alone = max(self._alone, min(value, 1.0))
         self._told()
 
@@ -143,6 +147,8 @@ class Steps:
     def text(self) -> str:
         """The present line."""
         now = self._now()
+        if self._has_parts and not self._counts:
+            return f"{self._stage}: {duration(now - self._begin)} so far"
         if not self._counts:
             share, begin, what = self._alone, self._begin, ""
         else:
@@ -152,7 +158,8 @@ class Steps:
         if share <= 0.0:
             return f"{self._stage}{what}"
         spent = now - begin
-        left = f", about {duration(spent * (1.0 - share) / share)} left in this step" if spent >= SETTLED else ""
+        rest = spent * (1.0 - share) / share
+        left = f", about {duration(rest)} left in this step" if spent >= SETTLED and share < 1.0 else ""
         return f"{self._stage}{what}{',' if what else ':'} {100.0 * share:.0f} %{left}"
 
 

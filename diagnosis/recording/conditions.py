@@ -12,12 +12,15 @@ import numpy as np
 from cosim.components import nanoseconds
 from cosim.scenario import Scenario, scenario_of_data
 from cosim.unit.errors import InputError
+from cosim.unit.quantity import PhysicalValue
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
 from diagnosis.recording.units import WrongUnit, conversion_of_difference
 
 #: A key to the one that it stands in place of: a programme's output has either. With its unit it stands by itself.
 _INSTEAD = {"constant": "points", "points": "constant"}
+#: An output step that is longer than a channel's readings are apart by less than this factor stays as it is.
+SLACK = 1.1
 
 
 def scenario_of(base: Scenario, recording: Recording) -> Scenario:
@@ -26,6 +29,8 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     Keys in `overrides` replace those of the scenario, mapping by mapping; an output of a programme that is given with
     its unit replaces the whole of it, interpolation too. Recorded inputs become the points of their
     programme, moved to the grid of macro-steps; the run ends with the last sample unless `overrides` says otherwise.
+    Outputs are recorded at least as often as the channels were read, as far as macro-steps allow: between outputs
+    readings are compared with straight lines.
 
     Raises:
         InputError: The result is no valid scenario; the keys are those of the scenario.
@@ -42,10 +47,26 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
         steps = max(1, math.ceil((recording.end - begin) / output - 1e-9))
         merged["time"]["stop"] = f"{begin + steps * output:.12g} s"
     try:
-        return scenario_of_data(merged, base.path)
+        return _with_outputs_as_read(scenario_of_data(merged, base.path), recording)
     except InputError as error:
         problem = f"{error.problem} (with the overrides of {recording.path})"
         raise InputError(error.source, error.key, problem, error.remedy) from error
+
+
+def _with_outputs_as_read(scenario: Scenario, recording: Recording) -> Scenario:
+    """The scenario with the longest output step that is no longer than the readings of any channel are apart."""
+    intervals = [float(np.median(np.diff(c.times))) for c in recording.channels.values() if len(c.times) > 1]
+    if not intervals:
+        return scenario
+    macro, output = nanoseconds(scenario.time.macro_step), nanoseconds(scenario.time.output_step)
+    longest = SLACK * 1e9 * min(intervals)
+    if output <= longest:
+        return scenario
+    # a divisor of what it was: checkpoints and the end stay whole numbers of it
+    counts = [n for n in range(1, output // macro + 1) if (output // macro) % n == 0]
+    finer = macro * max((n for n in counts if macro * n <= longest), default=1)
+    time = scenario.time.model_copy(update={"output_step": PhysicalValue(finer * 1e-9, "s")})
+    return scenario.model_copy(update={"time": time})
 
 
 def _data_of(base: Scenario) -> Any:

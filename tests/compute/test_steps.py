@@ -75,6 +75,18 @@ def test_a_stage_that_counts_nothing_tells_its_share(steps, told):
     assert told[2].startswith("recalibrating: 25 %, about")
 
 
+def test_a_stage_of_several_fits_tells_how_long_it_takes_once_the_first_is_done(steps, told):
+    steps("fitting what was exchanged")
+    for value in (0.4, 1.0, 0.2, 0.9):
+        share(value)
+    assert told[2] == "fitting what was exchanged: 100 %"  # no time is left of this fit, and no other is known of
+    assert told[3].endswith(" so far")
+    assert told[4].endswith(" so far")
+    steps("another stage")
+    share(0.5)
+    assert told[-1].startswith("another stage: 50 %")
+
+
 def test_a_loop_that_is_left_early_is_over(steps, told):
     steps("looking")
     for _ in counted(range(10), "pairs"):
