@@ -76,17 +76,74 @@ def best_interval(pieces: Pieces, fewest: int, bounds: tuple[float, float]) -> B
         fewest: Samples that an interval must hold.
         bounds: Of the strength: what lies beyond gains less.
     """
-    first, last = np.triu_indices(len(pieces.along) + 1, 1)
-    samples = np.concatenate([[0], np.cumsum(pieces.count)])
-    held = samples[last] - samples[first]
+    first, last, held, every = _intervals(pieces)
     left, whole = (_blocks(m, first, last) for m in (pieces.gram, pieces.whole))
-    seen = (held >= fewest) & (held < samples[-1]) & (left > LEAST_VISIBLE**2 * whole) & (left > 0.0)
+    sides = _sums(np.column_stack([pieces.along, pieces.noise]), first, last)
+    return _best((first, last), (held >= fewest) & (held < every), (left, whole, sides), bounds)
+
+
+def best_ramp(pieces: Pieces, times: Array, fewest: int, bounds: tuple[float, float]) -> Best | None:
+    """The interval in which something that rises from 0 to 1 gains most; None where none can be seen.
+
+    What rises by `t` within an interval is what rises all the time, less what it has at the begin, over its length; so
+    that every interval is a sum of pieces of these two courses.
+
+    Args:
+        pieces: Of a course that stays, and of one that rises with `times`, one after the other; each of `gram` and
+            `along` is twice as long as `count`.
+        times: Between pieces, from 0 to 1, shape (pieces + 1,).
+        fewest: Samples that an interval must hold.
+        bounds: Of the strength: what lies beyond gains less.
+    """
+    first, last, held, _ = _intervals(pieces)
+    count = len(pieces.count)
+    begin, length = times[first], times[last] - times[first]
+
+    def of_ramps(matrix: Array) -> Array:
+        level, across, slope = matrix[:count, :count], matrix[:count, count:], matrix[count:, count:]
+        parts = (_blocks(m, first, last) for m in (level, across, slope))
+        return np.asarray(next(parts) * begin**2 - 2.0 * begin * next(parts) + next(parts)) / length**2
+
+    sides = np.column_stack([pieces.along, pieces.noise])
+    level, slope = (_sums(part, first, last) for part in (sides[:count], sides[count:]))
+    along = (slope - begin[:, None] * level) / length[:, None]
+    return _best((first, last), held >= fewest, (of_ramps(pieces.gram), of_ramps(pieces.whole), along), bounds)
+
+
+def _intervals(pieces: Pieces) -> tuple[AnyArray, AnyArray, AnyArray, int]:
+    """First piece and piece after the last of every interval, samples that it holds, and how many there are."""
+    first, last = np.triu_indices(len(pieces.count) + 1, 1)
+    samples = np.concatenate([[0], np.cumsum(pieces.count)])
+    return first, last, samples[last] - samples[first], int(samples[-1])
+
+
+def _sums(rows: Array, first: AnyArray, last: AnyArray) -> Array:
+    """Sums of rows[first:last]."""
+    total = np.vstack([np.zeros(rows.shape[1]), np.cumsum(rows, axis=0)])
+    return np.asarray(total[last] - total[first])
+
+
+def _best(
+    intervals: tuple[AnyArray, AnyArray],
+    allowed: AnyArray,
+    products: tuple[Array, Array, Array],
+    bounds: tuple[float, float],
+) -> Best | None:
+    """The best of some intervals.
+
+    Args:
+        intervals: First piece of each, and the piece after its last one.
+        allowed: Which may be.
+        products: Of the direction of each with itself, what is fitted taken away and before, and with the residuals
+            and each null, shapes (intervals,), (intervals,) and (intervals, 1 + draws).
+        bounds: Of the strength.
+    """
+    left, whole, sides = products
+    seen = allowed & (left > LEAST_VISIBLE**2 * whole) & (left > 0.0)
     if not seen.any():
         return None
-    first, last, left = first[seen], last[seen], left[seen]
-    sides = np.column_stack([pieces.along, pieces.noise])
-    total = np.vstack([np.zeros(sides.shape[1]), np.cumsum(sides, axis=0)])
-    amounts = -(total[last] - total[first]) / left[:, None]
+    first, last, left = intervals[0][seen], intervals[1][seen], left[seen]
+    amounts = -sides[seen] / left[:, None]
     inside = np.clip(amounts, *bounds)
     gains = (amounts**2 - (amounts - inside) ** 2) * left[:, None]
     top = np.argmax(gains, axis=0)

@@ -14,6 +14,8 @@ from diagnosis.search.problem import Term, TermParameter
 FEWEST = 3
 #: Readings that a stuck sensor must hold: its value is taken from them, so that of a few wild ones it says nothing.
 FEWEST_EQUAL = 8
+#: Readings of a drift: of fewer it is an offset by another name.
+FEWEST_OF_DRIFT = 8
 #: Times that one sensor may be off in one way within one recording.
 OCCASIONS = 2
 #: End of the place of a second fault of one kind.
@@ -57,6 +59,18 @@ OFFSET = FaultLaw(
     {
         "sensor_bias": "readings before and after the interval decide",
         "sensor_drift": "readings within the interval decide: a drift grows",
+        "sensor_drift_in_interval": "readings within the interval decide: a drift grows",
+    },
+)
+DRIFT = FaultLaw(
+    "sensor_drift_in_interval",
+    "sensor that drifted for a while",
+    "reading = truth + offset * ramp(t); ramp(t) rises from 0 at begin to 1 at end, else 0",
+    "offset",
+    {
+        "sensor_drift": "other recordings decide: a sensor that drifts in all of them is no fault of one",
+        "sensor_offset_in_interval": "readings within the interval decide: an offset stays",
+        "ambient_step": "a second sensor beside it decides",
     },
 )
 _GAIN_CONFUSED = {
@@ -116,6 +130,8 @@ HELD = FaultLaw(
 )
 #: Faults of inputs: what is stated was another, acted where nothing was stated, or stayed.
 OF_INPUTS = (INPUT, UNSTATED, HELD)
+#: Faults whose course a law of the rig may have as well: what an input does, and what comes slowly.
+AS_A_LAW = (*OF_INPUTS, DRIFT)
 #: Strength of an input that stayed.
 STAYED = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it stayed")
 #: Stretches in which an input is stated as zero of which each may be wrong; of more the longest.

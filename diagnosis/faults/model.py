@@ -10,6 +10,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.faults.law import (
     AGAIN,
+    DRIFT,
     HELD,
     OCCASIONS,
     OF_INPUTS,
@@ -34,11 +35,12 @@ from diagnosis.search.structure import structure
 #: What the readings of a sensor do under each fault.
 _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     OFFSET.identifier: Readings.with_offset,
+    DRIFT.identifier: Readings.with_drift,
     SCALED.identifier: Readings.with_gain,
     RISE.identifier: Readings.with_gain,
     STUCK.identifier: Readings.with_held,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, SCALED, RISE, STUCK, *OF_INPUTS)}
+_LAWS = {law.identifier: law for law in (OFFSET, DRIFT, SCALED, RISE, STUCK, *OF_INPUTS)}
 #: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
 #: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
 _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
@@ -65,7 +67,8 @@ class FaultyModel(WrappedModel):
         for readings in self.readings:
             for again in range(OCCASIONS):
                 label = readings.label + (AGAIN if again else "")
-                kinds = [(OFFSET, readings.offset()), (STUCK, WHOLLY), *_gains_of(readings)]
+                drift = readings.offset("change of the reading at the end of the interval")
+                kinds = [(OFFSET, readings.offset()), (DRIFT, drift), (STUCK, WHOLLY), *_gains_of(readings)]
                 for law, strength in kinds:
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings

@@ -54,6 +54,11 @@ class Readings:
         overlap = np.minimum(high, end) - np.maximum(low, begin)
         return np.clip(overlap / np.maximum(high - low, 1e-300), 0.0, 1.0)
 
+    def ramp(self, begin: float, end: float) -> Array:
+        """What rises from 0 at the begin of an interval to 1 at its end, and is 0 else; shape (samples,)."""
+        middle = 0.5 * (self.edges[:-1] + self.edges[1:])
+        return np.asarray(np.clip((middle - begin) / max(end - begin, 1e-300), 0.0, 1.0) * self.box(begin, end))
+
     def held(self, begin: float, end: float) -> float:
         """Mean of the readings in an interval, SI."""
         weight = self.box(begin, end) * self.used
@@ -72,6 +77,10 @@ class Readings:
     def with_offset(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor reads too much by an amount within an interval."""
         return np.asarray(plain - amount / self.deviation * self.box(begin, end))
+
+    def with_drift(self, plain: Array, amount: float, begin: float, end: float) -> Array:
+        """Plain residuals where the zero of the sensor moves by an amount from begin to end of an interval."""
+        return np.asarray(plain - amount / self.deviation * self.ramp(begin, end))
 
     def with_gain(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor reads too much by a share within an interval."""
@@ -98,7 +107,7 @@ class Readings:
         box = share * self.box(begin, end)
         return np.asarray((1.0 - box) * plain + box * (self.measured - self.held(begin, end)) / self.deviation)
 
-    def offset(self) -> TermParameter:
+    def offset(self, meaning: str = "change of the reading in the interval") -> TermParameter:
         """Bounds of an offset: no larger than the readings are wide, and more than one reading scatters."""
         most = max(float(np.ptp(self.measured)), 10.0 * self.deviation)
         return TermParameter(
@@ -108,7 +117,7 @@ class Readings:
             most,
             (self.deviation,),
             negligible=self.deviation,
-            meaning="change of the reading in the interval",
+            meaning=meaning,
         )
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval
-from diagnosis.faults.law import FEWEST, FEWEST_EQUAL, OFFSET, STUCK
+from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp
+from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OFFSET, STUCK
 from diagnosis.faults.readings import Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
@@ -78,6 +78,8 @@ def sensor_scores(
         for term in kinds.values():
             if term.identifier == STUCK.identifier:
                 _stuck(found, base, scaled, readings, term)
+            elif term.identifier == DRIFT.identifier:
+                _ramp(found, projection, scaled, readings, term)
             else:
                 _box(found, projection, scaled, readings, term, _unit(base, readings, term))
     return found.scoring()
@@ -109,6 +111,20 @@ def _box(
             found.score(term, better.gain, (better.amount, float(edges[better.first]), float(edges[better.last])))
 
 
+def _ramp(found: _Collected, projection: Projection, scaled: Scaled, readings: Readings, term: Term) -> None:
+    """Score a drift, between the pieces of a channel; begin and end are moved by samples once it is fitted."""
+    count = len(readings.measured)
+    cuts = np.unique(np.linspace(0, count, min(PIECES, count) + 1).astype(int))
+    edges = readings.edges[cuts]
+    whole = -readings.ramp(float(edges[0]), float(edges[-1])) / readings.deviation
+    level = np.full(count, -1.0 / readings.deviation)
+    pieces = _directions(projection, scaled, readings, cuts, level, whole)
+    bounds = (term.parameters[0].lower, term.parameters[0].upper)
+    best = best_ramp(pieces, (edges - edges[0]) / (edges[-1] - edges[0]), FEWEST_OF_DRIFT, bounds)
+    if best is not None:
+        found.add(term, best, edges)
+
+
 def _refined(
     projection: Projection,
     scaled: Scaled,
@@ -136,11 +152,12 @@ def _refined(
             return best, cuts
 
 
-def _directions(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray, unit: Array) -> Pieces:
-    """Directions of an offset or a gain in pieces of a channel."""
+def _directions(projection: Projection, scaled: Scaled, readings: Readings, cuts: AnyArray, *units: Array) -> Pieces:
+    """Directions of an offset or a gain in pieces of a channel; of several courses one after the other."""
     inside = np.arange(len(readings.measured))[None, :]
     boxes = (inside >= cuts[:-1, None]) & (inside < cuts[1:, None])
-    rows = scaled(readings.residuals(np.where(boxes, unit, 0.0)), readings.own)
+    inward = np.vstack([np.where(boxes, unit, 0.0) for unit in units])
+    rows = scaled(readings.residuals(inward), readings.own)
     return Pieces(*projection.pieces(rows, readings.own), np.add.reduceat(readings.used.astype(int), cuts[:-1]))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.faults.law import OF_INPUTS
+from diagnosis.faults.law import AS_A_LAW
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.agreement import times_louder, times_white
 from diagnosis.judge.constancy import Constancy
@@ -461,8 +461,8 @@ def _finding(
         doubts = (*doubts, unknown) if unknown else doubts
     if not bears_names(accepted):
         doubts = (*doubts, _much_left(accepted))
-    is_input = term.identifier in {law.identifier for law in OF_INPUTS}
-    if is_input and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
+    is_as_a_law = term.identifier in {law.identifier for law in AS_A_LAW}
+    if is_as_a_law and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))
@@ -558,7 +558,7 @@ def _measured(model: DiagnosisModel) -> set[str]:
 
 
 def _elsewhere(accepted: Accepted) -> str:
-    """Why a fault of an input has no name while readings that judge the whole model reject it.
+    """Why a fault whose course a law may have has no name while readings that judge the whole model reject it.
 
     What it does in its interval a law of the rig does too, where the rig is in a state that the law needs, and readings
     of its own recording cannot tell them apart. A fault leaves nothing in other recordings, a law leaves as much there
