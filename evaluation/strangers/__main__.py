@@ -28,6 +28,7 @@ from evaluation.strangers import (
     fourth_set,
     ninth_set,
     second_set,
+    seventeenth_set,
     seventh_set,
     sixteenth_set,
     sixth_set,
@@ -56,6 +57,7 @@ SETS = {
     "fourteenth": fourteenth_set.CASES,
     "fifteenth": fifteenth_set.CASES,
     "sixteenth": sixteenth_set.CASES,
+    "seventeenth": seventeenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
