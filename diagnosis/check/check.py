@@ -17,6 +17,7 @@ from diagnosis.check.edges import edge_doubts
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.odd_one_out import odd_ones
 from diagnosis.check.other_course import other_course
+from diagnosis.check.other_number import other_number
 from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
@@ -91,7 +92,8 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
     if is_told:
         return replace(doubt, is_serious=False)
     one = next(o for o in every if o.recording.title == doubt.recording)
-    return other_course(one, [o for o in every if o is not one]) or doubt
+    others = [o for o in every if o is not one]
+    return other_course(one, others) or other_number(one, others) or doubt
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

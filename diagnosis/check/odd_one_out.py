@@ -73,7 +73,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             "a wrong number shows in all of them, and so does a missing law unless only this one reaches where it "
             "acts: look at this recording's input, start and day first"
         )
-        is_alike = is_as_it_is or _is_within(one, [o for i, o in enumerate(every) if i != number])
+        is_alike = is_as_it_is or is_within(one, [o for i, o in enumerate(every) if i != number])
         is_serious = is_alike and worst.scaled >= HALF
         title = one.recording.title
         found.append(Doubt(title, "all channels", ODD, text, remedy, is_serious, one.begin, one.end, z))
@@ -102,7 +102,7 @@ def _is_larger(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> bool:
     return bool(sizes) and worst.size >= TIMES * max(sizes)
 
 
-def _is_within(one: Compared, others: Sequence[Compared]) -> bool:
+def is_within(one: Compared, others: Sequence[Compared]) -> bool:
     """Whether readings and simulation of a recording go no farther, either way and per second, than those of others.
 
     A law that is missing and acts at large values, or in fast motion, may act in one recording alone.

@@ -64,7 +64,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         others: The other recordings of the same rig, which the scenario meets.
     """
     channels = comparable(one)
-    if one.base is None or not _is_quick(one.scenario) or len(channels) < CHANNELS:
+    if one.base is None or not is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
     if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
@@ -81,7 +81,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
 
 
-def _is_quick(scenario: Scenario) -> bool:
+def is_quick(scenario: Scenario) -> bool:
     """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
     time = scenario.time
     steps = (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
@@ -152,10 +152,10 @@ def _simulated(one: Compared, channels: dict[str, Beside], course: Course, times
     given = Input(component, output, course.unit, times, values)
     inputs = (*(i for i in one.recording.inputs if (i.component, i.output) != (component, output)), given)
     results = run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
-    return np.concatenate([_readings(results, b, one) for b in channels.values()])
+    return np.concatenate([readings_of(results, b, one) for b in channels.values()])
 
 
-def _readings(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
+def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
     series = series_of(results, beside.channel.target, one.recording.path / "recording.yaml")
     return np.asarray(sample(series, beside.times))
 

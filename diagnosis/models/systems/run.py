@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import closing
+
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
 from cosim.run import run
 from cosim.scenario import Scenario
-from cosim.unit.protocol import Causality
+from cosim.unit.protocol import Array, Causality
+from cosim.unit.quantity import PhysicalValue
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.numbers import scalar_parameters
 from diagnosis.models.systems.steps import resolve
+from diagnosis.search.cosim_run import Changes
 
 
 def is_system(scenario: Scenario) -> bool:
@@ -38,25 +44,68 @@ def run_quickly(scenario: Scenario) -> xr.Dataset:
 
 
 def _run(scenario: Scenario) -> xr.Dataset | None:
-    system = FastSystem(scenario)
-    try:
-        for name, unit in system.assembly.system.units.items():
-            fmu = system.fmus.get(name)
-            shown = [v for v in unit.variables.values() if v.causality in (Causality.OUTPUT, Causality.LOCAL)]
-            if fmu is not None and any(v.name not in fmu.outputs for v in shown):
-                raise NotFast(f"{name} has outputs that are no numbers of double precision")
+    with closing(FastSystem(scenario)) as system:
+        _check_outputs(system)
         values = resolve(system)
-        if values is None:
-            return None
-        data = {}
-        for (name, variable), columns in system.recorded.items():
-            units = system.assembly.system.units[name].variables
-            if variable not in units or units[variable].causality is Causality.INPUT:
-                continue
-            own = units[variable]
-            dims = own.dims
-            shaped = values[:, columns].reshape(len(values), *own.shape).copy()
-            data[f"{name}.{variable}"] = (("time", *dims), shaped, {"units": own.unit})
-        return xr.Dataset(data, {"time": system.times})
-    finally:
-        system.close()
+        return None if values is None else _dataset(system, values)
+
+
+class OtherNumbers:
+    """Runs of a system of FMUs in which one number of an FMU is another, in compiled code.
+
+    Args:
+        scenario: The system.
+
+    Raises:
+        InputError: The scenario is wrong.
+        NotFast: It has something that only the co-simulation can do.
+        CompilerError: There is no C compiler.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._system = FastSystem(scenario)
+        try:
+            _check_outputs(self._system)
+            resolve(self._system)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Free the FMUs."""
+        self._system.close()
+
+    def numbers(self) -> Iterator[tuple[str, str, str, float]]:
+        """Component, name, unit and value of every scalar parameter of an FMU that is not 0."""
+        for component, fmu in self._system.fmus.items():
+            for name, value in scalar_parameters(fmu, self._system, component):
+                if value != 0.0:
+                    yield component, name, fmu.unit.table.all[name].variable.unit, value
+
+    def results(self, component: str, name: str, value: float) -> xr.Dataset | None:
+        """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
+        unit = self._system.fmus[component].unit.table.all[name].variable.unit
+        rows = self._system.simulate(Changes({component: {name: PhysicalValue(value, unit)}}))
+        return None if rows is None else _dataset(self._system, rows.values)
+
+
+def _check_outputs(system: FastSystem) -> None:
+    """Raises `NotFast` where an FMU has outputs that compiled code does not record."""
+    for name, unit in system.assembly.system.units.items():
+        fmu = system.fmus.get(name)
+        shown = [v for v in unit.variables.values() if v.causality in (Causality.OUTPUT, Causality.LOCAL)]
+        if fmu is not None and any(v.name not in fmu.outputs for v in shown):
+            raise NotFast(f"{name} has outputs that are no numbers of double precision")
+
+
+def _dataset(system: FastSystem, values: Array) -> xr.Dataset:
+    """Recorded values, shape (outputs, recorded), as results of a run."""
+    data = {}
+    for (name, variable), columns in system.recorded.items():
+        units = system.assembly.system.units[name].variables
+        if variable not in units or units[variable].causality is Causality.INPUT:
+            continue
+        own = units[variable]
+        shaped = values[:, columns].reshape(len(values), *own.shape).copy()
+        data[f"{name}.{variable}"] = (("time", *own.dims), shaped, {"units": own.unit})
+    return xr.Dataset(data, {"time": system.times})

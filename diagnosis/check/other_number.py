@@ -1,0 +1,134 @@
+"""A recording that stands out, and which one number of the rig would have to be another in it alone.
+
+Another fill, another load, another part: where the scenario meets the other recordings and not this one, each number
+of its FMUs is moved in this recording alone. What then explains every channel as well as the others are explained is
+what to look at first. One channel proves nothing: some number gives it nearly any course.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import minimize_scalar
+
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.odd_one_out import comparable, is_within, scaled_left
+from diagnosis.check.other_course import is_quick, readings_of
+from diagnosis.check.timing import percent
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.models.coil_network.kernel.compiler import CompilerError
+from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.run import OtherNumbers
+
+#: Channels that have to be explained.
+CHANNELS = 2
+#: Factors between which a number may be another.
+FARTHEST = 10.0
+#: Factors that are tried first, on either side; between the neighbours of the best one the number is found.
+FACTORS = (1.1, 1.5, 3.0, FARTHEST)
+#: Accuracy of ln(factor).
+EXACT = 1e-3
+#: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
+ALIKE, SAME = 2.0, 1e-3
+#: Numbers that explain a recording beyond which they say nothing.
+MOST = 3
+
+
+@dataclass(frozen=True)
+class _Explained:
+    """A number with which a recording is explained: its name, unit, stated and other value, what is left at most."""
+
+    name: str
+    unit: str
+    stated: float
+    value: float
+    left: float
+
+
+def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about a number that is another in one recording; None where none, or too many, explain it.
+
+    It is serious where the recording moves within what the others move within: a law that acts at large values, or in
+    fast motion, may act in one recording alone.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+        others: The other recordings of the same rig, which the scenario meets.
+    """
+    channels = comparable(one)
+    if not is_quick(one.scenario) or len(channels) < CHANNELS:
+        return None
+    theirs = max((scaled_left(b, b.simulated_there) for o in others for b in comparable(o).values()), default=1.0)
+    before = max(scaled_left(b, b.simulated_there) for b in channels.values())
+    enough = max(ALIKE * theirs, SAME)
+    if before <= enough:
+        return None
+    try:
+        with closing(OtherNumbers(one.scenario)) as system:
+            found = [f for f in _each(system, one, channels) if f.left <= enough]
+    except (InputError, NotFast, CompilerError):
+        return None
+    if not 0 < len(found) <= MOST:
+        return None
+    return replace(_doubt(one, found, before, theirs), is_serious=is_within(one, others))
+
+
+def _each(system: OtherNumbers, one: Compared, channels: dict[str, Beside]) -> list[_Explained]:
+    """Every number with the value that explains the recording best."""
+    found = []
+    for component, name, unit, stated in system.numbers():
+
+        def cost(logarithm: float, of: tuple[str, str] = (component, name), at: float = stated) -> float:
+            return _left(system.results(*of, at * math.exp(logarithm)), one, channels)
+
+        logarithm, left = _best(cost)
+        found.append(_Explained(f"{component}.{name}", unit, stated, stated * math.exp(logarithm), left))
+    return found
+
+
+def _best(cost: Callable[[float], float]) -> tuple[float, float]:
+    """The logarithm of the factor with the least cost, and that cost."""
+    tried = sorted(sign * math.log(f) for f in FACTORS for sign in (-1.0, 1.0))
+    grid = np.array([*tried[: len(FACTORS)], 0.0, *tried[len(FACTORS) :]])
+    costs = np.array([cost(x) for x in grid.tolist()])
+    if not np.isfinite(costs).any():
+        return 0.0, math.inf
+    best = int(np.argmin(np.where(np.isfinite(costs), costs, np.inf)))
+    low, high = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
+    result = minimize_scalar(cost, bounds=(float(low), float(high)), method="bounded", options={"xatol": EXACT})
+    value, least = float(result.x), float(result.fun)
+    return (value, least) if least < costs[best] else (float(grid[best]), float(costs[best]))
+
+
+def _left(results: xr.Dataset | None, one: Compared, channels: dict[str, Beside]) -> float:
+    """Largest share of a channel's variance that is left, scaled and shifted as suits best; infinite if none runs."""
+    if results is None:
+        return math.inf
+    simulated: list[Array] = [readings_of(results, b, one) for b in channels.values()]
+    return max(scaled_left(b, s) for b, s in zip(channels.values(), simulated))
+
+
+def _doubt(one: Compared, found: Sequence[_Explained], before: float, theirs: float) -> Doubt:
+    values = " or ".join(
+        f"{f.name} = {f.value:.4g} {'' if f.unit == '1' else f.unit}".rstrip() + f" ({f.stated:.4g} is stated)"
+        for f in sorted(found, key=lambda f: f.left)
+    )
+    worst = max(f.left for f in found)
+    text = (
+        f"scaled and shifted as suits each channel best, the scenario explains as little as {percent(1.0 - before)} of "
+        f"the variance of a channel of this recording, and at least {percent(1.0 - theirs)} in the other recordings; "
+        f"with {values} in this recording alone it is at least {percent(1.0 - worst)} here too"
+    )
+    remedy = (
+        "was it so? State it under `overrides` of this recording, or how far it is unknown under `uncertain`; a law "
+        "that only this recording reaches may look alike"
+    )
+    z = float(np.sqrt(before / max(worst, 1e-12)))
+    return Doubt(one.recording.title, found[0].name, "number", text, remedy, True, one.begin, one.end, z)
