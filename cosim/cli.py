@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
+import cosim.threads  # noqa: F401  before anything imports NumPy
 from cosim.alone import alone
 from cosim.commands import fmu
 from cosim.commands.compare import compare
