@@ -27,7 +27,7 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day, with_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
-from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts
+from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts, without_times_that_fit
 from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline, notes
@@ -203,7 +203,7 @@ def diagnose(
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
     found = within_rows(found, scenario, training)
-    doubts = without_explained_starts(doubts, found)
+    doubts = without_times_that_fit(without_explained_starts(doubts, found), fits)
     tried = searched(model, scenario, options.without, outcome.base.point)
     if was_left():
         tried = replace(tried, untried=(*tried.untried, _TIME_IS_OVER))

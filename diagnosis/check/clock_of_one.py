@@ -56,17 +56,20 @@ class _Clock:
         rate: By how much of each of its own seconds it is farther ahead, 1.
         spread: 95 % of the rate are within so much of it, 1.
         left: Share of the variance that the scenario leaves of the channel then.
+        half: Half of the time from the first reading to the last [s].
     """
 
     offset: float
     rate: float
     spread: float
     left: float
+    half: float
 
     @property
     def is_rate(self) -> bool:
-        """Whether it runs wrong, and is not only ahead or behind."""
-        return abs(self.rate) > self.spread
+        """Whether it runs wrong, and is not only ahead or behind: what it has at the begin is less than what comes."""
+        at_begin = self.offset - self.rate * self.half
+        return abs(self.rate) > self.spread and abs(at_begin) < abs(self.rate) * self.half
 
     def moves(self, beside: Beside) -> Array:
         """Offsets of the readings of any recording, if its clock were off like this one [s]."""
@@ -297,4 +300,4 @@ def _clock(beside: Beside) -> _Clock | None:
     slope = np.array([-1.0, 1.0]) / span
     deviation = float(np.sqrt(slope @ spread @ slope))
     left = _left(beside, weights @ fitted.x)
-    return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left)
+    return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left, 0.5 * span)

@@ -110,6 +110,19 @@ def best_ramp(pieces: Pieces, times: Array, fewest: int, bounds: tuple[float, fl
     return _best((first, last), held >= fewest, (of_ramps(pieces.gram), of_ramps(pieces.whole), along), bounds)
 
 
+def best_single(directions: Pieces, bounds: tuple[float, float]) -> Best | None:
+    """The direction with the largest gain, each alone; None where none can be seen.
+
+    Args:
+        directions: What is tried, in place of pieces of time.
+        bounds: Of the strength: what lies beyond gains less.
+    """
+    numbers = np.arange(len(directions.along))
+    left, whole = np.diag(directions.gram), np.diag(directions.whole)
+    sides = np.column_stack([directions.along, directions.noise])
+    return _best((numbers, numbers + 1), directions.count > 0, (left, whole, sides), bounds)
+
+
 def _intervals(pieces: Pieces) -> tuple[AnyArray, AnyArray, AnyArray, int]:
     """First piece and piece after the last of every interval, samples that it holds, and how many there are."""
     first, last = np.triu_indices(len(pieces.count) + 1, 1)

@@ -14,6 +14,10 @@ from diagnosis.search.problem import Term, TermParameter
 FEWEST = 3
 #: Readings that a stuck sensor must hold: its value is taken from them, so that of a few wild ones it says nothing.
 FEWEST_EQUAL = 8
+#: Time constants and offsets of a clock that are tried, each twice the one before.
+LAGS = 10
+#: Share of a recording beyond which a sensor is not slower, nor its clock off.
+LONGEST_LAG = 0.1
 #: Readings of a drift: of fewer it is an offset by another name.
 FEWEST_OF_DRIFT = 8
 #: Times that one sensor may be off in one way within one recording.
@@ -73,6 +77,26 @@ DRIFT = FaultLaw(
         "ambient_step": "a second sensor beside it decides",
     },
 )
+SLOWER = FaultLaw(
+    "sensor_lag_in_interval",
+    "sensor that was slower for a while",
+    "lag_time * d(reading) = truth - reading from begin to end, else reading = truth",
+    "lag_time",
+    {
+        "sensor_lag": "other recordings decide: a sensor that is slow in all of them is no fault of one",
+        "sensor_clock_in_interval": "slow and fast courses decide: a clock moves both as much",
+    },
+)
+LATE = FaultLaw(
+    "sensor_clock_in_interval",
+    "sensor whose clock was off for a while",
+    "reading = truth(t - offset) from begin to end, else truth(t)",
+    "offset",
+    {
+        "sensor_clock_offset": "other recordings decide: a clock that is off in all of them is no fault of one",
+        "sensor_lag_in_interval": "slow and fast courses decide: a lag rounds fast ones",
+    },
+)
 _GAIN_CONFUSED = {
     "sensor_gain": "readings before and after the interval decide",
     "sensor_offset_in_interval": "readings of other sizes within the interval decide",
@@ -130,8 +154,10 @@ HELD = FaultLaw(
 )
 #: Faults of inputs: what is stated was another, acted where nothing was stated, or stayed.
 OF_INPUTS = (INPUT, UNSTATED, HELD)
-#: Faults whose course a law of the rig may have as well: what an input does, and what comes slowly.
-AS_A_LAW = (*OF_INPUTS, DRIFT)
+#: Faults whose course a law of the rig may have as well: what an input does, what comes slowly, and what comes late.
+AS_A_LAW = (*OF_INPUTS, DRIFT, SLOWER, LATE)
+#: Faults that change when something is read, and not what.
+OF_TIME = (SLOWER, LATE)
 #: Strength of an input that stayed.
 STAYED = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it stayed")
 #: Stretches in which an input is stated as zero of which each may be wrong; of more the longest.
@@ -152,6 +178,32 @@ def gain(
 ) -> TermParameter:
     """Strength of a wrong input, or of a wrong gain of a sensor: nothing at -1, twice as much at 1."""
     return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=negligible, meaning=meaning)
+
+
+def lag_time(step: float, longest: float) -> TermParameter:
+    """Time constant of a sensor that was slower: from half the time between two readings, by factors of two.
+
+    Args:
+        step: Time between two readings [s].
+        longest: Longest time constant [s].
+    """
+    starts = tuple(0.5 * step * 2.0**n for n in range(LAGS) if 0.5 * step * 2.0**n < longest) or (0.5 * step,)
+    what = "time constant of the sensor in the interval"
+    return TermParameter("lag_time", "s", 0.0, max(longest, step), starts, negligible=0.1 * step, meaning=what)
+
+
+def clock_offset(step: float, longest: float) -> TermParameter:
+    """Offset of a sensor's clock, either way: from half the time between two readings, by factors of two.
+
+    Args:
+        step: Time between two readings [s].
+        longest: Longest offset [s].
+    """
+    lags = lag_time(step, longest).starts
+    what = "how late the readings of the interval are"
+    most = max(longest, step)
+    starts = (*lags, *(-s for s in lags))
+    return TermParameter("offset", "s", -most, most, starts, negligible=0.1 * step, meaning=what)
 
 
 def sensor_gain(of: str = "the reading") -> TermParameter:

@@ -11,16 +11,22 @@ from cosim.unit.protocol import Array
 from diagnosis.faults.law import (
     AGAIN,
     DRIFT,
+    FEWEST,
     HELD,
+    LATE,
+    LONGEST_LAG,
     OCCASIONS,
     OF_INPUTS,
     OFFSET,
     RISE,
     SCALED,
+    SLOWER,
     STUCK,
     WHOLLY,
     FaultLaw,
+    clock_offset,
     fault_term,
+    lag_time,
     sensor_gain,
 )
 from diagnosis.faults.readings import Readings, readings_of
@@ -39,8 +45,18 @@ _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     SCALED.identifier: Readings.with_gain,
     RISE.identifier: Readings.with_gain,
     STUCK.identifier: Readings.with_held,
+    SLOWER.identifier: Readings.with_lag,
+    LATE.identifier: Readings.with_shift,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, DRIFT, SCALED, RISE, STUCK, *OF_INPUTS)}
+#: What derivatives of the plain residuals become under each fault that changes them.
+_SEEN: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
+    SCALED.identifier: lambda r, rows, gain, begin, end: rows * (1.0 + gain * r.box(begin, end)),
+    RISE.identifier: lambda r, rows, gain, begin, end: rows * (1.0 + gain * r.box(begin, end)),
+    STUCK.identifier: lambda r, rows, share, begin, end: rows * (1.0 - share * r.box(begin, end)),
+    SLOWER.identifier: Readings.slower,
+    LATE.identifier: Readings.shifted,
+}
+_LAWS = {law.identifier: law for law in (OFFSET, DRIFT, SCALED, RISE, STUCK, SLOWER, LATE, *OF_INPUTS)}
 #: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
 #: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
 _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
@@ -69,6 +85,7 @@ class FaultyModel(WrappedModel):
                 label = readings.label + (AGAIN if again else "")
                 drift = readings.offset("change of the reading at the end of the interval")
                 kinds = [(OFFSET, readings.offset()), (DRIFT, drift), (STUCK, WHOLLY), *_gains_of(readings)]
+                kinds += [] if again else _of_time(readings)
                 for law, strength in kinds:
                     term = fault_term(law, label, strength, readings.span, readings.recording)
                     self.sensor_terms[term] = readings
@@ -110,15 +127,12 @@ class FaultyModel(WrappedModel):
         """See `diagnosis.search.problem.Model`; a sensor that is stuck sees no parameter, another gain sees more."""
         found = super().base_jacobian(point)
         for readings, faults in self._faults(point):
-            seen = np.ones(len(readings.measured))
-            for term, (strength, begin, end) in faults:
-                if term.identifier == STUCK.identifier:
-                    seen *= 1.0 - strength * readings.box(begin, end)
-                elif term.identifier in (SCALED.identifier, RISE.identifier):
-                    seen *= 1.0 + strength * readings.box(begin, end)
-            if found.shape[1] and np.any(seen != 1.0):
-                own = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
-                found[readings.own] = readings.residuals(own * seen).T
+            moving = [(t, v) for t, v in faults if t.identifier in _SEEN]
+            if found.shape[1] and moving:
+                rows = np.array([readings.plain(c) for c in found[readings.own].T.astype(np.float64)])
+                for term, (strength, begin, end) in moving:
+                    rows = _SEEN[term.identifier](readings, rows, strength, begin, end)
+                found[readings.own] = readings.residuals(rows).T
         return found
 
     def slopes(self, point: Point, tasks: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
@@ -237,6 +251,14 @@ def _gains_of(readings: Readings) -> Iterator[tuple[FaultLaw, TermParameter]]:
         yield SCALED, sensor_gain()
     elif len(readings.measured) and np.ptp(readings.measured) > 0.0:
         yield RISE, sensor_gain("the departure from its first reading")
+
+
+def _of_time(readings: Readings) -> list[tuple[FaultLaw, TermParameter]]:
+    """A lag and a clock that is off, of what moves."""
+    if len(readings.measured) < FEWEST or not np.ptp(readings.measured) > 0.0:
+        return []
+    longest = LONGEST_LAG * (readings.span.end - readings.span.begin)
+    return [(SLOWER, lag_time(readings.step, longest)), (LATE, clock_offset(readings.step, longest))]
 
 
 def _acted(readings: Readings, plain: Array, faults: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:

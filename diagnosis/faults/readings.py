@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_banded
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.law import WIDE, Span
+from diagnosis.faults.law import FEWEST, WIDE, Span
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import TermParameter
@@ -30,6 +31,7 @@ class Readings:
         used: Which of them count, shape (samples,).
         share: Share of the sum of the residuals that is taken from each: the zero of the channel is unknown
             (`diagnosis.models.coil_network.kernel.whiten`).
+        times: Of the samples [s], rising, shape (samples,).
     """
 
     number: int
@@ -42,6 +44,12 @@ class Readings:
     deviation: float
     used: AnyArray
     share: float
+    times: Array
+
+    @property
+    def step(self) -> float:
+        """Typical time between two samples [s]."""
+        return float(np.median(np.diff(self.times))) if len(self.times) > 1 else 1.0
 
     @property
     def span(self) -> Span:
@@ -81,6 +89,53 @@ class Readings:
     def with_drift(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the zero of the sensor moves by an amount from begin to end of an interval."""
         return np.asarray(plain - amount / self.deviation * self.ramp(begin, end))
+
+    def with_lag(self, plain: Array, lag: float, begin: float, end: float) -> Array:
+        """Plain residuals where the sensor follows with a first-order lag [s] within an interval."""
+        read = self.measured / self.deviation
+        return np.asarray(read - self.slower(read - plain, lag, begin, end))
+
+    def with_shift(self, plain: Array, offset: float, begin: float, end: float) -> Array:
+        """Plain residuals where the sensor reads what was some time before [s], within an interval."""
+        read = self.measured / self.deviation
+        return np.asarray(read - self.shifted(read - plain, offset, begin, end))
+
+    def slower(self, rows: Array, lag: float, begin: float, end: float) -> Array:
+        """Rows of values at the samples behind a first-order lag [s] from begin to end, settled at its begin.
+
+        Between two samples the value is a straight line, for which the response is exact. Samples that do not count are
+        left out.
+        """
+        there = np.flatnonzero(self._inside(begin, end))
+        if lag <= 0.0 or len(there) < FEWEST:
+            return rows
+        times, values = self.times[there], rows[..., there]
+        kept = np.exp(-np.diff(times) / lag)
+        slopes = lag * np.diff(values, axis=-1) / np.diff(times)
+        right = np.concatenate(
+            [values[..., :1], values[..., 1:] - slopes - kept * (values[..., :-1] - slopes)], axis=-1
+        )
+        band = np.ones((2, len(there)))
+        band[1, :-1] = -kept
+        found = rows.copy()
+        found[..., there] = solve_banded((1, 0), band, right.T).T
+        return found
+
+    def shifted(self, rows: Array, offset: float, begin: float, end: float) -> Array:
+        """Rows of values at the samples, from begin to end as they were some time before [s]."""
+        used, there = np.flatnonzero(self.used), np.flatnonzero(self._inside(begin, end))
+        if offset == 0.0 or len(there) < FEWEST:
+            return rows
+        times = self.times[used]
+        after = np.clip(np.searchsorted(times, self.times[there] - offset), 1, len(times) - 1)
+        share = np.clip((self.times[there] - offset - times[after - 1]) / (times[after] - times[after - 1]), 0.0, 1.0)
+        found = rows.copy()
+        found[..., there] = (1.0 - share) * rows[..., used[after - 1]] + share * rows[..., used[after]]
+        return found
+
+    def _inside(self, begin: float, end: float) -> AnyArray:
+        """Samples that count within an interval, shape (samples,)."""
+        return np.asarray(self.used & (self.box(begin, end) >= 0.5))
 
     def with_gain(self, plain: Array, amount: float, begin: float, end: float) -> Array:
         """Plain residuals where the sensor reads too much by a share within an interval."""
@@ -142,6 +197,7 @@ def readings_of(model: DiagnosisModel) -> list[Readings]:
                     deviation(channel),
                     np.asarray(series.used, dtype=bool),
                     share,
+                    times,
                 )
             )
             begin += count

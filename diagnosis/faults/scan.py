@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp
-from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OFFSET, STUCK
+from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp, best_single
+from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OF_TIME, OFFSET, SLOWER, STUCK
 from diagnosis.faults.readings import Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
@@ -22,6 +23,8 @@ PIECES = 24
 STUCK_PIECES = 64
 #: Begins and ends of an input that stays: what it stays at changes with the begin.
 HELD_BEGINS, HELD_ENDS = 24, 12
+#: Share of what a lag of some size does with which it may fit: others are nearer there.
+NEARLY = (0.6, 1.6)
 #: Begins and ends that are tried at once near the best; the number of intervals grows with the square of it.
 MOST_CUTS = 400
 
@@ -80,6 +83,8 @@ def sensor_scores(
                 _stuck(found, base, scaled, readings, term)
             elif term.identifier == DRIFT.identifier:
                 _ramp(found, projection, scaled, readings, term)
+            elif term.identifier in {law.identifier for law in OF_TIME}:
+                _late(found, base, projection, scaled, readings, term)
             else:
                 _box(found, projection, scaled, readings, term, _unit(base, readings, term))
     return found.scoring()
@@ -123,6 +128,28 @@ def _ramp(found: _Collected, projection: Projection, scaled: Scaled, readings: R
     best = best_ramp(pieces, (edges - edges[0]) / (edges[-1] - edges[0]), FEWEST_OF_DRIFT, bounds)
     if best is not None:
         found.add(term, best, edges)
+
+
+def _late(found: _Collected, base: Fit, projection: Projection, scaled: Scaled, readings: Readings, term: Term) -> None:
+    """Score a lag, or a clock that is off, from begin to end of the recording: of each of several sizes what it does.
+
+    A size that is tried is nearly right where its effect fits with about its own size.
+    """
+    act = Readings.with_lag if term.identifier == SLOWER.identifier else Readings.with_shift
+    plain = readings.plain(base.residuals[readings.own])
+    span = readings.span
+    sizes = np.array(term.parameters[0].starts)
+    moved = np.array([act(readings, plain, float(s), span.begin, span.end) for s in sizes]) - plain
+    products = projection.pieces(scaled(readings.residuals(moved), readings.own), readings.own)
+    best = best_single(Pieces(*products, np.full(len(sizes), np.count_nonzero(readings.used))), NEARLY)
+    if best is not None:
+
+        def to_size(number: int, share: float) -> float:
+            return float(np.clip(share * sizes[number], term.parameters[0].lower, term.parameters[0].upper))
+
+        leads = tuple((0, 1, to_size(first, share)) for first, _, share in best.leads)
+        ends = replace(best, first=0, last=1, amount=to_size(best.first, best.amount), leads=leads)
+        found.add(term, ends, np.array([span.begin, span.end]))
 
 
 def _refined(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.judge.diagnosis import Doubt, Finding, Standing
+from diagnosis.judge.diagnosis import ChannelFit, Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
 MEASURED = ("measurement", "input")
@@ -24,6 +24,8 @@ _CLEARED = "the fault has to be cleared"
 _WAITS = "first"
 #: Kinds of doubts that are about a stretch of one sensor or input and not about the whole recording.
 OF_A_STRETCH = ("sensor", "input", "range")
+#: Chi-square per reading of every channel up to which a model meets a recording: its clock is not another one then.
+MET = 1.5
 #: Kind of doubt about a recording that the scenario misses while it meets the others, and kinds about its times.
 ODD, OF_TIMES = "odd one out", ("clock", "dead time")
 
@@ -126,6 +128,19 @@ def without_explained_starts(doubts: Sequence[Doubt], findings: Sequence[Finding
     """Doubts without starts that an accepted law of their sensor explains: there is nothing to state then."""
     sensors = [f for f in findings if f.is_accepted and f.unit in MEASURED]
     return tuple(d for d in doubts if d.kind != "start" or not any(is_explained(d, f) for f in sensors))
+
+
+def without_times_that_fit(doubts: Sequence[Doubt], fits: Sequence[ChannelFit]) -> tuple[Doubt, ...]:
+    """Doubts without late responses of recordings that the final model meets within noise, no time of which was moved.
+
+    The check compares with the scenario as it is: numbers that are off turn the phase of what swings, as a clock does.
+
+    Args:
+        doubts: About all recordings.
+        fits: How well every channel of every recording is met.
+    """
+    met = {f.recording for f in fits} - {f.recording for f in fits if not f.chi_square["after"] <= MET}
+    return tuple(d for d in doubts if d.is_serious or d.is_far or d.kind not in OF_TIMES or d.recording not in met)
 
 
 def is_explained(doubt: Doubt, finding: Finding) -> bool:

@@ -80,7 +80,9 @@ def offset_in(count, first, last, size):
     projection = Projection(fit)
     projection.noise(100, 0)
     used = np.ones(count, dtype=bool)
-    readings = Readings(0, 0, "T", "K", slice(0, count), np.arange(count + 1.0), residuals, 1.0, used, 0.0)
+    readings = Readings(
+        0, 0, "T", "K", slice(0, count), np.arange(count + 1.0), residuals, 1.0, used, 0.0, np.arange(count) + 0.5
+    )
     term = fault_term(OFFSET, "T", readings.offset(), readings.span, 0)
     scoring = scan.sensor_scores(fit, projection, lambda rows, own: rows, [(readings, [term])])
     assert len(scoring.ranked) == 1
