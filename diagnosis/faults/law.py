@@ -156,6 +156,8 @@ HELD = FaultLaw(
 OF_INPUTS = (INPUT, UNSTATED, HELD)
 #: Faults whose course a law of the rig may have as well: what an input does, what comes slowly, and what comes late.
 AS_A_LAW = (*OF_INPUTS, DRIFT, SLOWER, LATE)
+#: Faults that may last for a whole recording: what they do there is no bias, and other recordings are without it.
+LASTING = (DRIFT, SLOWER, LATE)
 #: Faults that change when something is read, and not what.
 OF_TIME = (SLOWER, LATE)
 #: Strength of an input that stayed.

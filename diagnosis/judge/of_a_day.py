@@ -10,13 +10,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.judge.unfitted import raw_residuals, readings_of
+from cosim.unit.protocol import AnyArray
+from diagnosis.faults.law import LASTING
+from diagnosis.judge.unfitted import Readings, raw_residuals, readings_of
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term
 
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
 #: that are normally distributed one in 370 is larger.
 STANDS_OUT = 3.0
+_LASTING = {law.identifier for law in LASTING}
 
 
 def is_shown_there_alone(
@@ -44,12 +47,20 @@ def is_shown_there_alone(
     return not judge.is_moved_by(term, values)
 
 
+def _elsewhere(readings: Readings, number: int) -> AnyArray:
+    """Readings of the same channel in other recordings."""
+    name = readings.channels[number].name
+    same = [n for n, one in enumerate(readings.channels) if one.name == name and n != number]
+    return np.asarray(np.isin(readings.channel, same))
+
+
 def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     """Why a fault with begin and end does not stand out from what the model leaves elsewhere; empty if it does.
 
     A box within a recording fills any gap of a wrong model. So a fault has to change a channel by at least `STANDS_OUT`
     times the root mean square of what is left of that channel outside its interval. Of an input, which several channels
-    show, the one in which it stands out most counts.
+    show, the one in which it stands out most counts. A drift, a lag or a clock may last for the whole recording; it is
+    compared with what is left of the channel in other recordings then.
 
     Args:
         model: Model of the training recordings.
@@ -69,6 +80,8 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     for number, recording in enumerate(readings.of_channel):
         own = readings.channel == number
         outside = own & ((time < begin) | (time > end)) & ~readings.is_wild
+        if term.identifier in _LASTING and not outside.any():
+            outside = _elsewhere(readings, number) & ~readings.is_wild
         if recording != term.recording or not change[own].any() or not outside.any():
             continue
         is_whole = False
