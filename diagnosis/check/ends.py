@@ -26,6 +26,8 @@ MET = 0.95
 #: Share of the readings at an end where the simulation has to be beyond it, and of readings where it is far beyond that
 #: have to be at the end.
 BOTH = 0.8
+#: Share of an end by which the other end of a symmetric range may be nearer to zero, or farther.
+SYMMETRIC = 1e-3
 
 
 @dataclass(frozen=True)
@@ -64,17 +66,27 @@ def ends_of(channel: Channel) -> Iterator[End]:
 
 
 def range_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
-    """Doubts about the range of a channel's sensor; serious where the simulation goes on beyond its end."""
+    """Doubts about the range of a channel's sensor.
+
+    Serious where the simulation goes on beyond its end, and of the other end of a symmetric range where it does so
+    beyond one of them.
+    """
     channel = beside.channel
     found, ends = [], list(ends_of(channel))
     free = ~np.any([np.zeros(len(channel.values), dtype=bool), *(end.held for end in ends)], axis=0)
-    for end in ends:
+    beyond = [_beyond(beside, end, free) for end in ends]
+    for end, far in zip(ends, beyond):
         name, key = ("largest", "maximum") if end.is_upper else ("smallest", "minimum")
         shown = compared.units.text(end.value, channel.unit, is_difference=False)
         repeated = f"{end.count} of {len(channel.values)} readings repeat its {name} value, {shown}"
         there = f"{repeated}, while it scatters elsewhere"
-        far = _beyond(beside, end, free)
-        if far is None:
+        # a range that ends at a value ends at its opposite too, if readings repeat that
+        opposite = [e for e, f in zip(ends, beyond) if f is not None and e.is_upper != end.is_upper]
+        is_opposite = any(abs(e.value + end.value) < SYMMETRIC * abs(end.value) for e in opposite)
+        if far is None and is_opposite:
+            text = f"{there}, as far from zero as the other end of the range: the sensor's range ends there too"
+            remedy = f"state `{key}`; here such readings count as what lies there or beyond"
+        elif far is None:
             text = f"{there}: the sensor's range may end there"
             remedy = f"if it does, state `{key}`: such readings then count as what lies there or beyond"
         else:
@@ -92,7 +104,7 @@ def range_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
                 "range",
                 text,
                 remedy,
-                far is not None,
+                far is not None or is_opposite,
                 float(times[0]),
                 float(times[-1]),
                 float(end.count),

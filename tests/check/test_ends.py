@@ -11,6 +11,7 @@ import pytest
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
+from diagnosis.check import ends
 from diagnosis.check.check import check_recordings
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
@@ -53,6 +54,18 @@ def test_a_range_that_ends_before_the_rig_does_is_told(
 def test_both_ends_are_told(tmp_path: Path) -> None:
     told = _ends(tmp_path, _changed(tmp_path, lambda x: np.clip(x, -END, END)))
     assert [d.is_serious for d in told] == [True, True]
+
+
+@pytest.mark.parametrize(("lower", "is_serious"), [(-END, True), (-0.9 * END, False)])
+def test_a_range_ends_at_the_opposite_of_its_other_end(
+    lower: float, is_serious: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever the simulation says of the lower end: numbers that are off make it come late."""
+    monkeypatch.setattr(ends, "_beyond", lambda beside, end, free: 0.05 if end.is_upper else None)
+    told = _ends(tmp_path, _changed(tmp_path, lambda x: np.clip(x, lower, END)))
+    assert {d.is_serious for d in told if "smallest" in d.statement} == {is_serious}
+    assert {d.is_serious for d in told if "largest" in d.statement} == {True}
+    assert any("as far from zero as the other end" in d.statement for d in told) == is_serious
 
 
 def test_such_readings_are_left_out_and_the_fault_is_the_verdict(tmp_path: Path) -> None:
