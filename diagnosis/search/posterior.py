@@ -18,7 +18,11 @@ def huber_weights(residuals: Array) -> Array:
 
 def cost(residuals: Array, base: Array, widths: Array | float = 1.0) -> float:
     """-2 log posterior: Huber's function of the residuals and the squares of the prior's z, up to a constant."""
+    return float(np.sum(costs_of_readings(residuals))) + float(np.sum((base / widths) ** 2))
+
+
+def costs_of_readings(residuals: Array) -> Array:
+    """Huber's function of each residual, which sums to the part of -2 log posterior that is not the prior's."""
     size = np.abs(residuals)
     near = np.minimum(size, HUBER)  # the square of what lies farther is not needed, and may be too large
-    prior = float(np.sum((base / widths) ** 2))
-    return float(np.sum(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, near**2)) + prior)
+    return np.asarray(np.where(size > HUBER, 2 * HUBER * size - HUBER**2, near**2))

@@ -15,6 +15,7 @@ from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, pairs, polished
 from diagnosis.search.nulls import calibrated
+from diagnosis.search.posterior import costs_of_readings
 from diagnosis.search.problem import Model, Parameter, Point, Term
 from diagnosis.search.score import Score, Scoring
 from diagnosis.search.structure import Structure, structure
@@ -30,6 +31,8 @@ MOST_FAULTS = 3
 LEAST_SHARE = 0.1
 #: Share of the best's gain from which the best of names alone is gone on from too.
 NAMED = 0.8
+#: Readings by which no term is told: a wild one may have another beside it.
+FEW = 2
 
 
 @dataclass(frozen=True)
@@ -259,15 +262,25 @@ def _gone_on_from(
     return [*kept, *([named] if all(e is not named for e in kept) else [])], named
 
 
+def _of_few(without: Fit, fit: Fit) -> float:
+    """What the few readings gain that gain most by a term."""
+    gains = costs_of_readings(without.residuals) - costs_of_readings(fit.residuals)
+    return float(np.sum(np.maximum(np.sort(gains)[-FEW:], 0.0)))
+
+
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
-    """Take away terms whose absence costs less than the margin, the least needed first."""
+    """Take away terms whose absence costs less than the margin, the least needed first.
+
+    The `FEW` readings that a term explains best do not count: what acts on no more of them follows wild readings, which
+    Huber's function makes small and not nothing.
+    """
     while True:
         without = {
             t: fit(model, explanation.fit.point.without(t), near=explanation.fit)
             for t in counted(explanation.terms, "effects left out in turn")
         }
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
-        worth = {t: gain - t.price for t, gain in gains.items()}
+        worth = {t: gain - t.price - _of_few(without[t], explanation.fit) for t, gain in gains.items()}
         if not worth or min(worth.values()) > margin:
             return replace(explanation, gains=gains, without=without)
         point = without[min(worth, key=lambda t: worth[t])].point

@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cosim.unit.protocol import Array
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Alike, Layout, Parameter, Point
+from diagnosis.search.problem import Alike, Layout, Parameter, Point, Term
 from diagnosis.search.score import Projection, score
-from diagnosis.search.search import Settings, recalibrate, search, spread
+from diagnosis.search.search import Explanation, Settings, recalibrate, search, shrink, spread
 from diagnosis.search.structure import structure
 from diagnosis.search.switches import is_strained, switch_scores
 from tests.search.line_model import BEND, LID, STEP, TERMS, TIME, WAVE, LineModel
@@ -138,3 +139,27 @@ def test_a_switch_is_found_from_the_nominal_point_where_the_base_was_pulled_away
 def test_switches_are_left_to_straight_lines_where_the_base_holds():
     model = LineModel(LINE)
     assert switch_scores(model, recalibrate(model), TERMS) == []
+
+
+class Spiked(LineModel):
+    """With a term that moves three readings in the middle, or fewer."""
+
+    def __init__(self, off: int) -> None:
+        super().__init__(LINE)
+        self.measured[200 : 200 + off] += 3.0
+
+    def signal(self, point: Point) -> Array:
+        found = super().signal(point)
+        found[200:203] += point.terms.get(BLOCK, (0.0,))[0]
+        return found
+
+
+BLOCK = replace(BEND, identifier="block")
+
+
+@pytest.mark.parametrize(("off", "kept"), [(2, ()), (3, (BLOCK,))])
+def test_what_explains_two_readings_is_no_law(off: int, kept: tuple[Term, ...]) -> None:
+    model = Spiked(off)
+    with_it = fit(model, recalibrate(model).point.plus(BLOCK, (2.0,)))
+    assert recalibrate(model).cost - with_it.cost > 20.0  # Huber's function leaves that much of two wild readings
+    assert shrink(model, Explanation(with_it), 20.0).terms == kept
