@@ -56,6 +56,8 @@ class Role(Enum):
     OUTPUT = "output"
     #: An output y of an FMU that hides its states, over an input or output o.
     RESPONSE = "output over an input or output"
+    #: The same, over any but itself.
+    RESPONSE_TO_ANOTHER = "output over an input or another output"
 
 
 @dataclass(frozen=True)

@@ -194,6 +194,14 @@ def _corrections() -> list[Law]:
         )
         found.append(replace(law, series_of=("y",)))
     for name, (formula, power) in {"linear": ("o", "o"), "squared": ("o ** 2", "o**2")}.items():
+        static = _law(
+            f"response_{name}",
+            "law of another quantity at an output",
+            Role.RESPONSE_TO_ANOTHER,
+            f"a * {formula}",
+            f"y/({power})",
+        )
+        found.append(static if name == "linear" else replace(static, series_of=("o",)))
         strength = Number("a", f"y/({power})", "strength", (0.05, -0.05), 1000.0, None)
         state = OwnState("correction", f"(a * {formula} - correction) / settling_time", f"a * {formula}", "y")
         found.append(

@@ -173,8 +173,9 @@ connections:
             (PlacedState("extra", "(gain * level - extra) / settling", "gain * level", "m^3/s"),),
         ),
         Placed("upper", "level", "bend * level * level", (("bend", "1/m"),)),
+        Placed("upper", "level", "share * outflow", (("share", "s/m^2"),)),
     ]
-    values = [(0.004, 8.0), (0.1,)]
+    values = [(0.004, 8.0), (0.1,), (0.5,)]
     system = FastSystem(scenario, laws)
     system.set_substeps(2)
     before = _course(system, ("lower", "level"))

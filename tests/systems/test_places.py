@@ -101,6 +101,8 @@ def test_an_fmu_that_hides_its_states_has_laws_at_its_inputs_and_outputs_alone(f
     assert "port_hidden_state_of_speed" in at_input
     at_output = {name for name, to in found if to == "position"}
     assert {"output_offset", "correction_state_linear_of_u", "correction_state_squared_of_position"} <= at_output
+    assert {"response_linear_of_u", "response_linear_of_speed", "response_squared_of_speed"} <= at_output
+    assert not {n for n in at_output if n.startswith("response_") and n.endswith("_of_position")}  # a gain is its own
     system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
     (said,) = places_of([system])[0].untried
     assert "hides its states: laws were tried at its input `u` and at its outputs `position`, `speed` alone" in said

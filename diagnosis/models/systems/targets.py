@@ -19,6 +19,16 @@ _LENGTHS = ("m", "rad", "m^3", "Pa")
 HARDLY = 0.05
 #: Roles of laws that drive an exchange.
 MODULATED = (Role.MODULATED, Role.MODULATED_BY_INPUT)
+#: Roles at inputs and outputs.
+AT_PORTS = (
+    Role.READING,
+    Role.INPUT,
+    Role.STARTED_INPUT,
+    Role.PORT,
+    Role.OUTPUT,
+    Role.RESPONSE,
+    Role.RESPONSE_TO_ANOTHER,
+)
 #: `added_terms` target, its quantity, and symbol to quantity.
 Target = tuple[str, Quantity, dict[str, Quantity]]
 
@@ -36,7 +46,7 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
             yield from ((target, q, {"v": symbols["v"], "o": load}) for load in own.inputs.values() if _is_load(load))
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
         yield from _coupled(own, role, free)
-    elif role in (Role.READING, Role.INPUT, Role.STARTED_INPUT, Role.PORT, Role.OUTPUT, Role.RESPONSE):
+    elif role in AT_PORTS:
         yield from _at_ports(own, role)
     elif role in MODULATED:
         yield from _modulated(own, role, free)
@@ -90,9 +100,9 @@ def _at_ports(own: Places, role: Role) -> Iterator[Target]:
             yield from ((name, q, {"u": q, "o": other}) for other in own.outputs.values())
     elif role is Role.OUTPUT:
         yield from ((name, q, {"y": q}) for name, q in own.outputs.items())
-    elif role is Role.RESPONSE:
+    elif role in (Role.RESPONSE, Role.RESPONSE_TO_ANOTHER):
         for name, q in own.outputs.items():
-            ports = (*own.inputs.values(), *own.outputs.values())
+            ports = [p for p in (*own.inputs.values(), *own.outputs.values()) if role is Role.RESPONSE or p is not q]
             yield from ((name, q, {"y": q, "o": other}) for other in ports)
 
 
