@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FrameType
@@ -47,6 +47,31 @@ def deferred_interrupt() -> Iterator[Interrupt]:
     signal.signal(signal.SIGINT, note)
     try:
         yield interrupt
+    finally:
+        signal.signal(signal.SIGINT, previous)
+
+
+@contextmanager
+def first_interrupt(ask: Callable[[], bool]) -> Iterator[None]:
+    """Ask what a SIGINT may do: one that is taken (True) does no more, and the next one acts at once.
+
+    Outside the main thread, or where a program has its own handler, nothing is changed.
+    """
+    previous = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or previous is not signal.default_int_handler:
+        yield
+        return
+    is_taken = False
+
+    def note(number: int, frame: FrameType | None) -> None:
+        nonlocal is_taken
+        if is_taken or not ask():
+            signal.default_int_handler(number, frame)
+        is_taken = True
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield
     finally:
         signal.signal(signal.SIGINT, previous)
 

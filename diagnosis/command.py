@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cosim.alone import alone
+from cosim.interrupt import first_interrupt
 from cosim.loading import load_scenario
 from cosim.run_folder import refuse_unwritable, writing
 from cosim.unit.errors import InputError
@@ -18,6 +19,7 @@ from cosim.unit.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from cosim.compute.steps import Steps
     from cosim.scenario import Scenario
     from diagnosis.diagnose import Result
     from diagnosis.judge.diagnosis import Diagnosis
@@ -111,7 +113,8 @@ def diagnose(
             )
             gc.freeze()  # modules and recordings stay to the end: they need not be looked through again and again
             with watched(Steps(display.stage, most=parse_time(stop_after))) as steps:
-                found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
+                with first_interrupt(lambda: _is_stopped(steps)):
+                    found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
                 steps("writing" if brief else "writing the amended model and the report")
                 try:
                     diagnosis = _brief(found, out) if brief else _whole(found, base, training, judges, out)
@@ -129,6 +132,15 @@ def diagnose(
     print_summary(diagnosis, Console(), "diagnosis.json" if brief else "report.html")
     if not brief:
         print(out / "report.html")
+
+
+def _is_stopped(steps: Steps) -> bool:
+    """Whether a search goes on to its answer with what it has; says so."""
+    if not steps.stop():
+        return False
+    # not by Rich: its lock may be held where the signal came
+    os.write(2, b"\nstopping: what was found is judged, which takes a little; Ctrl-C again gives it up\n")
+    return True
 
 
 def _brief(found: Result, out: Path) -> Diagnosis:

@@ -81,7 +81,17 @@ class Steps:
     @property
     def has_end(self) -> bool:
         """Whether a time was given after which what may be left out is left out."""
-        return math.isfinite(self._end)
+        return self._end < math.inf
+
+    def stop(self) -> bool:
+        """Leave out what may be left out from now on.
+
+        Returns:
+            Whether something is being done that may be left out; else nothing is changed.
+        """
+        if self.optional:
+            self._end = -math.inf
+        return self.optional > 0
 
     def __call__(self, stage: str) -> None:
         """Another stage begins; within a count it stays what it is."""

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 from circuit.unit import CircuitUnit
-from cosim.interrupt import deferred_interrupt
+from cosim.interrupt import deferred_interrupt, first_interrupt
 from cosim.run import Progress, RunStopped, run
 from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import load_scenario
@@ -131,6 +131,19 @@ def test_a_second_interrupt_acts_at_once():
         assert interrupt.is_requested
         with pytest.raises(KeyboardInterrupt):
             os.kill(os.getpid(), signal.SIGINT)
+
+
+def test_an_interrupt_that_is_taken_does_no_more_and_the_next_one_acts_at_once():
+    before = signal.getsignal(signal.SIGINT)
+    asked = []
+    with first_interrupt(lambda: asked.append(1) or True):
+        os.kill(os.getpid(), signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+    assert asked == [1]
+    with first_interrupt(lambda: False), pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_a_run_in_another_thread_leaves_the_signals_alone():

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import itertools
+import os
+import signal
 from pathlib import Path
 
 import pytest
 
 from cosim.compute.steps import Steps, TimeIsOver, counted, may_be_left, was_left, watched
+from cosim.interrupt import first_interrupt
 from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
+from diagnosis.command import _is_stopped
 from diagnosis.diagnose import _TIME_IS_OVER, Options, diagnose
 from diagnosis.experiment.limits import parse_time
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
@@ -17,6 +21,8 @@ from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from tests.diagnosis.test_pendulum_batch import made
 from tests.systems.rigs import oscillator, oscillator_recordings
+
+SETTINGS = Settings(nulls=1)
 
 
 def test_only_what_may_be_left_is_left_once_the_time_is_over() -> None:
@@ -58,12 +64,43 @@ def test_a_diagnosis_without_any_time_answers_by_its_first_effect_and_says_that_
     stages: list[str] = []
     found = answer(tmp_path, 0.0, stages)
     assert _TIME_IS_OVER in found.searched.untried
-    assert found.notes[-1].startswith("The time that `--stop-after` gives was over: ")
+    assert found.notes[-1].startswith("Stopped by `--stop-after` or Ctrl-C: ")
     assert found.verdict in (Verdict.CANNOT_TELL, Verdict.UNNAMED_PHYSICS, Verdict.MISSING_PHYSICS)
     assert found.adequacy is not None
     assert found.adequacy.chi_square["after"] <= found.adequacy.chi_square["recalibrated"]
     assert any(s.startswith("looking for a first effect") for s in stages)
     assert not any(s.startswith(("searching again", "looking for a third effect")) for s in stages), stages
+
+
+def test_what_may_not_be_left_is_not_stopped() -> None:
+    with watched(Steps(lambda text: None)) as steps:
+        assert not steps.stop()
+        assert list(counted([1, 2], "needed")) == [1, 2]
+        with may_be_left():
+            assert steps.stop()
+        with pytest.raises(TimeIsOver), may_be_left():
+            list(counted([3, 4], "optional"))
+        assert was_left()
+
+
+def test_an_interrupted_search_answers_with_what_it_has(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    oscillator(tmp_path)
+    every = oscillator_recordings(tmp_path, lambda x, v: -60.0 * x / (0.02 + abs(x)) ** 0.5, (0.4, 0.5, 0.45))
+    read = [load_recording(r) for r in every]
+    told: list[str] = []
+
+    def shown(text: str) -> None:
+        if text.startswith("looking for a second effect: ") and not any("second effect: " in t for t in told):
+            os.kill(os.getpid(), signal.SIGINT)
+        told.append(text)
+
+    with watched(Steps(shown)) as steps, first_interrupt(lambda: _is_stopped(steps)):
+        options = Options(is_brief=True)
+        found = diagnose(load_scenario(tmp_path / "scenario.yaml"), read[:2], read[2:], SETTINGS, steps, options)
+    assert _TIME_IS_OVER in found.diagnosis.searched.untried
+    assert found.diagnosis.adequacy is not None
+    assert not any(t.startswith("looking for a third effect") for t in told)
+    assert "Ctrl-C again gives it up" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("text", ["0 s", "-1 min", "soon", "3 m", "10"])
