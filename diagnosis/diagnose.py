@@ -203,7 +203,7 @@ def diagnose(
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
     found = within_rows(found, scenario, training)
-    doubts = without_times_that_fit(without_explained_starts(doubts, found), fits)
+    doubts = without_times_that_fit(without_explained_starts(doubts, found), fits, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     if was_left():
         tried = replace(tried, untried=(*tried.untried, _TIME_IS_OVER))

@@ -130,17 +130,29 @@ def without_explained_starts(doubts: Sequence[Doubt], findings: Sequence[Finding
     return tuple(d for d in doubts if d.kind != "start" or not any(is_explained(d, f) for f in sensors))
 
 
-def without_times_that_fit(doubts: Sequence[Doubt], fits: Sequence[ChannelFit]) -> tuple[Doubt, ...]:
-    """Doubts without late responses of recordings that the final model meets within noise, no time of which was moved.
+def without_times_that_fit(
+    doubts: Sequence[Doubt], fits: Sequence[ChannelFit], findings: Sequence[Finding]
+) -> tuple[Doubt, ...]:
+    """Doubts without late responses of recordings that the final model meets within noise, in which no finding acts.
 
     The check compares with the scenario as it is: numbers that are off turn the phase of what swings, as a clock does.
+    A law that was found may be what comes late.
 
     Args:
         doubts: About all recordings.
         fits: How well every channel of every recording is met.
+        findings: Of the search.
     """
-    met = {f.recording for f in fits} - {f.recording for f in fits if not f.chi_square["after"] <= MET}
+    accepted = [f for f in findings if f.is_accepted]
+    acting = {r for r in (f.recording for f in fits) if any(_acts_in(r, f) for f in accepted)}
+    missed = {f.recording for f in fits if not f.chi_square["after"] <= MET}
+    met = {f.recording for f in fits} - missed - acting
     return tuple(d for d in doubts if d.is_serious or d.is_far or d.kind not in OF_TIMES or d.recording not in met)
+
+
+def _acts_in(recording: str, finding: Finding) -> bool:
+    """Whether a finding does anything in a recording: a fault with begin and end does in its own alone."""
+    return not is_of_an_interval(finding) or finding.recording == recording
 
 
 def is_explained(doubt: Doubt, finding: Finding) -> bool:

@@ -93,7 +93,9 @@ def test_a_recording_holds_its_conditions_whatever_the_scenario_says_later(tmp_p
     assert again.components["room"] == original.components["room"]
     assert again.components["heater"].parameters["initial_temperature"].to("degC") == 31.0
     assert (again.time.start.to("s"), again.time.stop.to("s")) == (2.0, 12.0)
-    np.testing.assert_array_equal(run(again)["heater.temperature"].values, run(original)["heater.temperature"].values)
+    first = run(original)["heater.temperature"]
+    # outputs are recorded as often as channels were read: the shared ones are the same
+    np.testing.assert_array_equal(run(again)["heater.temperature"].sel(time=first.time).values, first.values)
 
 
 @pytest.mark.parametrize(
@@ -113,9 +115,10 @@ def test_a_start_that_the_scenario_does_not_state_is_recorded_too(tmp_path, text
     else:
         first = recording.channels["coil[1].temperature"].values[0]
         assert PhysicalValue.parse(parameters["initial_temperature"]).to("K") == pytest.approx(first, abs=1e-9)
+    given = next(iter(run(parse_scenario(text, file)).values()))
     np.testing.assert_array_equal(
-        next(iter(run(scenario_of(parse_scenario(text, file), recording)).values())).values,
-        next(iter(run(parse_scenario(text, file)).values())).values,
+        next(iter(run(scenario_of(parse_scenario(text, file), recording)).values())).sel(time=given.time).values,
+        given.values,
     )
 
 

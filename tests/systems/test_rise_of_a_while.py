@@ -82,7 +82,8 @@ def test_a_sensor_that_shows_one_value_has_no_share_of_a_rise(rig: tuple[Path, l
     inputs, channels = {"drive.power": ("P", "W")}, {"lump.temperature": ("T", "K", "0.1 K")}
     still = load_recording(write_recording(tmp_path / "still", columns, inputs, channels))
     model = with_faults(ClosedLoopModel(load_scenario(str(rig[0] / "scenario.yaml")), [still]))
-    assert {t.identifier for t in model.sensor_terms} == {"sensor_offset_in_interval", "sensor_stuck_in_interval"}
+    kinds = {"sensor_offset_in_interval", "sensor_drift_in_interval", "sensor_stuck_in_interval"}
+    assert {t.identifier for t in model.sensor_terms} == kinds
 
 
 def test_a_gain_of_one_recording_that_is_a_factor_between_units_asks_for_the_unit() -> None:
