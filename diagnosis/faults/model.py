@@ -50,9 +50,9 @@ _ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
 }
 #: What derivatives of the plain residuals become under each fault that changes them.
 _SEEN: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
-    SCALED.identifier: lambda r, rows, gain, begin, end: rows * (1.0 + gain * r.box(begin, end)),
-    RISE.identifier: lambda r, rows, gain, begin, end: rows * (1.0 + gain * r.box(begin, end)),
-    STUCK.identifier: lambda r, rows, share, begin, end: rows * (1.0 - share * r.box(begin, end)),
+    SCALED.identifier: Readings.scaled,
+    RISE.identifier: Readings.scaled,
+    STUCK.identifier: lambda readings, rows, share, begin, end: readings.scaled(rows, -share, begin, end),
     SLOWER.identifier: Readings.slower,
     LATE.identifier: Readings.shifted,
 }

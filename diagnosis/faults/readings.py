@@ -100,6 +100,10 @@ class Readings:
         read = self.measured / self.deviation
         return np.asarray(read - self.shifted(read - plain, offset, begin, end))
 
+    def scaled(self, rows: Array, gain: float, begin: float, end: float) -> Array:
+        """Rows of values at the samples, larger by a share within an interval."""
+        return np.asarray(rows * (1.0 + gain * self.box(begin, end)))
+
     def slower(self, rows: Array, lag: float, begin: float, end: float) -> Array:
         """Rows of values at the samples behind a first-order lag [s] from begin to end, settled at its begin.
 
