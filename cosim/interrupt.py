@@ -34,42 +34,40 @@ def deferred_interrupt() -> Iterator[Interrupt]:
     failure of the unit. Outside the main thread, or where a program has its own handler, nothing is changed.
     """
     interrupt = Interrupt()
-    previous = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or previous is not signal.default_int_handler:
-        yield interrupt
-        return
 
-    def note(number: int, frame: FrameType | None) -> None:
-        if interrupt.is_requested:
-            signal.default_int_handler(number, frame)
+    def note() -> bool:
         interrupt.is_requested = True
+        return True
 
-    signal.signal(signal.SIGINT, note)
-    try:
+    with first_interrupt(note):
         yield interrupt
-    finally:
-        signal.signal(signal.SIGINT, previous)
+
+
+class _Asking:
+    """Handler of SIGINT that asks first, once it was taken no more."""
+
+    def __init__(self, ask: Callable[[], bool]) -> None:
+        self._ask, self._is_taken = ask, False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        if self._is_taken or not self._ask():
+            signal.default_int_handler(number, frame)
+        self._is_taken = True
 
 
 @contextmanager
 def first_interrupt(ask: Callable[[], bool]) -> Iterator[None]:
     """Ask what a SIGINT may do: one that is taken (True) does no more, and the next one acts at once.
 
-    Outside the main thread, or where a program has its own handler, nothing is changed.
+    Outside the main thread, or where a program has its own handler, nothing is changed. Within each other the innermost
+    is asked: a run within a search still ends between two macro-steps.
     """
     previous = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or previous is not signal.default_int_handler:
+    is_own = previous is signal.default_int_handler or isinstance(previous, _Asking)
+    if threading.current_thread() is not threading.main_thread() or not is_own:
         yield
         return
-    is_taken = False
-
-    def note(number: int, frame: FrameType | None) -> None:
-        nonlocal is_taken
-        if is_taken or not ask():
-            signal.default_int_handler(number, frame)
-        is_taken = True
-
-    signal.signal(signal.SIGINT, note)
+    signal.signal(signal.SIGINT, _Asking(ask))
     try:
         yield
     finally:

@@ -165,6 +165,11 @@ def _best(
     return Best(found[0][0], found[0][1], float(best[0]), found[0][2], best[1:], tuple(found[1:]), len(first))
 
 
+def cuts_of(count: int, pieces: int) -> AnyArray:
+    """Numbers of the samples at which pieces begin, and `count`: at most so many pieces, each of a sample at least."""
+    return np.unique(np.linspace(0, count, min(pieces, count) + 1).astype(int))
+
+
 def _blocks(matrix: Array, first: AnyArray, last: AnyArray) -> Array:
     """Sums of matrix[first:last, first:last]."""
     size = len(matrix) + 1
@@ -199,7 +204,7 @@ def best_constant(
     level = readings - np.average(readings, weights=weight)  # the variance of large numbers would be rounding
     size = np.abs(residuals)
     misfit = np.where(size > HUBER, 2.0 * HUBER * size - HUBER**2, size**2)
-    cuts = np.unique(np.linspace(0, len(residuals), min(pieces, len(residuals)) + 1).astype(int))
+    cuts = cuts_of(len(residuals), pieces)
     first, last = np.triu_indices(len(cuts), 1)
     sums = [
         np.concatenate([[0.0], np.cumsum(v * weight)])[cuts]

@@ -250,6 +250,11 @@ def zero_stretches(edges: Array, zero: np.ndarray[tuple[int, ...], np.dtype[np.b
     return sorted(s for s in longest if s[0] < s[1])
 
 
+def is_one_of(identifier: str, laws: Sequence[FaultLaw]) -> bool:
+    """Whether an identifier is that of one of some faults."""
+    return any(law.identifier == identifier for law in laws)
+
+
 @dataclass(frozen=True)
 class Span:
     """When a fault may be.

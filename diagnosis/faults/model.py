@@ -29,7 +29,7 @@ from diagnosis.faults.law import (
     lag_time,
     sensor_gain,
 )
-from diagnosis.faults.readings import Readings, readings_of
+from diagnosis.faults.readings import ACTS, Readings, readings_of
 from diagnosis.faults.scan import held_scores, input_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
@@ -38,16 +38,6 @@ from diagnosis.search.problem import Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import Projection, Scoring
 from diagnosis.search.structure import structure
 
-#: What the readings of a sensor do under each fault.
-_ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
-    OFFSET.identifier: Readings.with_offset,
-    DRIFT.identifier: Readings.with_drift,
-    SCALED.identifier: Readings.with_gain,
-    RISE.identifier: Readings.with_gain,
-    STUCK.identifier: Readings.with_held,
-    SLOWER.identifier: Readings.with_lag,
-    LATE.identifier: Readings.with_shift,
-}
 #: What derivatives of the plain residuals become under each fault that changes them.
 _SEEN: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     SCALED.identifier: Readings.scaled,
@@ -264,7 +254,7 @@ def _of_time(readings: Readings) -> list[tuple[FaultLaw, TermParameter]]:
 def _acted(readings: Readings, plain: Array, faults: Sequence[tuple[Term, tuple[float, ...]]]) -> Array:
     """Plain residuals of a channel with its faults."""
     for term, (strength, begin, end) in faults:
-        plain = _ACTS[term.identifier](readings, plain, strength, begin, end)
+        plain = ACTS[term.identifier](readings, plain, strength, begin, end)
     return plain
 
 

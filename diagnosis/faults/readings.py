@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_banded
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.law import FEWEST, WIDE, Span
+from diagnosis.faults.law import DRIFT, FEWEST, LATE, OFFSET, RISE, SCALED, SLOWER, STUCK, WIDE, Span
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import TermParameter
@@ -178,6 +178,18 @@ class Readings:
             negligible=self.deviation,
             meaning=meaning,
         )
+
+
+#: What the readings of a sensor do under each fault.
+ACTS: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
+    OFFSET.identifier: Readings.with_offset,
+    DRIFT.identifier: Readings.with_drift,
+    SCALED.identifier: Readings.with_gain,
+    RISE.identifier: Readings.with_gain,
+    STUCK.identifier: Readings.with_held,
+    SLOWER.identifier: Readings.with_lag,
+    LATE.identifier: Readings.with_shift,
+}
 
 
 def readings_of(model: DiagnosisModel) -> list[Readings]:

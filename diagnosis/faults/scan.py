@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp, best_single
-from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OF_TIME, OFFSET, SLOWER, STUCK
-from diagnosis.faults.readings import Readings
+from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp, best_single, cuts_of
+from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OF_TIME, OFFSET, STUCK, is_one_of
+from diagnosis.faults.readings import ACTS, Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
@@ -83,7 +83,7 @@ def sensor_scores(
                 _stuck(found, base, scaled, readings, term)
             elif term.identifier == DRIFT.identifier:
                 _ramp(found, projection, scaled, readings, term)
-            elif term.identifier in {law.identifier for law in OF_TIME}:
+            elif is_one_of(term.identifier, OF_TIME):
                 _late(found, base, projection, scaled, readings, term)
             else:
                 _box(found, projection, scaled, readings, term, _unit(base, readings, term))
@@ -102,7 +102,7 @@ def _box(
 ) -> None:
     """Score an offset or a gain, which adds a multiple of `unit` within its interval."""
     count = len(readings.measured)
-    cuts = np.unique(np.linspace(0, count, min(PIECES, count) + 1).astype(int))
+    cuts = cuts_of(count, PIECES)
     bounds = (term.parameters[0].lower, term.parameters[0].upper)
     best = best_interval(_directions(projection, scaled, readings, cuts, unit), FEWEST, bounds)
     if best is None:
@@ -119,7 +119,7 @@ def _box(
 def _ramp(found: _Collected, projection: Projection, scaled: Scaled, readings: Readings, term: Term) -> None:
     """Score a drift, between the pieces of a channel; begin and end are moved by samples once it is fitted."""
     count = len(readings.measured)
-    cuts = np.unique(np.linspace(0, count, min(PIECES, count) + 1).astype(int))
+    cuts = cuts_of(count, PIECES)
     edges = readings.edges[cuts]
     whole = -readings.ramp(float(edges[0]), float(edges[-1])) / readings.deviation
     level = np.full(count, -1.0 / readings.deviation)
@@ -135,7 +135,7 @@ def _late(found: _Collected, base: Fit, projection: Projection, scaled: Scaled, 
 
     A size that is tried is nearly right where its effect fits with about its own size.
     """
-    act = Readings.with_lag if term.identifier == SLOWER.identifier else Readings.with_shift
+    act = ACTS[term.identifier]
     plain = readings.plain(base.residuals[readings.own])
     span = readings.span
     sizes = np.array(term.parameters[0].starts)

@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.faults.law import AS_A_LAW
+from diagnosis.faults.law import AS_A_LAW, is_one_of
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.agreement import times_louder, times_white
 from diagnosis.judge.constancy import Constancy
@@ -461,8 +461,7 @@ def _finding(
         doubts = (*doubts, unknown) if unknown else doubts
     if not bears_names(accepted):
         doubts = (*doubts, _much_left(accepted))
-    is_as_a_law = term.identifier in {law.identifier for law in AS_A_LAW}
-    if is_as_a_law and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
+    if is_one_of(term.identifier, AS_A_LAW) and accepted.agreement.is_rejected and not accepted.agreement.is_irregular:
         doubts = (*doubts, _elsewhere(accepted))
     if term in accepted.strengths and not accepted.strengths[term].is_constant:
         doubts = (*doubts, _inconstant(accepted.strengths[term], told[0], accepted.basis, units))

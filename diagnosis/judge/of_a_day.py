@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit.protocol import AnyArray
-from diagnosis.faults.law import LASTING
+from diagnosis.faults.law import LASTING, is_one_of
 from diagnosis.judge.unfitted import Readings, raw_residuals, readings_of
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term
@@ -19,7 +19,6 @@ from diagnosis.search.problem import Point, Term
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
 #: that are normally distributed one in 370 is larger.
 STANDS_OUT = 3.0
-_LASTING = {law.identifier for law in LASTING}
 
 
 def is_shown_there_alone(
@@ -79,10 +78,12 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     most, worst, is_whole = 0.0, "", True
     for number, recording in enumerate(readings.of_channel):
         own = readings.channel == number
+        if recording != term.recording or not change[own].any():
+            continue
         outside = own & ((time < begin) | (time > end)) & ~readings.is_wild
-        if term.identifier in _LASTING and not outside.any():
+        if is_one_of(term.identifier, LASTING) and not outside.any():
             outside = _elsewhere(readings, number) & ~readings.is_wild
-        if recording != term.recording or not change[own].any() or not outside.any():
+        if not outside.any():
             continue
         is_whole = False
         size, rest = float(change[own].max()), float(np.sqrt(np.mean(left[outside] ** 2)))

@@ -31,7 +31,7 @@ MOST_FAULTS = 3
 LEAST_SHARE = 0.1
 #: Share of the best's gain from which the best of names alone is gone on from too.
 NAMED = 0.8
-#: Readings by which no term is told: a wild one may have another beside it.
+#: Readings that do not count for a term: a wild one may have another beside it.
 FEW = 2
 
 

@@ -63,11 +63,15 @@ def _recordings(folder: Path, stated: Sequence[int], names: Sequence[str] = tupl
 
         rng = np.random.default_rng(100 + run)
         course = held(rate, np.array([295.0, 295.0]), _power(run), STEP)
-        columns: dict[str, Array] = {"t": STEP * np.arange(COUNT), "P": _power(told)}
-        columns |= {n: course[:, i] + NOISE * rng.standard_normal(COUNT) for i, n in enumerate(CHANNELS)}
-        channels = {n: CHANNELS[n] for n in names}
-        found.append(write_recording(folder / f"run_{run}", columns, {"heater.power": ("P", "W")}, channels))
+        found.append(recorded(folder / f"run_{run}", _power(told), course, rng, names))
     return found
+
+
+def recorded(folder: Path, power: Array, course: Array, rng: np.random.Generator, names: Sequence[str]) -> Path:
+    """A recording of both temperatures, shape (COUNT, 2), with noise, or of one of them."""
+    columns: dict[str, Array] = {"t": STEP * np.arange(COUNT), "P": power}
+    columns |= {n: course[:, i] + NOISE * rng.standard_normal(COUNT) for i, n in enumerate(CHANNELS)}
+    return write_recording(folder, columns, {"heater.power": ("P", "W")}, {n: CHANNELS[n] for n in names})
 
 
 def _doubts(folder: Path, recordings: Sequence[Path]) -> list[Doubt]:

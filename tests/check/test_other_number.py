@@ -18,8 +18,7 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
-from tests.check.test_other_course import CHANNELS, COUNT, HOLD, NOISE, SCENARIO, STACK, STEP, G
-from tests.systems.rigs import write_recording
+from tests.check.test_other_course import CHANNELS, COUNT, HOLD, SCENARIO, STACK, STEP, G, recorded
 
 #: Power that the runs may take [W]: from least to largest.
 LEAST, MOST = 0.0, 40.0
@@ -50,10 +49,7 @@ def _recordings(
         course = _course(power, partial(loss, run))
         if run == 2:
             course[:, 1] = sensor(course[:, 1])
-        columns: dict[str, Array] = {"t": STEP * np.arange(COUNT), "P": power}
-        columns |= {n: course[:, i] + NOISE * rng.standard_normal(COUNT) for i, n in enumerate(CHANNELS)}
-        channels = {n: CHANNELS[n] for n in names}
-        found.append(write_recording(folder / f"run_{run}", columns, {"heater.power": ("P", "W")}, channels))
+        found.append(recorded(folder / f"run_{run}", power, course, rng, names))
     return found
 
 

@@ -146,6 +146,14 @@ def test_an_interrupt_that_is_taken_does_no_more_and_the_next_one_acts_at_once()
     assert signal.getsignal(signal.SIGINT) is before
 
 
+def test_a_run_within_a_search_is_asked_first():
+    asked = []
+    with first_interrupt(lambda: asked.append(1) or True), deferred_interrupt() as interrupt:
+        os.kill(os.getpid(), signal.SIGINT)
+    assert interrupt.is_requested
+    assert asked == []
+
+
 def test_a_run_in_another_thread_leaves_the_signals_alone():
     handlers, sizes = [], []
 
