@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from cosim.unit.protocol import Array
+from cosim.unit.protocol import AnyArray, Array
 
 #: Logarithm of the largest factor that a value is changed by: 1e43 is beyond any rig, and far from the largest number.
 MOST_FOLD = 100.0
@@ -193,12 +193,14 @@ class Layout:
         time: Its time [s], shape (residuals,).
         names: Names of the channels.
         units: Unit (electrical, ...) whose output each channel measures.
+        of_many: Whether each residual is that of a mean of many readings, shape (residuals,); None: none is.
     """
 
     channel: Array
     time: Array
     names: tuple[str, ...]
     units: tuple[str, ...]
+    of_many: AnyArray | None = None
 
 
 class Model(Protocol):

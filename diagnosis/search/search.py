@@ -262,17 +262,19 @@ def _gone_on_from(
     return [*kept, *([named] if all(e is not named for e in kept) else [])], named
 
 
-def _of_few(without: Fit, fit: Fit) -> float:
-    """What the few readings gain that gain most by a term."""
+def _of_few(model: Model, without: Fit, fit: Fit) -> float:
+    """What the few readings gain that gain most by a term, means of many aside."""
     gains = costs_of_readings(without.residuals) - costs_of_readings(fit.residuals)
+    if model.layout.of_many is not None:
+        gains = gains[~model.layout.of_many]
     return float(np.sum(np.maximum(np.sort(gains)[-FEW:], 0.0)))
 
 
 def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation:
     """Take away terms whose absence costs less than the margin, the least needed first.
 
-    The `FEW` readings that a term explains best do not count: what acts on no more of them follows wild readings, which
-    Huber's function makes small and not nothing.
+    The `FEW` readings that a term explains best do not count, means of many aside: what acts on no more of them follows
+    wild readings, which Huber's function makes small and not nothing.
     """
     while True:
         without = {
@@ -280,7 +282,7 @@ def shrink(model: Model, explanation: Explanation, margin: float) -> Explanation
             for t in counted(explanation.terms, "effects left out in turn")
         }
         gains = {t: f.cost - explanation.fit.cost for t, f in without.items()}
-        worth = {t: gain - t.price - _of_few(without[t], explanation.fit) for t, gain in gains.items()}
+        worth = {t: gain - t.price - _of_few(model, without[t], explanation.fit) for t, gain in gains.items()}
         if not worth or min(worth.values()) > margin:
             return replace(explanation, gains=gains, without=without)
         point = without[min(worth, key=lambda t: worth[t])].point

@@ -64,7 +64,8 @@ class MechanicalModel:
         if difference is not None:
             self.scatter = self.scatter + engine_covariance(difference, bins)
         self._whiten = Whitening(self.scatter, bins.noise)
-        self.layout = Layout(bins.channel, bins.time, tuple(names), ("mechanical",) * len(names))
+        many = np.ones(len(bins.time), dtype=bool)
+        self.layout = Layout(bins.channel, bins.time, tuple(names), ("mechanical",) * len(names), many)
 
     def residuals(self, points: Sequence[Point]) -> Array:
         """See `diagnosis.search.problem.Model`."""

@@ -164,6 +164,7 @@ class FabricModel(ModelBase):
             np.concatenate([first.time, own.time]),
             (*first.names, *own.names),
             (*first.units, *own.units),
+            np.arange(len(first.time) + len(own.time)) >= len(first.time),
         )
 
     @property
