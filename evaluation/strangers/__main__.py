@@ -19,6 +19,7 @@ import numpy as np
 
 from evaluation.command import run_cosim
 from evaluation.strangers import (
+    eighteenth_set,
     eighth_set,
     eleventh_set,
     fifteenth_set,
@@ -58,6 +59,7 @@ SETS = {
     "fifteenth": fifteenth_set.CASES,
     "sixteenth": sixteenth_set.CASES,
     "seventeenth": seventeenth_set.CASES,
+    "eighteenth": eighteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
