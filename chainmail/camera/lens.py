@@ -83,12 +83,14 @@ class Calibration:
         error: Root mean square distance of corners from where the lens puts them [px].
         used: Number of pictures in which the whole board was found and is sharp.
         given: Number of pictures.
+        picture: Width and height of each [px].
     """
 
     lens: Lens
     error: float
     used: int
     given: int
+    picture: tuple[int, int]
 
 
 def pictures_in(folder: Path, key: str, pattern: str = "*") -> list[Path]:
@@ -136,7 +138,7 @@ def calibrate(files: list[Path], corners: tuple[int, int], key: str) -> Calibrat
     if FEWEST_BOARDS <= len(kept) < len(boards):
         lens, error, each = _fitted(kept, corners, size)
         boards = kept
-    return Calibration(lens, error, len(boards), len(files))
+    return Calibration(lens, error, len(boards), len(files), size)
 
 
 def _boards(files: list[Path], corners: tuple[int, int], key: str) -> tuple[list[AnyArray], tuple[int, int]]:

@@ -73,7 +73,7 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
             another size than the rig says.
     """
     frames = Frames(video)
-    sight = sight_of(rig, rig_file, frames)
+    sight = sight_of(rig, rig_file, frames, (frames.shape[1], frames.shape[0]))
     layout = rig.markers.layout
     count = 2 * layout.rows if isinstance(layout, FabricLayout) else len(layout.points)
     pictures, stamps, is_repeated = _spots(frames, rig, sight, count, on_frame)

@@ -145,6 +145,7 @@ def _truth(renderer: Renderer) -> pd.DataFrame:
 def _rig(renderer: Renderer, title: str) -> dict[str, Any]:
     camera = renderer.file
     rig: dict[str, Any] = {"title": title, "source": "rendered by cosim record --video"}
+    rig["picture"] = [camera.width, camera.height]
     # A picture with fiducials knows its plane; one without is right for a camera that looks squarely.
     if camera.distortion or camera.fiducials:
         u, v = renderer.middle

@@ -29,6 +29,7 @@ Seconds = Annotated[PhysicalValue, In("s")]
 NotNegativeTime = Annotated[PhysicalValue, In("s", minimum=0.0)]
 Frequency = Annotated[PhysicalValue, In("Hz", minimum=0.0, is_exclusive=True)]
 Pixel = tuple[Number, Number]
+Pixels = Annotated[StrictInt, Field(ge=1)]
 Colour = Annotated[str, AfterValidator(check_colour)]
 HERE = "docs/camera.md explains the keys of a rig"
 
@@ -194,6 +195,9 @@ class Rig(Strict):
 
     title: str
     source: str = Field(default="", description="Who filmed it, where it is published, under which licence.")
+    picture: tuple[Pixels, Pixels] | None = Field(
+        default=None, description="Width and height of the pictures in which the pixels of `lens` and `plane` count."
+    )
     lens: LensEntry | None = Field(default=None, description="Absent: the lens is taken as free of distortion.")
     plane: PlaneEntry
     markers: MarkersEntry

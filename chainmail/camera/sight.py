@@ -59,18 +59,23 @@ class Sight:
         return np.asarray(np.sqrt(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])))
 
 
-def sight_of(rig: Rig, file: Path, frames: Iterable[Frame]) -> Sight:
+def sight_of(rig: Rig, file: Path, frames: Iterable[Frame], picture: tuple[int, int]) -> Sight:
     """The camera of a rig.
 
     Args:
         rig: As read.
         file: Its file, beside which folders of pictures are.
         frames: Of the video: coloured fiducials are refined in the first of them.
+        picture: Width and height of its pictures.
 
     Raises:
-        InputError: The lens cannot be calibrated, a fiducial is not found, or they do not span a plane.
+        InputError: The pictures are of another size than those of the rig, the lens cannot be calibrated, a fiducial
+            is not found, or they do not span a plane.
     """
-    lens, notes = _lens(rig.lens, file)
+    _check_picture(rig, file, picture)
+    lens, notes = _lens(rig.lens, file, picture)
+    if rig.picture is None:
+        notes = (*notes, *_unstated_picture(rig, picture))
     plane, more = _plane(rig.plane, lens, file, frames)
     return Sight(lens, plane, (*notes, *more))
 
@@ -86,12 +91,47 @@ def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
     return Sight(found, own, (*notes, *more))
 
 
-def _lens(entry: LensEntry | None, file: Path) -> tuple[Lens | None, tuple[str, ...]]:
+def _check_picture(rig: Rig, file: Path, picture: tuple[int, int]) -> None:
+    if rig.picture in (None, picture):
+        return
+    width, height = rig.picture
+    raise InputError(
+        file,
+        "picture",
+        f"the pixels of the rig count in pictures of {width} x {height}, those of the video have {_text(picture)}",
+        "take the video as it was filmed, not cropped or scaled; or read the pixels of `lens` and `plane` in it anew",
+    )
+
+
+def _unstated_picture(rig: Rig, picture: tuple[int, int]) -> tuple[str, ...]:
+    """What is not noticed where nothing says in pictures of which size the rig's pixels count."""
+    if rig.plane.colour is not None:  # they are looked for
+        return ()
+    return (
+        f"picture: the rig does not say in pictures of which size its pixels count; taken to be {_text(picture)}. "
+        "A video that was cropped since shifts all places alike: state `picture`",
+    )
+
+
+def _text(size: tuple[int, int]) -> str:
+    return f"{size[0]} x {size[1]}"
+
+
+def _lens(
+    entry: LensEntry | None, file: Path, picture: tuple[int, int] | None = None
+) -> tuple[Lens | None, tuple[str, ...]]:
     if entry is None:
         return None, ()
     if entry.chessboard is not None:
         board, key = entry.chessboard, "lens.chessboard"
         found = calibrate(pictures_in(file.parent / board.folder, key, board.pattern), board.corners, key)
+        if picture not in (None, found.picture):
+            raise InputError(
+                file,
+                key,
+                f"its pictures have {_text(found.picture)} pixels, those of the video {_text(picture)}",
+                "take pictures of the board as the video was filmed: a lens holds for one size and cropping",
+            )
         return found.lens, (f"lens: reprojection error {found.error:.3f} px in {found.used} of {found.given} pictures",)
     focal, centre = entry.focal, entry.centre
     if focal is None or centre is None:  # refused when the file was read
