@@ -51,7 +51,7 @@ def saved(folder, pictures, names=None):
 
 
 def tracked(video, film, **markers):
-    """Tracked by the rig of the film, which does not say of which size its pictures were, with other keys of its layout."""
+    """Tracked by the rig of a film of unstated size, with other keys of its layout."""
     rig = yaml.safe_load((film / "rig.yaml").read_text())
     del rig["picture"]
     rig["markers"]["layout"].update(markers)
