@@ -13,11 +13,17 @@ import pandas as pd  # type: ignore[import-untyped]
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
-from diagnosis.recording.cells import NEW, how_to_write
+from diagnosis.recording.cells import COMMA, NEW, POINT, how_to_write
+
+#: What may stand between columns.
+_MARKS = (",", ";", "\t")
 
 
 class Table:
     """The columns of one file.
+
+    Between columns of a CSV stand commas, semicolons or tabs, whichever give the most of the columns that are wanted.
+    With semicolons or tabs numbers may have decimal commas; both signs in one table are refused.
 
     Args:
         file: CSV (with a header row) or Parquet file.
@@ -61,30 +67,53 @@ class Table:
             return pd.read_parquet(self.file, columns=columns)
 
         how: dict[str, Any] = {"skiprows": header_lines, "skipinitialspace": True, "comment": None}
-        self._names = [str(n) for n in pd.read_csv(self.file, nrows=0, **how).columns]
-        mark = next((m for m in ";\t" if len(self._names) == 1 and m in self._names[0]), "")
-        if mark:
-            what = f"its columns are separated by {'`;`' if mark == ';' else 'tabs'}, not by commas"
-            raise InputError(self.file, "", what, f"{NEW} reads such tables")
+        mark, self._names = self._columns(wanted, how)
         columns = self._names if wanted is None else [n for n in self._names if n in wanted] or self._names[:1]
-        self._check_widths(header_lines)
-        self._check_names(header_lines, columns)
-        return pd.read_csv(self.file, usecols=columns, **how)
+        self._check_widths(header_lines, mark)
+        self._check_names(header_lines, columns, mark)
+        if mark == ",":
+            return pd.read_csv(self.file, usecols=columns, **how)
+        return self._with_points(pd.read_csv(self.file, usecols=columns, sep=mark, dtype=str, **how))
 
-    def _check_names(self, header_lines: int, columns: Collection[str]) -> None:
+    def _columns(self, wanted: Collection[str] | None, how: dict[str, Any]) -> tuple[str, list[str]]:
+        """What stands between columns, and their names."""
+        every = {}
+        for mark in _MARKS:
+            every[mark] = [str(n) for n in pd.read_csv(self.file, nrows=0, sep=mark, **how).columns]
+        best = max(_MARKS, key=lambda m: len(every[m] if wanted is None else set(every[m]) & set(wanted)))
+        if wanted is not None and not set(every[best]) & set(wanted):
+            best = max(_MARKS, key=lambda m: len(every[m]))  # none of them is there: the error says what is
+        return best, every[best]
+
+    def _with_points(self, texts: pd.DataFrame) -> pd.DataFrame:
+        """Numbers with decimal points in place of commas.
+
+        Raises:
+            InputError: The table has both.
+        """
+        cells = pd.unique(texts.to_numpy().ravel())
+        commas = {c: c.replace(",", ".") for c in cells if isinstance(c, str) and "," in c and COMMA.match(c)}
+        point = next((c for c in cells if isinstance(c, str) and "." in c and POINT.match(c)), None)
+        if commas and point is not None:
+            what = f"it has decimal commas (`{next(iter(commas))}`) and decimal points (`{point}`)"
+            raise InputError(self.file, "", what, "write all numbers with one of them")
+        return texts.apply(lambda column: column.map(lambda cell: commas.get(cell, cell)))
+
+    def _check_names(self, header_lines: int, columns: Collection[str], mark: str) -> None:
         """Refuse a column that is asked for and stands twice; pandas takes the first and calls the second `T.1`.
 
         Raises:
             InputError: There are two of that name.
         """
         with self.file.open(encoding="utf-8-sig", newline="") as lines:
-            names = next(csv.reader(itertools.islice(lines, header_lines, None), skipinitialspace=True), [])
+            rows = itertools.islice(lines, header_lines, None)
+            names = next(csv.reader(rows, skipinitialspace=True, delimiter=mark), [])
         twice = next((name for name in columns if names.count(name) > 1), None)
         if twice is not None:
             what = f"the column `{twice}` is there {names.count(twice)} times"
             raise InputError(self.file, f"line {header_lines + 1}", what, "give every column a name of its own")
 
-    def _check_widths(self, header_lines: int) -> None:
+    def _check_widths(self, header_lines: int, mark: str) -> None:
         """Refuse rows with more values than there are columns: which are meant, nobody knows.
 
         pandas takes the first ones, so that `0,5,21,3` with decimal commas under `t,T` was read as 0 and 5.
@@ -95,13 +124,12 @@ class Table:
         width = len(self._names)
         with self.file.open(encoding="utf-8", newline="") as lines:
             for number, line in enumerate(lines):
-                if number <= header_lines or line.count(",") < width:
+                if number <= header_lines or line.count(mark) < width:
                     continue
-                fields = next(csv.reader([line]))
+                fields = next(csv.reader([line], delimiter=mark))
                 if any(field.strip() for field in fields[width:]):
                     what = f"it has {len(fields)} values under {width} column names"
-                    between = f"with decimal commas save the table with `;` between columns, which {NEW} reads"
-                    remedy = f"correct the line; {between}"
+                    remedy = "correct the line; with decimal commas save the table with `;` between columns"
                     raise InputError(self.file, f"line {number + 1}", what, remedy)
 
     def column(self, name: str, key: str) -> Array:
