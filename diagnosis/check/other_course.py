@@ -6,7 +6,8 @@ by least squares, within the range that it has in all recordings. If it then exp
 stated course over most of the recording, the stated course is not the one that acted.
 
 One channel proves nothing, since some input gives it nearly any course; and a law of the rig that acts for a while,
-as a force does, leaves a course that is the stated one for the rest of the time.
+as a force does, leaves a course that is the stated one for the rest of the time. So does an input that is not applied
+for a while, or does not move (`diagnosis.check.pause`): that is said, and the search finds its begin and end.
 
 Source: estimation of an unknown input by constrained least squares, Maciejowski, Predictive Control with Constraints,
 Pearson 2002, chapter 2; Gauss-Newton steps for models that are not linear.
@@ -26,10 +27,13 @@ from cosim.components import nanoseconds
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
+from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
+from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.doubts import ODD
 from diagnosis.models.systems.run import is_system, run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Input
@@ -59,6 +63,8 @@ ANSWERS = 10.0
 def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     """A doubt about the input whose stated course is not the one that acted; None where no single one is.
 
+    It is not serious where the stated course acted but for an interval: the search looks for it.
+
     Args:
         one: A recording that stands out (`diagnosis.check.odd_one_out`).
         others: The other recordings of the same rig, which the scenario meets.
@@ -78,6 +84,9 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         told = _estimated(one, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
+    pauses = [p for p in (_pause(one, channels, course) for course, *_ in found) if p.left < 1.0 - MET]
+    if pauses:
+        return _of_pause(one, channels, min(pauses, key=lambda p: p.left))
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
 
 
@@ -129,6 +138,22 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
+def _pause(one: Compared, channels: dict[str, Beside], course: Course) -> Pause:
+    """The interval without which the stated course explains most: it was not applied then, or did not move."""
+
+    def missed(times: Array, values: Array) -> float:
+        try:
+            parts = _parts(channels, _simulated(one, channels, course, times, values))
+        except RunStopped:
+            return 1.0
+        return max(scaled_left(b, part) for b, part in zip(channels.values(), parts))
+
+    step = nanoseconds(one.scenario.time.macro_step) * 1e-9
+    is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
+    kinds = (STAYED,) if is_temperature else (NOTHING, STAYED)
+    return min((paused(course, kind, (one.begin, one.end), step, missed) for kind in kinds), key=lambda p: p.left)
+
+
 def _likeness(stated: Array, values: Array, bounds: tuple[float, float]) -> float:
     """Correlation of two courses; where one hardly changes, 1 if they agree most of the time and else 0."""
     width = bounds[1] - bounds[0]
@@ -175,14 +200,29 @@ def _size(beside: Beside) -> float:
     return float(np.std(beside.measured))
 
 
-def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained: float, likeness: float) -> Doubt:
+def _of_pause(one: Compared, channels: dict[str, Beside], pause: Pause) -> Doubt:
     lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
+    text = (
+        f"{_as_stated(pause.course, lefts)}; as if {pause.kind} from about {pause.begin:.6g} to {pause.end:.6g} s, "
+        f"at least {percent(1.0 - pause.left)} of each channel's, scaled and shifted as suits best; the other "
+        "recordings are met with their courses"
+    )
+    remedy = f"what acted at `{pause.course.name}` then? State it under `overrides`, or give its column"
+    z = float(np.sqrt(max(lefts.values()) / max(pause.left, 1e-6)))
+    return Doubt(one.recording.title, pause.course.name, ODD, text, remedy, False, pause.begin, pause.end, z)
+
+
+def _as_stated(course: Course, lefts: dict[str, float]) -> str:
     worst = max(lefts, key=lambda n: lefts[n])
     origin = "recorded" if course.is_recorded else "stated"
     mine = percent(max(1.0 - lefts[worst], 0.0))
+    return f"with the {origin} course of {course.name} the scenario as it is explains {mine} of the variance of {worst}"
+
+
+def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained: float, likeness: float) -> Doubt:
+    lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
     text = (
-        f"with the {origin} course of {course.name} the scenario as it is explains {mine} of the "
-        f"variance of {worst}; with another one within the range of all recordings, which is unlike it "
+        f"{_as_stated(course, lefts)}; with another one within the range of all recordings, which is unlike it "
         f"(correlation {likeness:.2f}), at least {percent(explained)} of each channel's, scaled and shifted as suits "
         f"best; the other recordings are met with theirs"
     )
@@ -191,5 +231,5 @@ def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained
         if course.is_recorded
         else f"was this programme of `{course.name}` played? State the one that was, under `overrides`, or its column"
     )
-    title, z = one.recording.title, float(np.sqrt(lefts[worst] / max(1.0 - explained, 1e-6)))
+    title, z = one.recording.title, float(np.sqrt(max(lefts.values()) / max(1.0 - explained, 1e-6)))
     return Doubt(title, course.name, "programme", text, remedy, True, one.begin, one.end, z)

@@ -64,7 +64,11 @@ def unidentified(term: Term, fit: Fit, estimates: Sequence[Estimate], units: Uni
 
 
 def _is_doubtful(parameter: TermParameter, bound: float, is_strength: bool) -> bool:
-    """Whether a value at a bound is no value: of a share, 1 is all of it (a clean break), and a rig can have that."""
+    """Whether a value at a bound is no value.
+
+    Of a share, 1 is all of it (a clean break), and a rig can have that; of a change of a gain, -1 leaves nothing.
+    """
     if bound == 0.0:
         return is_strength
-    return not (is_strength and parameter.unit == "1" and bound == 1.0 and parameter.plausible >= 1.0)
+    whole = -1.0 if parameter.lower == -1.0 else 1.0
+    return not (is_strength and parameter.unit == "1" and bound == whole and parameter.plausible >= 1.0)

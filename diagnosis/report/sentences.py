@@ -31,6 +31,8 @@ def where(finding: Finding) -> str:
     return f"described at {told}" if finding.standing is Standing.UNNAMED else told
 
 
+#: Odds of 20 to 1: with them nothing else would be in question.
+LIKELY = 0.95
 #: Parameters that say when a law acts.
 _INSTANTS = ("instant", "begin", "end")
 
@@ -51,8 +53,10 @@ def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
 
 
 def what(finding: Finding) -> str:
-    """Effect and how probable it is."""
+    """Effect and how probable it is; odds between those that meet the readings alike would rest on their numbers."""
     name = words(finding.effect)
+    if finding.standing is Standing.CLASS and finding.probability > LIKELY and not finding.members:
+        return f"one of several that meet the training readings nearly as well; described by {name}"
     if finding.standing is Standing.UNNAMED:
         name = f"no name; described by {name}"
     elif finding.standing is Standing.CLASS:

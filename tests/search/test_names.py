@@ -22,6 +22,9 @@ WIRE = Term("wire", "all", "mechanical", (TermParameter("a", "N/m", 0.0, 10.0, (
 BREAK = replace(STEP, parameters=(replace(STEP.parameters[0], upper=1.0, plausible=1.0), STEP.parameters[1]))
 
 
+GAIN = Term("gain", "all", "measurement", (TermParameter("gain", "1", -1.0, 1.0, (0.02,)),))
+
+
 @pytest.mark.parametrize(
     ("term", "values", "is_doubtful"),
     [
@@ -31,6 +34,8 @@ BREAK = replace(STEP, parameters=(replace(STEP.parameters[0], upper=1.0, plausib
         (STEP, (0.4, 1.0), False),  # an instant may lie anywhere
         (STEP, (10.0, 0.5), True),  # a strength at its bound is not identified
         (BREAK, (1.0, 0.5), False),  # a clean break is all there is
+        (GAIN, (-1.0,), False),  # nothing is left
+        (GAIN, (1.0,), True),  # more than twice as much may be
         (STEP, (0.0, 0.5), True),  # there it vanishes
         (WIRE, (1.0, 0.0), False),  # nothing of a part of the law
         (WIRE, (1.0, 0.05), True),
