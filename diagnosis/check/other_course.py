@@ -56,6 +56,8 @@ BEYOND = 0.1
 UNLIKE, APART = 0.7, 0.2
 #: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
 MOST = 40_000
+#: ... and beyond which intervals are sought in the one input alone whose course is another.
+MOST_PAUSES = 10_000
 #: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
 
@@ -84,7 +86,9 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         told = _estimated(one, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    pauses = [p for p in (_pause(one, channels, course) for course, *_ in found) if p.left < 1.0 - MET]
+    asked = one.courses if _steps(one.scenario) <= MOST_PAUSES else [course for course, *_ in found]
+    pauses = [_pause(one, channels, course) for course in asked if not course.name.endswith("]")]
+    pauses = [p for p in pauses if p.left < 1.0 - MET]
     if pauses:
         return _of_pause(one, channels, min(pauses, key=lambda p: p.left))
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
@@ -92,9 +96,12 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
 
 def is_quick(scenario: Scenario) -> bool:
     """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
+    return is_system(scenario) and _steps(scenario) <= MOST
+
+
+def _steps(scenario: Scenario) -> int:
     time = scenario.time
-    steps = (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
-    return is_system(scenario) and steps <= MOST
+    return (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
 
 
 def _estimated(
