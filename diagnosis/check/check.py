@@ -14,6 +14,7 @@ from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.check.clock_shift import shift_doubts
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
+from diagnosis.check.gain_of_one import gain_of_one
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.odd_one_out import odd_ones
 from diagnosis.check.other_course import other_course
@@ -93,7 +94,10 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
         return replace(doubt, is_serious=False)
     one = next(o for o in every if o.recording.title == doubt.recording)
     others = [o for o in every if o is not one]
-    return other_course(one, others) or other_number(one, others) or doubt
+    gain = gain_of_one(one, others)
+    if gain is not None and gain.is_serious:
+        return gain
+    return other_course(one, others) or other_number(one, others) or gain or doubt
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

@@ -54,6 +54,8 @@ BEYOND = 0.1
 #: Correlation with the stated course below which an estimate is unlike it: courses of ten levels that have nothing to
 #: do with each other stay below it in 98 of 100 draws. Share of the range by which one differs at least.
 UNLIKE, APART = 0.7, 0.2
+#: How many times more the stated course leaves of a channel, scaled and shifted too, than one that pauses.
+PAUSED = 10.0
 #: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
 MOST = 40_000
 #: ... and beyond which intervals are sought in the one input alone whose course is another.
@@ -88,7 +90,8 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
             found.append((course, *told))
     asked = one.courses if _steps(one.scenario) <= MOST_PAUSES else [course for course, *_ in found]
     pauses = [_pause(one, channels, course) for course in asked if not course.name.endswith("]")]
-    pauses = [p for p in pauses if p.left < 1.0 - MET]
+    as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
+    pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]
     if pauses:
         return _of_pause(one, channels, min(pauses, key=lambda p: p.left))
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
