@@ -58,7 +58,7 @@ UNLIKE, APART = 0.7, 0.2
 PAUSED = 10.0
 #: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
 MOST = 40_000
-#: ... and beyond which intervals are sought in the one input alone whose course is another.
+#: ... and beyond which intervals are not sought in inputs of which no other course explains the readings.
 MOST_PAUSES = 10_000
 #: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
@@ -88,8 +88,10 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         told = _estimated(one, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    asked = one.courses if _steps(one.scenario) <= MOST_PAUSES else [course for course, *_ in found]
-    pauses = [_pause(one, channels, course) for course in asked if not course.name.endswith("]")]
+    asked: Sequence[Course] = [course for course, *_ in found]
+    if not found and _steps(one.scenario) <= MOST_PAUSES:
+        asked = [course for course in one.courses if not course.name.endswith("]")]
+    pauses = [pause for course in asked for pause in _pauses(one, channels, course)]
     as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
     pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]
     if pauses:
@@ -148,8 +150,8 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
-def _pause(one: Compared, channels: dict[str, Beside], course: Course) -> Pause:
-    """The interval without which the stated course explains most: it was not applied then, or did not move."""
+def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[Pause]:
+    """Intervals without which the stated course explains most: it was not applied then, or did not move."""
 
     def missed(times: Array, values: Array) -> float:
         try:
@@ -160,8 +162,9 @@ def _pause(one: Compared, channels: dict[str, Beside], course: Course) -> Pause:
 
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
     is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
-    kinds = (STAYED,) if is_temperature else (NOTHING, STAYED)
-    return min((paused(course, kind, (one.begin, one.end), step, missed) for kind in kinds), key=lambda p: p.left)
+    kinds = [] if is_temperature or not np.any(course.values) else [NOTHING]
+    kinds += [STAYED] if np.ptp(course.values) > 0.0 else []
+    return [paused(course, kind, (one.begin, one.end), step, missed) for kind in kinds]
 
 
 def _likeness(stated: Array, values: Array, bounds: tuple[float, float]) -> float:

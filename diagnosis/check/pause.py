@@ -13,8 +13,6 @@ from diagnosis.check.beside import Course
 
 #: Pieces of the recording at whose ends an interval is sought first, and how often steps are halved from there.
 PIECES, HALVINGS = 12, 5
-
-
 #: What an input does in the interval.
 NOTHING, STAYED = "nothing acted", "it did not move"
 
