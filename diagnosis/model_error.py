@@ -15,7 +15,6 @@ from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
-from diagnosis.search.exchange import in_its_place
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -191,7 +190,6 @@ def _validated(
     near = [f.explanation for f in known if len(f.explanation.terms) == len(explanation.terms)]
     on_progress("trying others in the place of what was found")
     near += _exchanged(model, explanation, plain, wide, outcome.margin)
-    near += in_its_place(model, explanation, plain)
     return _settled(model, outcome, outcome.base, explanation, near)
 
 

@@ -16,8 +16,8 @@ from diagnosis.experiment.drivers import Rig, rig
 from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
 from diagnosis.experiment.separation import DECISIVE
-from diagnosis.judge.acceptance import Accepted
-from diagnosis.judge.judge import UNSEPARATED, bends_into, probabilities
+from diagnosis.judge.acceptance import UNSEPARATED, Accepted
+from diagnosis.judge.judge import bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import GRAVITY

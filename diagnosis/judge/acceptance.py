@@ -7,10 +7,12 @@ many terms. Then terms that do not gain, or that make a channel worse, go one by
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from cosim.compute.steps import TimeIsOver, may_be_left
 from diagnosis.judge.agreement import Agreement, agreement, times_white
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.gain import LEAST, Gain, gain, loss
@@ -18,6 +20,7 @@ from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.judge.unfitted import Predicted, Unfitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.display import likelihood
+from diagnosis.search.exchange import in_their_places
 from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.objective import RUNAWAY
 from diagnosis.search.problem import Model, Point, Term
@@ -34,6 +37,8 @@ SHOWS = 0.1
 #: between few simulations a fit may end at one of them.
 EXCHANGE, STRENGTHS = 20, (0.5, 1.0, 2.0, 4.0, 8.0)
 
+#: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
+UNSEPARATED = 6.0
 #: Unit of laws of what scatters: how contacts and solvers of a fabric differ has a direction of its own, which a weak
 #: law may follow in training and held out alike. A fabric that lacked nothing was short of 0.13 N of friction so.
 SCATTERED = "mechanical"
@@ -76,9 +81,10 @@ class Accepted:
         forms: Term to the share of what is left in training that other laws at its place explain, where readings reject
             the model and that was asked.
         opposed: Term to another that it mostly cancels.
-        confused: Accepted term to laws that data often cannot tell from it, with how much more -2 log posterior of
-            training they leave in its place, 0 where unfitted readings do not tell them apart; asked of fabrics, whose
-            laws are interpolated between few simulations.
+        confused: Accepted term to laws that are not told from it, with how much more -2 log posterior they leave in its
+            place. Of fabrics, whose laws are interpolated between few simulations, those that data often cannot tell
+            from it, by training, 0 where unfitted readings do not tell them apart; else, where several terms are
+            suggested, named laws of its place that leave less than `UNSEPARATED` more, by both.
         coarse: Terms that are not accepted because the macro-step is too long to tell, and for nothing else.
     """
 
@@ -234,7 +240,7 @@ def accept(
         {t: judge.basis(is_local(t)) for t in gains},
         strengths,
         {t: others[t] for t in current.terms},
-        confused={t: _confused(model, judge, current, t) for t in current.terms} if model.has_scatter else {},
+        confused=_not_told_apart(model, judge, headline, current, others, can_compare, on_progress),
         coarse=frozenset(judge.coarse & reasons.keys()),
     )
 
@@ -256,6 +262,37 @@ def _without(model: Model, outcome: Outcome, explanation: Explanation, term: Ter
         return Explanation(outcome.base)
     found = Explanation(fit(model, point, widths=explanation.fit.widths))
     return shrink(model, found, outcome.margin)
+
+
+def _not_told_apart(
+    model: DiagnosisModel,
+    judge: _Judge,
+    headline: Explanation,
+    current: Explanation,
+    without: Mapping[Term, Fit],
+    can_compare: bool,
+    on_progress: Callable[[str], None],
+) -> dict[Term, tuple[tuple[Term, float], ...]]:
+    """See `Accepted.confused`."""
+    if model.has_scatter:
+        return {t: _confused(model, judge, current, t) for t in current.terms}
+    if len(headline.terms) < 2 or not can_compare:  # a law alone was compared with all others when it was found
+        return {}
+    found: dict[Term, tuple[tuple[Term, float], ...]] = {}
+    with suppress(TimeIsOver), may_be_left():
+        on_progress("trying other laws in the place of those that were found")
+        laws = [t for t in model.terms() if not t.is_completing]
+        right = judge.predict(current.fit.point)
+        for term, others in in_their_places(model, current.fit, without, laws).items():
+            behind = [(other, _behind(judge, current, right, e)) for other, e in others]
+            found[term] = tuple((other, value) for other, value in behind if value < UNSEPARATED)
+    return found
+
+
+def _behind(judge: _Judge, current: Explanation, right: Predicted, other: Explanation) -> float:
+    """How much more -2 log posterior of training and unfitted readings another explanation of as many terms leaves."""
+    there = gain(right, judge.predict(other.fit.point), judge.unfitted.readings)
+    return float(other.cost - current.cost - there.total / there.doubt**2)
 
 
 def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: Term) -> tuple[tuple[Term, float], ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import AS_A_LAW, is_one_of
-from diagnosis.judge.acceptance import Accepted
+from diagnosis.judge.acceptance import UNSEPARATED, Accepted
 from diagnosis.judge.agreement import times_louder, times_white
 from diagnosis.judge.constancy import Constancy
 from diagnosis.judge.diagnosis import (
@@ -50,8 +50,6 @@ from diagnosis.search.shares import departures, titled
 
 #: Half width of a 95 % interval in standard deviations.
 NORMAL_95 = 1.959963984540054
-#: Explanations whose -2 log posterior is within this of the best cannot be told from it (odds of 20 to 1).
-UNSEPARATED = 6.0
 #: The same of laws that are interpolated between few simulations, whose means scatter: what a fabric's search goes on
 #: with (`diagnosis.models.fabric.search`).
 INTERPOLATED = 40.0

@@ -55,7 +55,9 @@ def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
 def what(finding: Finding) -> str:
     """Effect and how probable it is; odds between those that meet the readings alike would rest on their numbers."""
     name = words(finding.effect)
-    if finding.standing is Standing.CLASS and finding.probability > LIKELY and not finding.members:
+    others = [a.probability for a in finding.alternatives if a.effect != finding.effect]
+    is_even = finding.probability > LIKELY or finding.probability <= max(others, default=0.0)
+    if finding.standing is Standing.CLASS and is_even and not finding.members:
         return f"one of several that meet the training readings nearly as well; described by {name}"
     if finding.standing is Standing.UNNAMED:
         name = f"no name; described by {name}"

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cosim.compute.steps import TimeIsOver, counted, may_be_left
 from cosim.unit.protocol import Array
-from diagnosis.search.exchange import in_its_place
 from diagnosis.search.explanation import Explanation as Explanation
 from diagnosis.search.explanation import Settings as Settings
 from diagnosis.search.fit import Fit, fit
@@ -46,8 +44,8 @@ class Outcome:
         base_structure: What is left without terms.
         best: The accepted explanation; without terms where none was earned.
         left: What is left with it.
-        rivals: Other explanations with as many terms, best first (the accepted one is among them), and those with
-            another named law in its place; where none was earned, the model without terms and those that came nearest.
+        rivals: Other explanations with as many terms, best first (the accepted one is among them); where none was
+            earned, the model without terms and those that came nearest.
         margin: Gain that a term had to exceed.
         false_alarm_rate: Probability that chance alone gives the first accepted term its gain; 1 without one.
         tried: Choices of terms and shapes that were simulated.
@@ -189,8 +187,6 @@ def search(
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)
-    with suppress(TimeIsOver), may_be_left():
-        rivals = (*rivals, *in_its_place(model, best, laws))
     after = structure(best.fit.residuals, model.layout, groups)
     return Outcome(base, left, best, after, rivals, margin, rate, tried, nulls)
 

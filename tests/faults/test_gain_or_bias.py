@@ -14,7 +14,7 @@ import pytest
 
 from cosim.scenario import Scenario
 from diagnosis.candidates.registry import candidate
-from diagnosis.judge.judge import UNSEPARATED
+from diagnosis.judge.acceptance import UNSEPARATED
 from diagnosis.judge.plausibility import implausible
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.search.fit import Fit, fit
