@@ -84,7 +84,7 @@ class Accepted:
         confused: Accepted term to laws that are not told from it, with how much more -2 log posterior they leave in its
             place. Of fabrics, whose laws are interpolated between few simulations, those that data often cannot tell
             from it, by training, 0 where unfitted readings do not tell them apart; else, where several terms are
-            suggested, named laws of its place that leave less than `UNSEPARATED` more, by both.
+            suggested, named laws at any place that leave less than `UNSEPARATED` more, by both.
         coarse: Terms that are not accepted because the macro-step is too long to tell, and for nothing else.
     """
 
