@@ -75,7 +75,16 @@ def ambiguity(finding: Finding) -> str:
         return f"The recorded channels show the same of: {listed(told, 6)}.{more}"
     if not finding.ambiguous_with:
         return "Every other effect that was fitted in its place has odds of less than 1 to 20."
-    return f"The recordings cannot tell it from: {listed([words(e) for e in finding.ambiguous_with], 6)}."
+    others = [_with_place(finding, e) for e in finding.ambiguous_with]
+    return f"The recordings cannot tell it from: {listed(others, 6)}."
+
+
+def _with_place(finding: Finding, effect: str) -> str:
+    """Another effect that meets the readings as well, with its place where that is not the finding's."""
+    places = [a.place for a in finding.alternatives if a.effect == effect and a.place]
+    if not places or finding.place in places or finding.place.split(" (")[0] in places:
+        return words(effect)
+    return f"{words(effect)} at {clean(places[0])}"
 
 
 def searched(diagnosis: Diagnosis) -> str:

@@ -11,7 +11,7 @@ from cosim.scenario import load_scenario
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Standing, Verdict
 from diagnosis.recording.recording import load_recording
-from diagnosis.report.sentences import what
+from diagnosis.report.sentences import ambiguity, what
 from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import write_recording
@@ -78,3 +78,7 @@ def test_the_law_found_first_is_compared_with_its_twin_once_the_other_is_there(t
     assert one.standing is Standing.CLASS
     assert {one.effect, *one.ambiguous_with} >= {"constant_force", "dry_friction", "input_offset"}
     assert "probability" not in what(one)
+    if one.place == "dryer.volts":
+        assert "dry friction at dryer.w" in ambiguity(one)
+    else:
+        assert "input offset at dryer.volts" in ambiguity(one)
