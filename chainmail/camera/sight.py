@@ -74,10 +74,8 @@ def sight_of(rig: Rig, file: Path, frames: Iterable[Frame], picture: tuple[int, 
     """
     _check_picture(rig, file, picture)
     lens, notes = _lens(rig.lens, file, picture)
-    if rig.picture is None:
-        notes = (*notes, *_unstated_picture(rig, picture))
     plane, more = _plane(rig.plane, lens, file, frames)
-    return Sight(lens, plane, (*notes, *more))
+    return Sight(lens, plane, (*notes, *_unstated_picture(rig, picture), *more))
 
 
 def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
@@ -92,20 +90,19 @@ def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
 
 
 def _check_picture(rig: Rig, file: Path, picture: tuple[int, int]) -> None:
-    if rig.picture in (None, picture):
+    if rig.picture is None or rig.picture == picture:
         return
-    width, height = rig.picture
     raise InputError(
         file,
         "picture",
-        f"the pixels of the rig count in pictures of {width} x {height}, those of the video have {_text(picture)}",
+        f"the pixels of the rig count in pictures of {_text(rig.picture)}, those of the video have {_text(picture)}",
         "take the video as it was filmed, not cropped or scaled; or read the pixels of `lens` and `plane` in it anew",
     )
 
 
 def _unstated_picture(rig: Rig, picture: tuple[int, int]) -> tuple[str, ...]:
     """What is not noticed where nothing says in pictures of which size the rig's pixels count."""
-    if rig.plane.colour is not None:  # they are looked for
+    if rig.picture is not None or rig.plane.colour is not None:  # coloured fiducials are looked for
         return ()
     return (
         f"picture: the rig does not say in pictures of which size its pixels count; taken to be {_text(picture)}. "

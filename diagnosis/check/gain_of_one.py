@@ -16,7 +16,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.other_course import is_quick, readings_of
-from diagnosis.check.unit_of_one import ALIKE, LEAST, OTHERS, slope, stated_unit
+from diagnosis.check.unit_of_one import ALIKE, LEAST, ratio_to, slope, stated_unit
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -63,14 +63,10 @@ def _apart(one: Compared, others: Sequence[Compared]) -> tuple[str, float] | Non
     """The one channel whose slope in the simulation is another than in the others, and how many times."""
     ratios = {}
     for name, beside in one.channels.items():
-        there = [slope(o.channels[name]) for o in others if name in o.channels]
-        own, known = slope(beside), [s for s in there if s is not None]
-        if own is None or len(known) < len(there) or len(known) < OTHERS:
+        ratio = ratio_to(slope(beside), [slope(o.channels[name]) for o in others if name in o.channels])
+        if ratio is None:
             return None
-        usual = float(np.median(known))
-        if own <= 0.0 or usual <= 0.0 or max(abs(s / usual - 1.0) for s in known) > ALIKE:
-            return None
-        ratios[name] = own / usual
+        ratios[name] = ratio
     apart = [n for n, r in ratios.items() if abs(math.log(r)) > LEAST]
     alike = [n for n, r in ratios.items() if abs(r - 1.0) <= ALIKE]
     return (apart[0], ratios[apart[0]]) if len(apart) == 1 and alike and len(ratios) == len(alike) + 1 else None

@@ -79,18 +79,17 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
     found = []
-    for course in one.courses:
+    courses = [c for c in one.courses if not c.name.endswith("]")]  # only an output of one element can be a column
+    for course in courses:
         alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
         low, high = (float(f([f(c.values) for c in alike])) for f in (np.min, np.max))
-        if course.name.endswith("]") or high <= low:
-            continue  # only an output of one element can be a column; a constant everywhere has no range
+        if high <= low:
+            continue  # a constant everywhere has no range
         margin = BEYOND * (high - low)
         told = _estimated(one, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    asked: Sequence[Course] = [course for course, *_ in found]
-    if not found and _steps(one.scenario) <= MOST_PAUSES:
-        asked = [course for course in one.courses if not course.name.endswith("]")]
+    asked = [course for course, *_ in found] or (courses if _steps(one.scenario) <= MOST_PAUSES else [])
     pauses = [pause for course in asked for pause in _pauses(one, channels, course)]
     as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
     pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]

@@ -16,7 +16,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.yaml_file import refuse_pipe
 from diagnosis.check.heading import known_unit
-from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant, time_of_day
+from diagnosis.recording.cells import COMMA, POINT, has_thousands, how_to_write, instant, time_of_day, uses_comma
 
 #: Lines before the header that are looked through.
 _MOST_HEADER = 60
@@ -213,16 +213,7 @@ def _uses_comma(path: Path, rows: list[list[str]], separator: str | None) -> boo
     if separator == ",":
         cells = [c for row in rows for c in row if "," in c]
         return bool(cells) and all(COMMA.match(c) for c in cells)
-    comma = next((c for row in rows for c in row if "," in c and COMMA.match(c)), None)
-    point = next((c for row in rows for c in row if "." in c and POINT.match(c)), None)
-    if comma is not None and point is not None:
-        raise InputError(
-            path,
-            "",
-            f"it has decimal commas (`{comma}`) and decimal points (`{point}`)",
-            "write all numbers with one of them",
-        )
-    return comma is not None
+    return uses_comma(path, (cell for row in rows for cell in row))
 
 
 def _column(path: Path, name: str, cells: list[str], is_comma: bool) -> _Column:

@@ -54,14 +54,10 @@ def units_of_one(every: Sequence[Compared]) -> list[Doubt]:
 def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
     slopes = [(one, slope(one.channels[name])) for one in every if name in one.channels]
     for one, own in slopes:
-        others = [s for other, s in slopes if other is not one and s is not None]
-        if own is None or len(others) < OTHERS or len(others) < len(slopes) - 1:
-            continue
-        usual = float(np.median(others))
-        if usual <= 0.0 or own <= 0.0 or max(abs(o / usual - 1.0) for o in others) > ALIKE:
+        ratio = ratio_to(own, [s for other, s in slopes if other is not one])
+        if ratio is None:
             continue
         stated = stated_unit(one, name)
-        ratio = own / usual
         near = units_near(ratio, stated, one.channels[name].channel.unit)
         if not near:
             continue
@@ -72,6 +68,17 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         remedy = f"is `channels.{name}.unit` of this recording right?"
         z = abs(float(np.log(ratio))) / NEAR
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+
+
+def ratio_to(own: float | None, others: Sequence[float | None]) -> float | None:
+    """How many times the slope of the others one is; None where one is not known, or the others are not alike."""
+    known = [s for s in others if s is not None]
+    if own is None or len(known) < OTHERS or len(known) < len(others):
+        return None
+    usual = float(np.median(known))
+    if usual <= 0.0 or own <= 0.0 or max(abs(s / usual - 1.0) for s in known) > ALIKE:
+        return None
+    return own / usual
 
 
 def stated_unit(one: Compared, name: str) -> str:

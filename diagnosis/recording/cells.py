@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from datetime import datetime
+from pathlib import Path
+
+from cosim.unit.errors import InputError
 
 #: What reads tables of any make.
 NEW = "`cosim recording new TABLE --scenario SCENARIO --out FOLDER`"
@@ -22,6 +26,22 @@ _OF_DAY = re.compile(r"^(\d{1,3}):(\d{2}):(\d{2})(?:[.,](\d+))?(?: ?([AaPp])[Mm]
 _SLASHED = re.compile(r"^\d{1,2}[/.-]\d{1,2}[/.-]\d{2,4}([ T].*)?$")
 _CLOCK = re.compile(r"^\d{1,2}:\d{2}(:\d{2})?([.,]\d+)?( ?[AaPp][Mm])?$")
 _THOUSANDS = re.compile(r"^[-+]?(\d{1,3}(\.\d{3})+(,\d*)?|\d{1,3}(,\d{3})+\.\d*|\d{1,3}('\d{3})+([.,]\d*)?)$")
+
+
+def uses_comma(path: Path, cells: Iterable[str]) -> bool:
+    """Whether numbers have a decimal comma.
+
+    Raises:
+        InputError: Some have a comma and some a point.
+    """
+    comma = point = None
+    for cell in cells:
+        comma = cell if comma is None and "," in cell and COMMA.match(cell) else comma
+        point = cell if point is None and "." in cell and POINT.match(cell) else point
+    if comma is not None and point is not None:
+        what = f"it has decimal commas (`{comma}`) and decimal points (`{point}`)"
+        raise InputError(path, "", what, "write all numbers with one of them")
+    return comma is not None
 
 
 def has_thousands(cell: str) -> bool:

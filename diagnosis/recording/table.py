@@ -13,7 +13,7 @@ import pandas as pd  # type: ignore[import-untyped]
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
-from diagnosis.recording.cells import COMMA, NEW, POINT, how_to_write
+from diagnosis.recording.cells import COMMA, NEW, how_to_write, uses_comma
 
 #: What may stand between columns.
 _MARKS = (",", ";", "\t")
@@ -91,12 +91,10 @@ class Table:
         Raises:
             InputError: The table has both.
         """
-        cells = pd.unique(texts.to_numpy().ravel())
-        commas = {c: c.replace(",", ".") for c in cells if isinstance(c, str) and "," in c and COMMA.match(c)}
-        point = next((c for c in cells if isinstance(c, str) and "." in c and POINT.match(c)), None)
-        if commas and point is not None:
-            what = f"it has decimal commas (`{next(iter(commas))}`) and decimal points (`{point}`)"
-            raise InputError(self.file, "", what, "write all numbers with one of them")
+        cells = [c for c in pd.unique(texts.to_numpy().ravel()) if isinstance(c, str)]
+        if not uses_comma(self.file, cells):
+            return texts
+        commas = {c: c.replace(",", ".") for c in cells if COMMA.match(c)}
         return texts.apply(lambda column: column.map(lambda cell: commas.get(cell, cell)))
 
     def _check_names(self, header_lines: int, columns: Collection[str], mark: str) -> None:

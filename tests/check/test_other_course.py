@@ -56,15 +56,19 @@ def _recordings(folder: Path, stated: Sequence[int], names: Sequence[str] = tupl
     (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
     found = []
     for run, told in zip((1, 2, 3), stated):
-
-        def rate(x: Array, u: float) -> Array:
-            through = G * (x[0] - x[1])
-            return np.array([(u - through) / C_1, (through - G_OUT * (x[1] - 295.0)) / C_2])
-
         rng = np.random.default_rng(100 + run)
-        course = held(rate, np.array([295.0, 295.0]), _power(run), STEP)
-        found.append(recorded(folder / f"run_{run}", _power(told), course, rng, names))
+        found.append(recorded(folder / f"run_{run}", _power(told), temperatures(_power(run)), rng, names))
     return found
+
+
+def temperatures(power: Array) -> Array:
+    """Of plate and block [K] by the numbers of the scenario, shape (steps, 2)."""
+
+    def rate(x: Array, u: float) -> Array:
+        through = G * (x[0] - x[1])
+        return np.array([(u - through) / C_1, (through - G_OUT * (x[1] - 295.0)) / C_2])
+
+    return held(rate, np.array([295.0, 295.0]), power, STEP)
 
 
 def recorded(folder: Path, power: Array, course: Array, rng: np.random.Generator, names: Sequence[str]) -> Path:

@@ -16,8 +16,7 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
-from tests.check.test_other_course import C_1, C_2, G_OUT, SCENARIO, STACK, STEP, G, _power, recorded
-from tests.systems.rigs import held
+from tests.check.test_other_course import CHANNELS, SCENARIO, STACK, STEP, _power, recorded, temperatures
 
 #: When the heater was off [s], soon after its power changed: 44 % of the recording.
 BEGIN, END = 3640.0, 8900.0
@@ -35,17 +34,11 @@ def _recordings(folder: Path, kind: str) -> list[Path]:
     """Three runs; in the second one power is not what its column says for a while."""
     STACK.build(folder)
     (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
-
-    def rate(x: Array, u: float) -> Array:
-        through = G * (x[0] - x[1])
-        return np.array([(u - through) / C_1, (through - G_OUT * (x[1] - 295.0)) / C_2])
-
     found = []
     for run in (1, 2, 3):
         rng, stated = np.random.default_rng(100 + run), _power(run)
         power = acted(kind, stated) if run == 2 else stated
-        course = held(rate, np.array([295.0, 295.0]), power, STEP)
-        found.append(recorded(folder / f"run_{run}", stated, course, rng, ("stack.top", "stack.bottom")))
+        found.append(recorded(folder / f"run_{run}", stated, temperatures(power), rng, tuple(CHANNELS)))
     return found
 
 
