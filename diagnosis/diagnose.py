@@ -28,19 +28,21 @@ from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day, with_day
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts, without_times_that_fit
+from diagnosis.judge.findings import findings
 from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
 from diagnosis.judge.headline import headline, notes
 from diagnosis.judge.held_out import carried_over, channel_fits
 from diagnosis.judge.initial_state import begun
 from diagnosis.judge.isolability import Isolability
-from diagnosis.judge.judge import evident, findings, is_settled, recalibration, verdict, why_open
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.opposing import opposed
+from diagnosis.judge.recalibration import recalibration
 from diagnosis.judge.recordings import used
 from diagnosis.judge.remainder import remainders
 from diagnosis.judge.searched import searched
 from diagnosis.judge.spread import spread_over_recordings
+from diagnosis.judge.trust import is_settled
 from diagnosis.judge.unfitted import (
     HeldOutReadings,
     Readings,
@@ -48,6 +50,7 @@ from diagnosis.judge.unfitted import (
     left_out_readings,
     left_out_stretches,
 )
+from diagnosis.judge.verdict import evident, verdict, why_open
 from diagnosis.judge.within_rows import within_rows
 from diagnosis.locate.locate import Located, locate
 from diagnosis.model_error import search_with_model_error

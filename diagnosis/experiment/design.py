@@ -17,8 +17,8 @@ from diagnosis.experiment.plan import HOTTER, Planner
 from diagnosis.experiment.programmes import Shape, again, shapes, stretched
 from diagnosis.experiment.separation import DECISIVE
 from diagnosis.judge.acceptance import UNSEPARATED, Accepted
-from diagnosis.judge.judge import bends_into, probabilities
 from diagnosis.judge.next_experiment import Course, NextExperiment, Rival
+from diagnosis.judge.rivals import bends_into, probabilities
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import GRAVITY
 from diagnosis.models.protocol import DiagnosisModel

@@ -13,7 +13,7 @@ import numpy as np
 
 from cosim.scenario import Scenario
 from diagnosis.judge.diagnosis import Finding, Standing
-from diagnosis.judge.judge import statement
+from diagnosis.judge.findings import statement
 from diagnosis.recording.recording import Recording
 from diagnosis.search.switch_times import is_held
 

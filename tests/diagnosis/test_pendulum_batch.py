@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from cosim.run import run
 from cosim.scenario import load_scenario
 from cosim.unit.quantity import PhysicalValue
-from diagnosis.judge.judge import estimates
+from diagnosis.judge.estimates import estimates
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.models.pendulum.batch import arm, longest_step, swings
 from diagnosis.models.pendulum.model import PendulumModel, without_scale

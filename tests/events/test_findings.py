@@ -8,7 +8,7 @@ import pytest
 from diagnosis.candidates.registry import candidate, catalogue
 from diagnosis.experiment.bench import Belief, Bench
 from diagnosis.judge.acceptance import accept
-from diagnosis.judge.judge import findings
+from diagnosis.judge.findings import findings
 from diagnosis.judge.unfitted import left_out_readings
 from diagnosis.model_error import distinct, plain_terms
 from diagnosis.models.coil_network.model import CoilNetworkModel

@@ -11,9 +11,9 @@ import pytest
 from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import candidate, catalogue
 from diagnosis.judge.diagnosis import Estimate
+from diagnosis.judge.estimates import estimates
 from diagnosis.judge.events import event_interval, event_of, local_estimates, local_instant
 from diagnosis.judge.held_out import carried_over
-from diagnosis.judge.judge import estimates
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.search.fit import fit

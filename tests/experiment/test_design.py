@@ -14,7 +14,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.experiment.bench import Belief, Bench, Conditions
 from diagnosis.experiment.design import Open, SoFar, design, open_explanations
 from diagnosis.experiment.write import write_experiment
-from diagnosis.judge.judge import probabilities
+from diagnosis.judge.rivals import probabilities
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import Fit

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.acceptance import STRENGTHS, _confused, _scattered
-from diagnosis.judge.judge import INTERPOLATED, _alternatives, _open_rivals
+from diagnosis.judge.rivals import INTERPOLATED, alternatives_to, open_rivals
 from diagnosis.judge.unfitted import Predicted
 from diagnosis.models.fabric import search as fabric_search
 from diagnosis.models.fabric.mechanical import MechanicalModel
@@ -88,8 +88,8 @@ def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float,
     assert (rivals[PAYLOAD] < INTERPOLATED) is is_open
     assert rivals[FRICTION] > INTERPOLATED
     accepted: Any = SimpleNamespace(headline=best, rivals=(), confused={TILT: tuple(rivals.items())})
-    assert _open_rivals([], TILT, accepted) == (("payload",) if is_open else ())
-    alternatives, probability = _alternatives(None, accepted, TILT)  # type: ignore[arg-type]
+    assert open_rivals([], TILT, accepted) == (("payload",) if is_open else ())
+    alternatives, probability = alternatives_to(None, accepted, TILT)  # type: ignore[arg-type]
     assert probability == (0.5 if is_open else 1.0)
     assert [a.effect for a in alternatives] == (["payload"] if is_open else [])
 

@@ -9,7 +9,7 @@ import pytest
 
 from cosim.unit.protocol import Array
 from diagnosis.candidates.registry import catalogue
-from diagnosis.judge.judge import estimated, estimates
+from diagnosis.judge.estimates import estimated, estimates
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.model import FabricModel
 from diagnosis.models.fabric.strengths import interval_of, next_sizes

@@ -6,9 +6,10 @@ import pytest
 from diagnosis.judge.acceptance import accept
 from diagnosis.judge.adequacy import adequacy
 from diagnosis.judge.diagnosis import Searched, Verdict
-from diagnosis.judge.judge import findings, verdict
+from diagnosis.judge.findings import findings
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.unfitted import left_out_readings, left_out_stretches
+from diagnosis.judge.verdict import verdict
 from tests.faults.rig import NAMES, STOP, Wrong, faulty, found, interval, recorded, scenario
 
 #: Begin and end are found within this share of the recording.

@@ -19,9 +19,10 @@ from diagnosis.faults.model import with_faults
 from diagnosis.judge.acceptance import accept
 from diagnosis.judge.adequacy import adequacy
 from diagnosis.judge.diagnosis import Domain, Finding, Searched, Standing, Verdict
-from diagnosis.judge.judge import findings, verdict
+from diagnosis.judge.findings import findings
 from diagnosis.judge.of_a_day import is_shown_there_alone
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_readings, left_out_stretches
+from diagnosis.judge.verdict import verdict
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.search import Settings, search

@@ -31,7 +31,7 @@ def test_constants_are_those_of_the_source() -> None:
     found = {c.key: c.value for c in constants("judge")}
     assert found["judge.agreement.LEVEL"] == 0.001
     assert (found["judge.agreement.LAGS"], found["judge.agreement.FEWEST"]) == (20, 30)  # defined in one line
-    assert "judge.judge._UNCONFIRMED" not in found
+    assert "judge.verdict._UNCONFIRMED" not in found
 
 
 @pytest.mark.parametrize(

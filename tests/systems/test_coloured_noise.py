@@ -15,7 +15,7 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.agreement import times_white
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.judge.headline import notes
-from diagnosis.judge.judge import evident
+from diagnosis.judge.verdict import evident
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT

@@ -13,7 +13,7 @@ from cosim.scenario import load_scenario, parse_scenario
 from cosim.unit.protocol import Array
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
-from diagnosis.judge.judge import estimates
+from diagnosis.judge.estimates import estimates
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import fits, places_of

@@ -10,7 +10,7 @@ import pytest
 from diagnosis.judge import acceptance
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.diagnosis import Standing
-from diagnosis.judge.judge import _widened, findings
+from diagnosis.judge.findings import _widened, findings
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_stretches
 from diagnosis.recording.recording import Recording
 from diagnosis.search.explanation import Settings

@@ -10,7 +10,7 @@ import pytest
 from cosim.unit.protocol import Array
 from diagnosis.judge.constancy import CONSTANT, Constancy
 from diagnosis.judge.diagnosis import Standing
-from diagnosis.judge.judge import findings
+from diagnosis.judge.findings import findings
 from diagnosis.judge.unfitted import left_out_stretches, raw_residuals
 from diagnosis.models.coil_network.runs import ZERO
 from diagnosis.search.problem import Point, Term

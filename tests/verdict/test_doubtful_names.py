@@ -9,8 +9,8 @@ import pytest
 
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import Standing
+from diagnosis.judge.findings import findings
 from diagnosis.judge.form import DIRECTIONS, EXPLAINED, companions, share_at_place
-from diagnosis.judge.judge import findings
 from diagnosis.judge.opposing import opposed
 from diagnosis.judge.strain import strained
 from diagnosis.search.fit import fit

@@ -11,9 +11,9 @@ from diagnosis.judge.agreement import agreement
 from diagnosis.judge.diagnosis import Doubt, Moved, Used, Verdict
 from diagnosis.judge.doubts import doubted, without_explained_starts
 from diagnosis.judge.headline import how_right
-from diagnosis.judge.judge import _open_ones
 from diagnosis.judge.location import Remainder
 from diagnosis.judge.unfitted import readings_of
+from diagnosis.judge.verdict import _open_ones
 from diagnosis.recording.quantity import Target
 from diagnosis.recording.recording import Channel
 from diagnosis.report.sentences import clocks, improvement

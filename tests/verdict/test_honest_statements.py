@@ -14,16 +14,9 @@ from diagnosis.judge.agreement import agreement
 from diagnosis.judge.diagnosis import Doubt, Estimate, Standing, Verdict
 from diagnosis.judge.doubts import doubted
 from diagnosis.judge.events import between_samples
+from diagnosis.judge.findings import _is_beside_unnamed, _is_of_either, findings
 from diagnosis.judge.headline import headline, how_right, notes
-from diagnosis.judge.judge import (
-    _is_beside_unnamed,
-    _is_of_either,
-    _rejections,
-    findings,
-    is_stopgap,
-    verdict,
-    why_open,
-)
+from diagnosis.judge.verdict import _rejections, is_stopgap, verdict, why_open
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.report.sentences import doubt_text, improvement, structure, sureness
 from diagnosis.report.undecided import what_decides

@@ -18,9 +18,11 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day
 from diagnosis.judge.diagnosis import Adequacy, Domain, Finding, Searched, Standing, Verdict
+from diagnosis.judge.findings import findings
 from diagnosis.judge.headline import headline, notes
-from diagnosis.judge.judge import findings, recalibration, verdict, why_open
+from diagnosis.judge.recalibration import recalibration
 from diagnosis.judge.unfitted import HeldOutReadings, left_out_stretches
+from diagnosis.judge.verdict import verdict, why_open
 from diagnosis.model_error import search_with_model_error
 from diagnosis.recording.recording import Recording
 from diagnosis.search.explanation import Settings

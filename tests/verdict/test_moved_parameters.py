@@ -12,7 +12,8 @@ import pytest
 from rich.console import Console
 
 from diagnosis.judge.diagnosis import Moved, Verdict
-from diagnosis.judge.judge import recalibration, verdict, why_open
+from diagnosis.judge.recalibration import recalibration
+from diagnosis.judge.verdict import verdict, why_open
 from diagnosis.report.network import Network
 from diagnosis.report.page import page
 from diagnosis.report.sentences import moved_most, moved_text

@@ -18,9 +18,9 @@ from diagnosis.faults.model import with_faults
 from diagnosis.judge.diagnosis import Domain, Estimate, Searched, Verdict
 from diagnosis.judge.doubts import doubted
 from diagnosis.judge.headline import headline, how_right
-from diagnosis.judge.judge import why_open
 from diagnosis.judge.location import WHOLE, Location
 from diagnosis.judge.searched import searched
+from diagnosis.judge.verdict import why_open
 from diagnosis.models.build import model_of
 from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.cosimulation.model import ClosedLoopModel

@@ -8,7 +8,7 @@ from typing import Any, cast
 import pytest
 
 from diagnosis.judge.acceptance import Accepted
-from diagnosis.judge.judge import is_settled
+from diagnosis.judge.trust import is_settled
 from diagnosis.search.problem import Term
 
 

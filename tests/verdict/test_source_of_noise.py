@@ -9,9 +9,9 @@ import pytest
 
 from diagnosis.judge.diagnosis import Left, Verdict
 from diagnosis.judge.headline import headline, how_right, noise_of
-from diagnosis.judge.judge import _rejections
 from diagnosis.judge.location import Remainder
 from diagnosis.judge.remainder import remainders
+from diagnosis.judge.verdict import _rejections
 from diagnosis.report.undecided import remainder, what_decides
 from tests.diagnosis.report_examples import ADEQUACY, diagnosis
 from tests.search.line_model import TIME

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from diagnosis.judge.diagnosis import Domain, Searched, Verdict
-from diagnosis.judge.judge import _within_readings
+from diagnosis.judge.extent import within_readings
 from diagnosis.report.display import likelihood, parameter_words
 from diagnosis.report.sentences import improvement, searched
 from tests.diagnosis.report_examples import diagnosis, fit
@@ -39,4 +39,4 @@ def test_a_log_likelihood_has_four_digits_at_most(value: float, shown: str) -> N
 
 def test_an_interval_ends_with_the_last_reading() -> None:
     times = [np.array([2.0, 50.0]), np.array([1.0, 59.8])]
-    assert _within_readings([(0.0, 12.0), (35.4, 61.2)], times) == ((1.0, 12.0), (35.4, 59.8))
+    assert within_readings([(0.0, 12.0), (35.4, 61.2)], times) == ((1.0, 12.0), (35.4, 59.8))
