@@ -50,6 +50,18 @@ class Role(Enum):
     INPUT = "input"
     #: An input u that is on where recordings begin, and no temperature: 0 is off.
     STARTED_INPUT = "input that is on at the begin"
+    #: A force or torque u at an input of an FMU that hides its states, over an output v that is a velocity.
+    FORCE_OVER_VELOCITY = "force at an input over a velocity"
+    #: The same over an output x that is a position, with the velocity v that follows from it.
+    FORCE_OVER_POSITION = "force at an input over a position"
+    #: A heat flow u at such an input over an output T, in surroundings of T_a.
+    HEAT_OVER_TEMPERATURE = "heat flow at an input over a temperature"
+    #: A flow u at such an input over an output h: a level, a volume or a pressure.
+    FLOW_OVER_LEVEL = "flow at an input over a level"
+    #: A voltage u at such an input over an output i.
+    VOLTAGE_OVER_CURRENT = "voltage at an input over a current"
+    #: A current u at such an input over an output q, a voltage.
+    CURRENT_OVER_VOLTAGE = "current at an input over a voltage"
     #: An input u of an FMU that hides its states, over an output o.
     PORT = "input over an output"
     #: An output y of an FMU that hides its states.

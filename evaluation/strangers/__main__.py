@@ -27,6 +27,7 @@ from evaluation.strangers import (
     first_set,
     fourteenth_set,
     fourth_set,
+    nineteenth_set,
     ninth_set,
     second_set,
     seventeenth_set,
@@ -60,6 +61,7 @@ SETS = {
     "sixteenth": sixteenth_set.CASES,
     "seventeenth": seventeenth_set.CASES,
     "eighteenth": eighteenth_set.CASES,
+    "nineteenth": nineteenth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")

@@ -14,16 +14,17 @@ import numpy as np
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
+from diagnosis.laws.at_inputs import OVER
+from diagnosis.laws.expression import names_in, renamed
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.changeable import changeable, why_none
 from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
-from diagnosis.models.systems.expression import names_in, renamed
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
 from diagnosis.models.systems.quantities import Places, Quantity
 from diagnosis.models.systems.steps import resolve
-from diagnosis.models.systems.surroundings import surroundings
+from diagnosis.models.systems.surroundings import hidden_surroundings, surroundings
 from diagnosis.models.systems.targets import MODULATED, SURROUNDINGS, is_of, parameter, targets
 from diagnosis.search.problem import Term, TermParameter
 
@@ -111,7 +112,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
         own.parameters = changeable(systems[0], fmu, own)
-        own.room = surroundings(systems[0], fmu, own, *probed)
+        own.room = surroundings(systems[0], fmu, own, *probed) or hidden_surroundings(systems[0], fmu, own)
         own.untried = _untried(fmu, own)
         found.append(own)
     return found
@@ -256,7 +257,7 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
             lag that is no longer is none of the rig.
     """
     steps = sample_step, macro_step
-    seen: set[tuple[str, str, str]] = set()
+    seen: dict[tuple[str, str, str], Fit] = {}
     for own in places:
         for law in laws:
             for to, target, symbols in targets(own, law.role):
@@ -265,8 +266,10 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
                     continue
                 signature = own.component, to, _form(fit.placed)
                 if signature not in seen:
-                    seen.add(signature)
+                    seen[signature] = fit
                     yield fit
+                elif (other := _other_sign(fit, seen[signature])) is not None:
+                    yield other
 
 
 def _fit(
@@ -335,10 +338,26 @@ def _fit(
     what += "" if changed is None else "".join(f", or {parameter(n)} alike" for n in changed.alike)
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
     beside = _beside(own, law, symbols, needed)
-    others = [n for n in dict.fromkeys((beside, symbols["o"].name if "o" in symbols else "")) if n]
+    over = symbols[OVER[law.role][0]].name if law.role in OVER else symbols["o"].name if "o" in symbols else ""
+    others = [n for n in dict.fromkeys((beside, over)) if n]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)
+
+
+def _other_sign(fit: Fit, first: Fit) -> Fit | None:
+    """A law without a name that a named one at an input leaves over: with the sign that the named one cannot have.
+
+    An input may count the other way, and what takes energy out of one part may be given to another.
+    """
+    strength = fit.term.parameters[0]
+    if first.law.role not in OVER or first.term.parameters[0].lower < 0.0 or strength.lower >= 0.0:
+        return None
+    is_positive = first.placed.formula.startswith("-") != fit.placed.formula.startswith("-")
+    starts = tuple(dict.fromkeys(abs(s) if is_positive else -abs(s) for s in strength.starts))
+    lower, upper = (0.0, strength.upper) if is_positive else (strength.lower, 0.0)
+    strength = replace(strength, starts=starts, lower=lower, upper=upper)
+    return replace(fit, term=replace(fit.term, parameters=(strength, *fit.term.parameters[1:])))
 
 
 def _beside(own: Places, law: Law, symbols: Mapping[str, Quantity], needed: Collection[str]) -> str:

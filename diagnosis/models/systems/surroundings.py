@@ -17,6 +17,8 @@ from diagnosis.search.cosim_run import Changes
 
 #: What temperatures are moved by [K], and what rates may then change by, relative: rounding.
 MOVED, ROUNDING = 1.0, 1e-6
+#: How closely all temperatures follow a parameter that is their surroundings and their start, relative.
+CARRIED = 1e-3
 
 
 def surroundings(
@@ -59,6 +61,56 @@ def surroundings(
     system.simulate()
     found = carried or acting
     return found[0] if len(found) == 1 else None
+
+
+def hidden_surroundings(system: FastSystem, fmu: FastFmu, own: Places) -> float | None:
+    """The same of an FMU that hides its states, by its outputs; None where that is not clear.
+
+    It is the only parameter that leaves where temperatures begin and moves them later, or else the only one that moves
+    all of them by as much as itself all the time: a start at rest.
+
+    Args:
+        system: Of one recording.
+        fmu: The FMU.
+        own: Its quantities.
+    """
+    warm = [q.name for q in own.outputs.values() if is_of(q, "K")]
+    driven = any(is_of(q, "K") for q in own.inputs.values())
+    if not warm or driven or not any(is_of(q, "W") for q in own.inputs.values()):
+        return None
+    plain = _temperatures(system, fmu, own, warm, Changes())
+    acting: list[float] = []
+    carrying: list[float] = []
+    for parameter, value in scalar_parameters(fmu, system, own.component):
+        unit = fmu.unit.table.all[parameter].variable.unit
+        if parse_unit(unit).dimensionality != parse_unit("K").dimensionality:
+            continue
+        factor, offset = conversion(unit, "K")
+        changes = Changes({own.component: {parameter: PhysicalValue(value + MOVED / factor, unit)}})
+        there = _temperatures(system, fmu, own, warm, changes)
+        if plain is None or there is None or _are_alike(there, plain):
+            continue
+        if _are_alike(there[0], plain[0]):
+            acting.append(factor * value + offset)
+        elif np.allclose(there - plain, MOVED, rtol=CARRIED):
+            carrying.append(factor * value + offset)
+    system.simulate()
+    found = acting or carrying
+    return found[0] if len(found) == 1 else None
+
+
+def _temperatures(
+    system: FastSystem, fmu: FastFmu, own: Places, names: Sequence[str], changes: Changes
+) -> Array | None:
+    """Outputs that are temperatures [K], shape (rows, names); None where the simulation stops."""
+    rows = system.simulate(changes)
+    if rows is None:
+        return None
+    found = []
+    for name in names:
+        factor, offset = conversion(fmu.units[name], "K")
+        found.append(factor * rows.values[:, system.recorded[own.component, name]].reshape(-1) + offset)
+    return np.array(found).T
 
 
 def _are_alike(rates: Array, others: Array) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeVar
 
 from cosim.unit.quantity import cycles_and_angles, parse_unit
+from diagnosis.laws.at_inputs import OVER
 from diagnosis.laws.law import Role
 from diagnosis.models.systems.quantities import Places, Quantity
 
@@ -46,6 +47,8 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
             yield from ((target, q, {"v": symbols["v"], "o": load}) for load in own.inputs.values() if _is_load(load))
     elif role in (Role.COUPLED_VELOCITY, Role.COUPLED_TEMPERATURE, Role.COUPLED_LEVEL):
         yield from _coupled(own, role, free)
+    elif role in OVER:
+        yield from _hidden(own, role)
     elif role in AT_PORTS:
         yield from _at_ports(own, role)
     elif role in MODULATED:
@@ -106,6 +109,44 @@ def _at_ports(own: Places, role: Role) -> Iterator[Target]:
             yield from ((name, q, {"y": q, "o": other}) for other in ports)
 
 
+#: Units of an input and of the output of which it drives the derivative, of each role.
+_DRIVEN = {
+    Role.FORCE_OVER_VELOCITY: ((("N",), ("m/s",)), (("N*m",), ("rad/s",))),
+    Role.FORCE_OVER_POSITION: ((("N",), ("m",)), (("N*m",), ("rad",))),
+    Role.HEAT_OVER_TEMPERATURE: ((("W",), ("K",)),),
+    Role.FLOW_OVER_LEVEL: ((("m^3/s", "kg/s"), ("m", "m^3", "Pa")),),
+    Role.VOLTAGE_OVER_CURRENT: ((("V",), ("A",)),),
+    Role.CURRENT_OVER_VOLTAGE: ((("A",), ("V",)),),
+}
+
+
+def _hidden(own: Places, role: Role) -> Iterator[Target]:
+    """Inputs that drive what an output shows."""
+    symbol = OVER[role][0]
+    for drives, shows in _DRIVEN[role]:
+        for u in (q for q in own.inputs.values() if is_of(q, *drives)):
+            for o in (q for q in own.outputs.values() if is_of(q, *shows)):
+                for beside in _beside_output(own, role, o):
+                    yield u.name, u, {"u": u, symbol: o, **beside}
+
+
+def _beside_output(own: Places, role: Role, output: Quantity) -> list[dict[str, Quantity]]:
+    """Further symbols of a law over an output, one choice each: the surroundings; a velocity, for its size."""
+    if role is Role.HEAT_OVER_TEMPERATURE:
+        return _rooms(own)
+    if role is Role.FORCE_OVER_POSITION:
+        return [{"v": Quantity(f"rate of {output.name}", f"({output.unit})/s", output.rate, 0.0, 0.0)}]
+    return [{}]
+
+
+def _rooms(own: Places) -> list[dict[str, Quantity]]:
+    """What may be the surroundings; where nobody says it, laws that need none have their place all the same."""
+    rooms = [{"T_a": q} for q in own.inputs.values() if is_of(q, "K")]
+    if rooms:
+        return rooms
+    return [{} if own.room is None else {"T_a": Quantity(SURROUNDINGS, "K", 1.0, own.room, 0.0)}]
+
+
 def _motions(own: Places, free: Mapping[str, Quantity]) -> Iterator[Target]:
     """Velocities, with the position where there is one."""
     for position, velocity in own.velocity_of.items():
@@ -159,13 +200,9 @@ def _single(
         for name, q in free.items():
             yield f"der({name})", q, {"s": q}
     elif role is Role.TEMPERATURE:
-        # Where nobody says what the surroundings are, laws that need none have their place all the same.
-        rooms = [{"T_a": q} for q in own.inputs.values() if is_of(q, "K")]
-        if not rooms:
-            rooms = [{} if own.room is None else {"T_a": Quantity(SURROUNDINGS, "K", 1.0, own.room, 0.0)}]
         for name, q in alone.items():
             if is_of(q, "K"):
-                yield from ((f"der({name})", q, {"T": q, **room}) for room in rooms)
+                yield from ((f"der({name})", q, {"T": q, **room}) for room in _rooms(own))
     else:
         units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
         symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
