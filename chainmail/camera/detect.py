@@ -54,6 +54,10 @@ class Spots:
     edges: tuple[Array, ...]
 
 
+#: Of a picture that shows none.
+NO_SPOTS = Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0), ())
+
+
 class Detector:
     """Finds spots of one colour.
 
@@ -86,7 +90,7 @@ class Detector:
         boxes = self._boxes(strength, max(ground + _LEVEL * (level - ground), _FLOOR)) if level > _FLOOR else []
         found = [s for s in (self._spot(picture, strength, box) for box in boxes) if s is not None]
         if not found:
-            return Spots(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros(0), ())
+            return NO_SPOTS
         centre, deviation, area, contrast, edge = zip(*found)
         return Spots(np.array(centre), np.array(deviation), np.array(area), np.array(contrast), tuple(edge))
 

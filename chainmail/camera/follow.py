@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -13,6 +14,10 @@ from chainmail.camera.spots import Places
 from chainmail.camera.tracks import GAP, PART, SEEN, Tracks
 from cosim.unit.protocol import AnyArray, Array
 
+#: Another assignment of points costs so much of a reach more.
+_CLEARLY = 0.5
+#: From this share of its reach on a marker may go beyond it.
+_NEAR_END = 0.9
 #: Deviation of an expected place [m], at once and by what it may move in a second [m/s].
 _AT_ONCE, _PER_SECOND = 2e-3, 0.04
 #: No place is expected over a longer time [s].
@@ -24,6 +29,9 @@ _MISSING, _LEAST_MISSING = 4.0, 0.012
 
 #: A marker has moved where two readings differ by so many deviations.
 _MOVED = 4.0
+#: Markers move on by so many deviations of a step, and stop by less than this share of it, for so many pictures at
+#: most; cosine of the angle between what they do before and after.
+_GOING, _STOPPED, _HELD_FOR, _AHEAD = 2.0, 0.15, 4, 0.7
 
 Assign = Callable[[Places, Expected | None], Chain | None]
 
@@ -33,13 +41,46 @@ def fabric_assigner(weave: Weave) -> Assign:
     return lambda spots, expected: identify(spots.places, weave, expected)
 
 
-def point_assigner(points: Array, reach: float) -> Assign:
+def follow_points(
+    times: Array, pictures: Sequence[Places], points: Array, reach: float
+) -> tuple[Tracks, tuple[str, ...]]:
+    """Tracks of markers that stay near known places, and what is to be said of their reach.
+
+    Where reaches overlap, all markers of a picture together tell which is which, if none goes farther than its reach.
+    Whether that holds, the travel shows: what comes near the end of its reach may leave it too.
+
+    Args:
+        times: Shape (frames,) [s].
+        pictures: Spots of each frame.
+        points: Places of the markers, shape (markers, 2) [m].
+        reach: How far each may be from its place [m].
+    """
+    found = follow(times, pictures, len(points), point_assigner(points, reach, is_reach_sure=True))
+    away = np.linalg.norm(found.places - points, axis=2)
+    farthest = np.nanmax(np.where(np.isfinite(away), away, 0.0), axis=0)
+    last = int(np.argmax(farthest))
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    if not farthest[last] > _NEAR_END * reach or not np.any(np.sum(apart <= 2.0 * reach, axis=1) > 1):
+        return found, ()
+    careful = follow(times, pictures, len(points), point_assigner(points, reach, is_reach_sure=False))
+    return careful, (
+        f"reach: marker {last + 1} is up to {1e3 * farthest[last]:.3g} mm from its place, of {1e3 * reach:.3g} mm that "
+        "it may be, and may go farther; since reaches overlap, those markers "
+        "are left open: state a larger `reach`, beyond which none goes",
+    )
+
+
+def point_assigner(points: Array, reach: float, is_reach_sure: bool = False) -> Assign:
     """Assignment of spots to markers that stay near known places, all at once.
 
     Args:
         points: Their places, shape (markers, 2) [m].
         reach: How far each may be from its place [m].
+        is_reach_sure: Whether none goes farther, so that all together tell which is which.
     """
+
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    is_near = np.sum(apart <= 2.0 * reach, axis=1) > 1
 
     def assign(spots: Places, expected: Expected | None) -> Chain | None:
         if not len(spots):
@@ -50,12 +91,29 @@ def point_assigner(points: Array, reach: float) -> Assign:
         chosen = np.full(len(points), -1)
         fits = far[rows, columns] <= reach
         chosen[rows[fits]] = columns[fits]
-        # Two markers that reach one spot, or two spots within one marker's reach, leave it open which is which.
-        several = np.sum((far <= reach) & (spots.share > 0.5), axis=1) > 1
+        # A spot that no marker takes beside a marker that has none: that one may be farther than its reach, and others
+        # whose reaches overlap the neighbours of what they seem to be.
+        left = (spots.share > 0.5) & ~np.isin(np.arange(len(spots)), chosen)
+        if not is_reach_sure or (np.any(left) and np.any(chosen < 0)):
+            chosen[is_near] = -1
+        # Several spots within one marker's reach leave it open which it is, unless every marker has one and any other
+        # choice costs clearly more.
+        several = np.flatnonzero(np.sum((far <= reach) & (spots.share > 0.5), axis=1) > 1)
+        if np.all(chosen >= 0):
+            most = float(np.sum(cost[rows, columns])) + _CLEARLY * reach
+            several = several[[_next_best(cost, int(m), int(chosen[m])) < most for m in several]]
         chosen[several] = -1
         return Chain(chosen, 2.0 * CLEAR if (chosen >= 0).any() else 0.0)
 
     return assign
+
+
+def _next_best(cost: Array, marker: int, spot: int) -> float:
+    """Least cost of all markers together where one of them is not this spot."""
+    other = cost.copy()
+    other[marker, spot] = 1e3 * float(np.max(cost) + 1.0)
+    rows, columns = linear_sum_assignment(other)
+    return float(np.sum(other[rows, columns]))
 
 
 def follow(times: Array, pictures: Sequence[Places], markers: int, assign: Assign) -> Tracks:
@@ -150,6 +208,35 @@ def without_repeats(tracks: Tracks, is_repeated: AnyArray) -> Tracks:
         noise = np.hypot(tracks.deviation[end], tracks.deviation[begin])
         is_late[begin + 1 : end] = not np.any(np.isfinite(moved)) or bool(np.any(moved > _MOVED * noise))
     return tracks.without(np.repeat(is_late[:, None], tracks.markers, axis=1))
+
+
+def stopped(tracks: Tracks) -> AnyArray:
+    """Pictures in which all markers stand where they were, in the middle of a motion, shape (frames,).
+
+    A video that was made from fewer pictures, or a recorder that lost some, shows the one before once more; compression
+    makes it differ by bits. What moves on in the same direction before and after did not stop in between.
+    """
+    step = np.diff(tracks.places, axis=0)
+    with np.errstate(invalid="ignore"):
+        noise = np.nanmedian(tracks.deviation) * np.sqrt(2.0)
+    far = np.array([_size(s) for s in step])
+    found = np.zeros(len(tracks.times), dtype=bool)
+    large = np.flatnonzero(far > _GOING * noise)
+    for before, after in itertools.pairwise(large.tolist()):
+        between = far[before + 1 : after]
+        if not 0 < len(between) <= _HELD_FOR or not np.all(between < _STOPPED * min(far[before], far[after])):
+            continue
+        both = np.isfinite(step[before] + step[after])
+        along = float(np.sum(step[before][both] * step[after][both]))
+        if along > _AHEAD * float(np.linalg.norm(step[before][both]) * np.linalg.norm(step[after][both])):
+            found[before + 2 : after + 1] = True
+    return found
+
+
+def _size(step: Array) -> float:
+    """Root mean square of what is known of it; not a number where fewer than three markers are."""
+    known = np.isfinite(step).all(axis=1)
+    return float(np.sqrt(np.mean(step[known] ** 2))) if known.sum() >= 3 else float("nan")
 
 
 def doubt_parts(tracks: Tracks, radius: float) -> Tracks:

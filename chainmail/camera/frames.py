@@ -18,6 +18,8 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import conversion
 
+#: Relative difference of two rates from which both are said: 29.97 and 30 per second are one.
+_OTHER_RATE = 0.005
 _NUMBER = re.compile(r"\d+")
 
 
@@ -146,7 +148,7 @@ def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video:
     """
     count = len(stamps)
     if clock.rate is not None:
-        times, said = np.arange(count) / clock.rate.to("Hz"), f"{clock.rate} of the rig file"
+        times, said = np.arange(count) / clock.rate.to("Hz"), f"{clock.rate} of the rig file{_other_rate(clock, rate)}"
     elif clock.stamps is not None:
         times, said = _stamps(clock, rig, count), f"time stamps of {clock.stamps}"
     elif count > 1 and np.all(np.diff(stamps) > 0.0):
@@ -169,6 +171,16 @@ def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video:
     return times + (to_middle + clock.offset.to("s")), said
 
 
+def _other_rate(clock: ClockEntry, rate: float) -> str:
+    """What the video file says of its rate where the rig file says something else."""
+    if clock.rate is None or not rate > 0.0 or abs(rate / clock.rate.to("Hz") - 1.0) < _OTHER_RATE:
+        return ""
+    return (
+        f", though the video says {rate:.6g} frames per second: right where it is played faster or slower than it was "
+        "filmed; else leave out `rate`"
+    )
+
+
 def _stamps(clock: ClockEntry, rig: Path, count: int) -> Array:
     file = rig.parent / str(clock.stamps)
     try:
@@ -177,7 +189,8 @@ def _stamps(clock: ClockEntry, rig: Path, count: int) -> Array:
     except KeyError as error:
         raise InputError(file, "", f"there is no column `{clock.column}`", "correct clock.column of the rig") from error
     except (OSError, ValueError) as error:
-        raise InputError(file, "", f"it cannot be read as time stamps: {error}", "correct clock.stamps") from error
+        why = getattr(error, "strerror", None) or error
+        raise InputError(file, "", f"it cannot be read as time stamps: {why}", "correct clock.stamps") from error
     if len(column) != count or not np.isfinite(column).all():
         raise InputError(file, "", f"it has {int(np.isfinite(column).sum())} times for {count} frames", "give one each")
     return np.asarray(factor * column)

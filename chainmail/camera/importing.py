@@ -20,6 +20,8 @@ from cosim.unit.protocol import Array
 _METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 #: Weights of the third difference, and the root of the sum of their squares.
 _THIRD, _SIZE = np.array([-1.0, 3.0, -3.0, 1.0]), float(np.sqrt(20.0))
+#: Lengths of links between which a fabric may be [m]: a factor of 10 and more from the paper's.
+_SHORTEST, _LONGEST = 2e-3, 0.5
 #: Noise of a coordinate that never changes [m]: no tracker reads better.
 _LEAST = 1e-6
 
@@ -36,6 +38,10 @@ def imported(table: Table, given: ImportFile, file: Path) -> Measured:
         InputError: A marker or axis is not in the table, there are no times, they do not rise, or a marker has too
             few readings for its noise.
     """
+    if table.unit not in ("", given.unit):
+        raise InputError(
+            file, "unit", f"it is `{given.unit}`, and the table says that its lengths are in {table.unit}", "correct it"
+        )
     times = _times(table, given, file)
     sight = Sight(None, Plane(np.eye(3))) if given.plane is None else camera_of(given.lens, given.plane, file)
     places = np.stack([_places(table, name, given, sight, file) for name in given.markers], axis=1)
@@ -56,12 +62,37 @@ def imported(table: Table, given: ImportFile, file: Path) -> Measured:
         np.where(known, SEEN, GAP),
         np.full(len(times), np.nan),
     )
-    notes = (*table.notes, *sight.notes)
+    notes = (*table.notes, *sight.notes, *_pixels_as_lengths(table, given))
     spots = tuple(int(n) for n in known.sum(axis=1))
     if not given.fabric:
         return Measured(tracks, None, None, sight, notes, spots)
+    notes = (*notes, _link_lengths(places, file))
     links = Links(tracks, np.zeros((*known[:, 0::2].shape, 2, 2)))
     return Measured(tracks, links, largest_curvature(links.centres, links.centre_covariance), sight, notes, spots)
+
+
+def _pixels_as_lengths(table: Table, given: ImportFile) -> tuple[str, ...]:
+    if table.kind != "deeplabcut" or given.unit == "px":
+        return ()
+    return (f"unit: DeepLabCut writes pixels; these are taken to be in {given.unit}, as the import file says",)
+
+
+def _link_lengths(places: Array, file: Path) -> str:
+    """Distances of the two markers of each row.
+
+    Raises:
+        InputError: They are of no link that anybody weaves.
+    """
+    far = np.linalg.norm(places[:, 1::2] - places[:, 0::2], axis=2)
+    low, middle, high = 1e3 * np.nanquantile(far, [0.0, 0.5, 1.0])
+    if not _SHORTEST < 1e-3 * middle < _LONGEST:
+        raise InputError(
+            file,
+            "unit",
+            f"the two markers of a row would be {middle:.4g} mm apart (median)",
+            "correct `unit`, or the order of `markers`: back and front of row 1, then of row 2",
+        )
+    return f"distance of the two markers of a row: {low:.4g} to {high:.4g} mm, {middle:.4g} mm in the median"
 
 
 def _times(table: Table, given: ImportFile, file: Path) -> Array:

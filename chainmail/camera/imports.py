@@ -6,7 +6,7 @@ import csv
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Literal
@@ -20,6 +20,8 @@ from cosim.yaml_file import refuse_pipe
 Kind = Literal["deeplabcut", "optitrack", "plain"]
 #: Fields that stand for no value.
 _EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-", "--"})
+#: How Motive calls units of length.
+_LENGTHS = {"millimeters": "mm", "centimeters": "cm", "meters": "m"}
 #: Names of a column of times in a plain table.
 _TIMES = re.compile(r"^(time|t|zeit|timestamp|datetime|date)\s*(\[(?P<unit>[^\]]*)\]|\((?P<other>[^)]*)\))?$", re.I)
 #: `p1.x`, `p1_x`, `p1 x`, `p1-x`, `x_p1`, each with a unit behind it.
@@ -37,6 +39,7 @@ class Table:
         places: Name of a point to its coordinates by axis, each of shape (rows,), in the unit of the file.
         likelihood: Name of a point to how sure the tool is, from 0 to 1; only DeepLabCut says that.
         notes: What was found, in sentences.
+        unit: Of its lengths, as the file says; empty where it does not.
     """
 
     kind: Kind
@@ -44,6 +47,7 @@ class Table:
     places: dict[str, dict[str, Array]]
     likelihood: dict[str, Array]
     notes: tuple[str, ...] = ()
+    unit: str = ""
 
 
 def read_tracks(file: Path) -> Table:
@@ -115,6 +119,8 @@ def _optitrack(file: Path, rows: Sequence[Sequence[str]]) -> Table:
     head = rows[1:at]
     types = next((r for r in head if any(f in ("Marker", "Rigid Body Marker") for f in r)), None)
     names = next((r for r in head if "Name" in r[:2]), None)
+    if names is None and types is not None and head.index(types) + 1 < len(head):
+        names = head[head.index(types) + 1]  # up to version 1.21 the rows of the header are not labelled
     kinds = next((r for r in head if any(f == "Position" for f in r)), None)
     if names is None or kinds is None:
         raise InputError(
@@ -128,7 +134,8 @@ def _optitrack(file: Path, rows: Sequence[Sequence[str]]) -> Table:
             places.setdefault(names[column], {})[rows[at][column].lower()] = values[:, column]
     unit = settings.get("Length Units", "")
     notes = (f"OptiTrack: {len(places)} markers" + (f", length unit of the file: {unit}" if unit else ""),)
-    return _found(file, Table("optitrack", values[:, 1], places, {}, notes))
+    found = _found(file, Table("optitrack", values[:, 1], places, {}, notes))
+    return replace(found, unit=_LENGTHS.get(unit.strip().lower(), ""))
 
 
 def _plain(file: Path, rows: Sequence[Sequence[str]]) -> Table:

@@ -9,15 +9,24 @@ from pathlib import Path
 import numpy as np
 
 from chainmail.camera.curvature import Curvature, largest_curvature
-from chainmail.camera.detect import Detector, Spots, outline_error
-from chainmail.camera.follow import doubt_motion, doubt_parts, fabric_assigner, follow, point_assigner, without_repeats
+from chainmail.camera.detect import NO_SPOTS, Detector, Spots, outline_error
+from chainmail.camera.follow import (
+    doubt_motion,
+    doubt_parts,
+    fabric_assigner,
+    follow,
+    follow_points,
+    stopped,
+    without_repeats,
+)
 from chainmail.camera.frames import Frames, frame_times
-from chainmail.camera.identify import Weave
 from chainmail.camera.links import Links, fit_links, with_errors
+from chainmail.camera.mistakes import weave_of, what_would_fit
 from chainmail.camera.rig import FabricLayout, Rig
 from chainmail.camera.shutter import at_one_time, largest_shift, line_delays
 from chainmail.camera.sight import Sight, sight_of
-from chainmail.camera.spots import Size, places_of, size_of
+from chainmail.camera.spots import Places, Size, places_of, size_of
+from chainmail.camera.steady import Motion, motion_of
 from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
@@ -49,6 +58,7 @@ class Measured:
         sight: The camera.
         notes: What was found out, in sentences.
         spots: Number of spots in every frame.
+        motion: Of the camera, by coloured fiducials; None where nothing tells it.
     """
 
     tracks: Tracks
@@ -57,6 +67,7 @@ class Measured:
     sight: Sight
     notes: tuple[str, ...]
     spots: tuple[int, ...]
+    motion: Motion | None = None
 
 
 def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], None] = lambda count: None) -> Measured:
@@ -97,42 +108,75 @@ def measure(video: Path, rig: Rig, rig_file: Path, on_frame: Callable[[int], Non
     size = _size(pictures, rig, rig_file, sight, count)
     radius = size.radius
     error, contrast = _error(pictures, sight, size)
-    places = [places_of(spots, sight, size, error) for spots in pictures]
-    assign = (
-        fabric_assigner(_weave(layout))
-        if isinstance(layout, FabricLayout)
-        else point_assigner(np.array([[c.to("m") for c in p] for p in layout.points]), layout.reach.to("m"))
-    )
-    followed = follow(times, places, count, assign)
+    motion = None if sight.followed is None else motion_of(sight.followed.pixels, sight.followed.reference, sight.lens)
+    places = _places(pictures, sight, motion, size, error)
+    reaches: tuple[str, ...] = ()
+    if isinstance(layout, FabricLayout):
+        followed = follow(times, places, count, fabric_assigner(weave_of(layout)))
+    else:
+        points = np.array([[c.to("m") for c in p] for p in layout.points])
+        followed, reaches = follow_points(times, places, points, layout.reach.to("m"))
     if not np.any(followed.state != GAP):
         seen = int(np.median([len(p) for p in places]))
         raise InputError(
             video,
             "",
             f"in none of its {len(pictures)} frames can the markers be told apart: the rig has "
-            f"{count}, the median frame shows {seen} spots of that colour",
-            "look at markers.layout, plane and markers.colour of the rig file",
+            f"{count}, the median frame shows {seen} spots of that colour{_compared(radius, rig)}",
+            what_would_fit([p.places for p in places], layout)
+            or "; ".join(reaches)
+            or "look at markers.layout, plane and markers.colour of the rig file",
         )
     if isinstance(layout, FabricLayout):
         _check_direction(followed, layout, rig_file)
     tracks, factor = with_errors(followed)
+    is_repeated = is_repeated | stopped(tracks)
     moving = _at_one_time(without_repeats(tracks, is_repeated), rig, sight, frames.shape[0])
     tracks = doubt_motion(doubt_parts(moving, radius), rig.clock.exposure.to("s"), radius)
     pixel = float(sight.pixel_length(_middle(frames))[0])
     notes = (
         *sight.notes,
+        _moved(motion, sight, pixel),
         f"time: {said}",
         f"markers: {2e3 * radius:.2f} mm across{_compared(radius, rig)}",
         f"error of a marker by its outline: {1e6 * pixel * error / contrast:.0f} um; "
         f"by its scatter over time {factor:.2f} times that",
     )
-    notes = (*notes, *_unstated_shutter(tracks, rig))
+    notes = (*notes, *reaches, *_unstated_shutter(tracks, rig))
     if cut:
         notes = (*notes, f"cut off, trimmed or damaged: {cut}; the last of them was left out")
     late = int(np.sum(is_repeated & (moving.state == GAP).all(axis=1)))
     if late:
         notes = (*notes, f"{late} pictures repeat the one before them while the markers move: they are gaps")
-    return _finished(tracks, rig, sight, _GRAIN * pixel, notes, tuple(len(p) for p in places))
+    return _finished(tracks, rig, sight, _GRAIN * pixel, notes, tuple(len(p) for p in places), motion)
+
+
+def _places(pictures: list[Spots], sight: Sight, motion: Motion | None, size: Size, error: float) -> list[Places]:
+    """Spots of all pictures in the plane; none where the camera moves and a picture does not say how."""
+    found = []
+    for number, spots in enumerate(pictures):
+        is_lost = motion is not None and motion.is_moving and not motion.known[number]
+        found.append(places_of(NO_SPOTS if is_lost else spots, sight.at(motion, number), size, error))
+    return found
+
+
+def _moved(motion: Motion | None, sight: Sight, pixel: float) -> str:
+    """Whether the camera moves, and what is done about it."""
+    if motion is None:
+        return (
+            "camera: taken to stand still, nothing in the rig shows whether it does; coloured fiducials "
+            "(`plane.colour`) that stay in view would"
+        )
+    known, count = int(motion.known.sum()), len(motion.known)
+    far = float(np.nanmax(np.hypot(*motion.shifts.T), initial=0.0))
+    if not motion.is_moving:
+        return f"camera: it stands still within {far:.2g} px, by the fiducials in {known} of {count} frames"
+    lost = f"; the other {count - known} are gaps" if known < count else ""
+    left = f", which leaves {motion.left:.2g} px of them" if np.isfinite(motion.left) else ""
+    return (
+        f"camera: it moves by up to {far:.3g} px ({1e3 * far * pixel:.2g} mm); its shift, turn and size are undone by "
+        f"the fiducials in {known} of {count} frames{left}{lost}"
+    )
 
 
 def _at_one_time(tracks: Tracks, rig: Rig, sight: Sight, height: int) -> Tracks:
@@ -203,18 +247,33 @@ def _travel(tracks: Tracks, markers: slice) -> float:
 
 
 def _finished(
-    tracks: Tracks, rig: Rig, sight: Sight, grain: float, notes: tuple[str, ...], spots: tuple[int, ...]
+    tracks: Tracks,
+    rig: Rig,
+    sight: Sight,
+    grain: float,
+    notes: tuple[str, ...],
+    spots: tuple[int, ...],
+    motion: Motion | None,
 ) -> Measured:
     largest = rig.largest_noise.to("m")
+    shared = sight.plane.doubt**2 + (0.0 if motion is None else (motion.error * grain / _GRAIN) ** 2)
+    doubt = np.broadcast_to(shared, (len(tracks.times),))[:, None, None, None] * np.eye(2)
     if not isinstance(rig.markers.layout, FabricLayout):
-        return Measured(tracks.without(_vague(tracks, largest)), None, None, sight, notes, spots)
+        tracks = tracks.without(_vague(tracks, largest))
+        tracks = replace(tracks, covariance=tracks.covariance + doubt)
+        return Measured(tracks, None, None, sight, notes, spots, motion)
     links = fit_links(tracks.without(_vague(tracks, largest)), grain)
     links = replace(links, tracks=links.tracks.without(_vague(links.tracks, largest)))
     curvature = largest_curvature(links.centres, links.centre_covariance)
     # What the fiducials leave open moves all places alike: it is no noise of a curvature.
-    doubt = sight.plane.doubt**2 * np.eye(2)
     tracks = replace(links.tracks, covariance=links.tracks.covariance + doubt)
-    return Measured(tracks, links, curvature, sight, notes, spots)
+    if sight.plane.doubt > largest:
+        notes = (
+            *notes,
+            f"plane: what the fiducials leave open moves all places together by {1e3 * sight.plane.doubt:.2g} mm (one "
+            f"standard deviation), more than largest_noise ({rig.largest_noise}), which counts for single markers",
+        )
+    return Measured(tracks, links, curvature, sight, notes, spots, motion)
 
 
 def _vague(tracks: Tracks, largest: float) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
@@ -229,6 +288,8 @@ def _spots(
     pictures, stamps, repeated = [], [], []
     for frame in frames:
         pictures.append(detector.spots(frame.picture))
+        if sight.followed is not None:
+            sight.followed.look(frame.picture)
         stamps.append(frame.stamp)
         repeated.append(frame.is_repeated)
         on_frame(len(pictures))
@@ -274,13 +335,3 @@ def _error(pictures: list[Spots], sight: Sight, size: Size) -> tuple[float, floa
     if not edges:
         return 0.0, 1.0
     return outline_error(edges, np.array(centres), np.array(contrast)), float(np.median(contrast))
-
-
-def _weave(layout: FabricLayout) -> Weave:
-    return Weave(
-        layout.rows,
-        (layout.link_length.least.to("m"), layout.link_length.most.to("m")),
-        (layout.row_pitch.least.to("m"), layout.row_pitch.most.to("m")),
-        (layout.lean[0].to("rad"), layout.lean[1].to("rad")),
-        layout.along.to("rad"),
-    )

@@ -59,7 +59,7 @@ def write_tracks(folder: Path, measured: Measured, rig: Rig | ImportFile, source
         raise InputError(
             source,
             "",
-            f"no marker has {FEWEST_READINGS} readings: there is nothing to record",
+            f"no marker has {FEWEST_READINGS} readings that are known as well as `largest_noise` asks",
             "look at the rig file, or film longer",
         )
     with writing(folder):

@@ -125,7 +125,7 @@ def _marks(measured: Measured, frame: int, wide: int) -> str:
     known = np.isfinite(places).all(axis=1)
     pixels = np.full_like(places, np.nan)
     if known.any():
-        pixels[known] = measured.sight.pixels(places[known])
+        pixels[known] = measured.sight.at(measured.motion, frame).pixels(places[known])
     unit = wide / 480.0
     found = []
     if measured.links is not None:

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, StrictFloat, StrictInt, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, StrictFloat, StrictInt, model_validator
 
 from chainmail.camera.colours import check_colour
 from cosim.components import Strict
@@ -20,13 +20,26 @@ def _finite(value: float) -> float:
     return float(value)
 
 
-Number = Annotated[StrictFloat | StrictInt, AfterValidator(_finite)]
+def _no_screen(value: PhysicalValue) -> PhysicalValue:
+    """A pixel of a picture is no length: what it shows depends on the camera."""
+    if "px" in value.unit or "pixel" in value.unit or "dot" in value.unit:
+        raise ValueError(f"`{value}` is a number of pixels; give a length, in the plane of the markers, such as `6 mm`")
+    return value
+
+
+def _number(value: object) -> object:
+    if isinstance(value, str):
+        raise ValueError(f"`{value}` is no number; it counts in pixels of the picture")
+    return value
+
+
+Number = Annotated[StrictFloat | StrictInt, AfterValidator(_finite), BeforeValidator(_number)]
 Positive = Annotated[Number, Field(gt=0)]
-Length = Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True)]
-Coordinate = Annotated[PhysicalValue, In("m")]
-Angle = Annotated[PhysicalValue, In("rad")]
+Length = Annotated[PhysicalValue, In("m", minimum=0.0, is_exclusive=True, usual="mm"), AfterValidator(_no_screen)]
+Coordinate = Annotated[PhysicalValue, In("m", usual="mm"), AfterValidator(_no_screen)]
+Angle = Annotated[PhysicalValue, In("rad", usual="deg")]
 Seconds = Annotated[PhysicalValue, In("s")]
-NotNegativeTime = Annotated[PhysicalValue, In("s", minimum=0.0)]
+NotNegativeTime = Annotated[PhysicalValue, In("s", minimum=0.0, usual="ms")]
 Frequency = Annotated[PhysicalValue, In("Hz", minimum=0.0, is_exclusive=True)]
 Pixel = tuple[Number, Number]
 Pixels = Annotated[StrictInt, Field(ge=1)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
@@ -14,8 +14,9 @@ from chainmail.camera.frames import Frame
 from chainmail.camera.lens import Lens, calibrate, pictures_in
 from chainmail.camera.plane import Plane, plane_of_points, plane_of_scale
 from chainmail.camera.rig import LensEntry, PlaneEntry, Rig
+from chainmail.camera.steady import Followed, Motion, similarity
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import Array
+from cosim.unit.protocol import AnyArray, Array
 
 #: Pictures from which coloured fiducials are read, and how far from the stated pixel they may be, in diameters.
 _FIRST, _NEAR = 10, 1.5
@@ -31,11 +32,17 @@ class Sight:
         lens: None where there is no distortion to undo.
         plane: From undistorted pixels.
         notes: What was found out, in sentences.
+        followed: Coloured fiducials, which tell whether the camera stands still; None where there are none.
     """
 
     lens: Lens | None
     plane: Plane
     notes: tuple[str, ...] = ()
+    followed: Followed | None = None
+
+    def at(self, motion: Motion | None, picture: int) -> Sight:
+        """The same in one picture of a camera that moves."""
+        return self if motion is None else replace(self, plane=motion.plane(self.plane, picture))
 
     def places(self, pixels: Array) -> Array:
         """(y, z) [m] of pixels in the picture, shape (points, 2)."""
@@ -74,8 +81,8 @@ def sight_of(rig: Rig, file: Path, frames: Iterable[Frame], picture: tuple[int, 
     """
     _check_picture(rig, file, picture)
     lens, notes = _lens(rig.lens, file, picture)
-    plane, more = _plane(rig.plane, lens, file, frames)
-    return Sight(lens, plane, (*notes, *_unstated_picture(rig, picture), *more))
+    plane, more, followed = _plane(rig.plane, lens, file, frames)
+    return Sight(lens, plane, (*notes, *_unstated_picture(rig, picture), *more), followed)
 
 
 def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
@@ -85,7 +92,7 @@ def camera_of(lens: LensEntry | None, plane: PlaneEntry, file: Path) -> Sight:
         InputError: As for `sight_of`.
     """
     found, notes = _lens(lens, file)
-    own, more = _plane(plane, found, file, ())
+    own, more, _ = _plane(plane, found, file, ())
     return Sight(found, own, (*notes, *more))
 
 
@@ -137,18 +144,31 @@ def _lens(
     return Lens((focal[0], focal[1]), (centre[0], centre[1]), (k[0], k[1], k[2], k[3], k[4])), ()
 
 
-def _plane(entry: PlaneEntry, lens: Lens | None, file: Path, frames: Iterable[Frame]) -> tuple[Plane, tuple[str, ...]]:
+def _plane(
+    entry: PlaneEntry, lens: Lens | None, file: Path, frames: Iterable[Frame]
+) -> tuple[Plane, tuple[str, ...], Followed | None]:
     if entry.scale is not None and entry.origin is not None:
         origin = np.array([entry.origin], dtype=np.float64)
         ((u, v),) = origin if lens is None else lens.undistort(origin)
-        return plane_of_scale(entry.scale.to("m"), (float(u), float(v)), entry.y, entry.z), ()
+        return plane_of_scale(entry.scale.to("m"), (float(u), float(v)), entry.y, entry.z), (), None
     points = entry.fiducials or []
     pixels = np.array([p.pixel for p in points], dtype=np.float64)
     places = np.array([[c.to("m") for c in p.at] for p in points])
+    followed = None
     if entry.colour is not None and entry.diameter is not None:
-        pixels = _refined(entry.colour, entry.diameter.to("m"), pixels, places, file, frames)
+        followed = _refined(entry.colour, entry.diameter.to("m"), pixels, places, file, frames)
+        pixels = followed.reference
+    straight = pixels if lens is None else lens.undistort(pixels)
+    if not np.isfinite(straight).all():
+        number = int(np.argmin(np.isfinite(straight).all(axis=1)))
+        raise InputError(
+            file,
+            "lens",
+            f"it cannot be undone at the pixel of fiducial {number + 1}, where it is not known",
+            "take pictures of the chessboard in all corners; or correct `distortion`, or that pixel",
+        )
     try:
-        found = plane_of_points(pixels if lens is None else lens.undistort(pixels), places)
+        found = plane_of_points(straight, places)
     except (ValueError, np.linalg.LinAlgError) as error:
         raise InputError(file, "plane.fiducials", str(error), "give points that span the plane") from error
     size = float(np.max(np.linalg.norm(places[:, None] - places[None], axis=2)))
@@ -160,28 +180,46 @@ def _plane(entry: PlaneEntry, lens: Lens | None, file: Path, frames: Iterable[Fr
             "correct `at` or `pixel` of the one that is wrong",
         )
     if len(points) == 4:
-        return found, ("plane: four fiducials fix it and leave no error to be seen",)
-    return found, (f"plane: {len(points)} fiducials, off by {1e3 * found.error:.3g} mm",)
+        return found, ("plane: four fiducials fix it and leave no error to be seen",), followed
+    return found, (f"plane: {len(points)} fiducials, off by {1e3 * found.error:.3g} mm",), followed
 
 
-def _refined(colour: str, diameter: float, pixels: Array, places: Array, file: Path, frames: Iterable[Frame]) -> Array:
-    """Mean centres of coloured fiducials in the first pictures."""
+def _refined(
+    colour: str, diameter: float, pixels: Array, places: Array, file: Path, frames: Iterable[Frame]
+) -> Followed:
+    """Centres of coloured fiducials in the first pictures, brought to one of them: a hand may hold the camera."""
     apart = np.linalg.norm(pixels[0] - pixels[1:], axis=1) / np.linalg.norm(places[0] - places[1:], axis=1)
     wide = diameter * float(np.median(apart))
     detector = Detector(colour, wide, len(pixels))
-    found: list[list[Array]] = [[] for _ in pixels]
+    centres, areas = [], []
     for frame in islice(iter(frames), _FIRST):
-        spots = detector.spots(frame.picture).pixels
+        spots = detector.spots(frame.picture)
+        own, area = np.full_like(pixels, np.nan), np.full(len(pixels), np.nan)
         for number, pixel in enumerate(pixels):
-            away = np.linalg.norm(spots - pixel, axis=1)
+            away = np.linalg.norm(spots.pixels - pixel, axis=1)
             if len(away) and away.min() < _NEAR * wide:
-                found[number].append(spots[int(np.argmin(away))])
-    for number, own in enumerate(found):
-        if not own:
-            raise InputError(
-                file,
-                f"plane.fiducials.{number}",
-                f"nothing {colour} is near its pixel",
-                "correct `pixel`, or `colour` and `diameter` of the fiducials",
-            )
-    return np.array([np.median(own, axis=0) for own in found])
+                own[number], area[number] = spots.pixels[int(np.argmin(away))], spots.area[int(np.argmin(away))]
+        centres.append(own)
+        areas.append(area)
+    found = np.array(centres)
+    seen: AnyArray = np.asarray(np.isfinite(found).all(axis=2))
+    for lost in np.flatnonzero(~seen.any(axis=0)):
+        raise InputError(
+            file,
+            f"plane.fiducials[{lost + 1}]",
+            f"no spot that is {colour}, whole and about {wide:.0f} pixels across is near its pixel",
+            "correct `pixel`, or `colour` and `diameter` of the fiducials, or `at`, whose distances say how large a "
+            "pixel is; one that the border cuts, or something covers in part, is none",
+        )
+    return Followed(colour, _aligned(found, seen), np.nanmedian(np.array(areas), axis=0), wide)
+
+
+def _aligned(found: Array, seen: AnyArray) -> Array:
+    """Median of centres (pictures, fiducials, 2), each picture brought to the one that shows most of them."""
+    base = int(np.argmax(seen.sum(axis=1)))
+    for number in range(len(found)):
+        both = seen[number] & seen[base]
+        if number != base and both.sum() > 1:
+            matrix = similarity(found[number, both], found[base, both])
+            found[number] = found[number] @ matrix[:2, :2].T + matrix[:2, 2]
+    return np.asarray(np.nanmedian(found, axis=0))

@@ -15,8 +15,9 @@ from cosim.unit.protocol import AnyArray, Array
 #: A spot with less than this share of a marker's area is hidden in part, unless areas scatter: then with so many
 #: deviations less, but never with less than the third number.
 WHOLE, _SCATTER, _LOWEST = 0.94, 4.0, 0.85
-#: With less than this share seen, an outline may be that of another circle.
-_LEAST = 0.2
+#: With less than this share seen, what is seen of the rim is a third of it or less, and corners of what hides the rest
+#: pass for rim: the circle may be another one.
+_LEAST = 0.35
 
 
 @dataclass(frozen=True)
@@ -92,8 +93,10 @@ def places_of(spots: Spots, sight: Sight, size: Size, error: float) -> Places:
     is_there = np.isfinite(places).all(axis=1)
     share = np.where(is_there, spots.area * pixel**2 / (np.pi * radius**2), 0.0)
     own = error / spots.contrast
-    # A strip at the rim that is hidden and not told from scatter moves the centroid by its share of a radius at most.
+    # A strip at the rim that is hidden and not told from scatter moves the centroid by its share of a radius at most;
+    # so does something of the markers' colour that touches a rim and counts as marker, beyond what areas scatter by.
     strip = np.where(share < WHOLE, (1.0 - share) * radius / 2.0, 0.0)
+    strip = np.where(share > 2.0 - size.whole, (share - 1.0) * radius, strip)
     variance = (np.maximum(spots.deviation, own) * pixel) ** 2 + strip**2
     covariance = variance[:, None, None] * np.eye(2)
     whole = np.flatnonzero(is_there & (share >= size.whole))

@@ -207,14 +207,18 @@ class In:
         unit: SI unit that it must convert to; None accepts any unit.
         minimum: Smallest value in `unit`.
         is_exclusive: Whether the minimum itself is refused.
+        usual: Unit in which a number without one was probably meant, for the error; default: `unit`.
     """
 
     unit: str | None = None
     minimum: float | None = None
     is_exclusive: bool = False
+    usual: str = ""
 
     def _validate(self, value: object) -> PhysicalValue:
         parsed = PhysicalValue.parse(value)
+        if self.usual and parsed.unit in ("", "1"):
+            raise ValueError(f"{parsed.number:g} has no unit; write for example `{parsed.number:g} {self.usual}`")
         if self.unit is not None:
             number = parsed.to(self.unit)
             if self.minimum is not None and (number < self.minimum or (self.is_exclusive and number == self.minimum)):

@@ -174,3 +174,45 @@ def test_text_between_numbers_is_named(tmp_path):
     (tmp_path / "p.csv").write_text("time,p.x,p.y\n0,1,2\n1,oops,2\n")
     with pytest.raises(InputError, match="row 3, column 2: `oops`"):
         read_tracks(tmp_path / "p.csv")
+
+
+def test_a_unit_that_the_table_contradicts_is_refused(tmp_path):
+    rows = [f"{k},{0.01 * k:.2f},1,2,{k},4,5,{k}" for k in range(12)]
+    settings, header = OPTITRACK.split("\n", 1)
+    (tmp_path / "o.csv").write_text(f"{settings},Length Units,Millimeters\n{header}" + "\n".join(rows))
+    given = ImportFile.model_validate({"title": "t", "markers": ["a", "b"], "unit": "m", "y": "-z", "z": "y"})
+    with pytest.raises(InputError, match="the table says that its lengths are in mm"):
+        imported(read_tracks(tmp_path / "o.csv"), given, tmp_path / "import.yaml")
+
+
+def test_headers_of_optitrack_without_labels_are_read(tmp_path):
+    """Up to version 1.21 the rows of the header say nothing of what they hold."""
+    lines = OPTITRACK.splitlines()
+    plain = [line.replace("Type", "").replace(",Name", ",").replace(",ID", ",") for line in lines[1:-1]]
+    rows = [f"{k},{0.01 * k:.2f},1,2,{k},4,5,{k}" for k in range(12)]
+    (tmp_path / "o.csv").write_text("\n".join([lines[0], *plain, lines[-1], *rows]))
+    table = read_tracks(tmp_path / "o.csv")
+    assert set(table.places) == {"a", "b"}
+    assert table.places["b"]["y"] == pytest.approx(5.0)
+
+
+def test_links_of_another_size_than_anybody_weaves_are_refused(tmp_path):
+    names = [f"p{n}" for n in range(6)]
+    header = "time," + ",".join(f"{n}.{a}" for n in names for a in "xy")
+    rows = [f"{0.1 * k}," + ",".join(f"{30 * (n % 2)},{22 * (n // 2)}" for n in range(6)) for k in range(12)]
+    (tmp_path / "p.csv").write_text("\n".join([header, *rows]))
+    keys = {"title": "t", "markers": names, "noise": "0.1 mm", "fabric": True}
+    found = imported(read_tracks(tmp_path / "p.csv"), ImportFile.model_validate({**keys, "unit": "mm"}), tmp_path / "i")
+    assert "distance of the two markers of a row: 30 to 30 mm, 30 mm in the median" in found.notes
+    with pytest.raises(InputError, match="would be 3e\\+04 mm apart"):
+        imported(read_tracks(tmp_path / "p.csv"), ImportFile.model_validate({**keys, "unit": "m"}), tmp_path / "i")
+
+
+def test_pixels_of_deeplabcut_as_lengths_are_said(tmp_path):
+    rows = [f"{k},{100 + k},{50},{0.99},{10},{20 + k},{0.95}" for k in range(12)]
+    (tmp_path / "d.csv").write_text(DLC + "\n".join(rows))
+    given = ImportFile.model_validate(
+        {"title": "t", "markers": ["a"], "unit": "mm", "noise": "0.1 mm", "clock": {"rate": "10 Hz"}}
+    )
+    found = imported(read_tracks(tmp_path / "d.csv"), given, tmp_path / "import.yaml")
+    assert any("DeepLabCut writes pixels; these are taken to be in mm" in n for n in found.notes)
