@@ -19,6 +19,9 @@ from diagnosis.report.display import instant
 
 #: Stretches that a sentence lists.
 _LISTED = 4
+#: Share of the variance of the readings from which on a course is not accused: what is left, a law that the model lacks
+#: leaves too.
+NEARLY_ALL = 0.9
 #: Share of what one course leaves of the readings that the other must stay below: no model of a rig is right to more.
 LESS = 0.8
 
@@ -38,9 +41,11 @@ def input_doubts(compared: Compared) -> list[Doubt]:
     if max(mine, theirs) * LESS < min(mine, theirs) or (evidence > 0.0) != (mine > theirs):
         evidence = 0.0  # both leave alike: what parts them is how the model errs
     for one in differing:
-        is_wrong = evidence > critical(2.0)
+        # A course of its own that explains nearly all does so where a law is missing, too.
+        own = 0.0 if one.kind == "other" and evidence > 0.0 and shares[0] > NEARLY_ALL else evidence
+        is_wrong = own > critical(2.0)
         if is_wrong or one.is_meant:
-            found.append(_doubt(compared, one, evidence, shares, is_wrong))
+            found.append(_doubt(compared, one, own, shares, is_wrong))
     return found
 
 

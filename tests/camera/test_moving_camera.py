@@ -196,6 +196,7 @@ def test_a_rate_beside_that_of_the_file_is_said(film, pictures, tmp_path):
             "z points the other",
         ),
     ],
+    ids=["rows", "z"],
 )
 def test_a_usual_mistake_is_named(film, tmp_path, change, said):
     rig = rig_of(film, tmp_path, change)
@@ -217,6 +218,7 @@ def _other(length):
         (lambda r: r["clock"].update(exposure=8), "write for example `8 ms`"),
         (lambda r: r.update(lens={"focal": ["4.2 mm", "4.2 mm"], "centre": [240, 180]}), "it counts in pixels"),
     ],
+    ids=["screen", "length", "angle", "time", "focal"],
 )
 def test_units_that_were_left_out_or_are_none(film, tmp_path, change, said):
     with pytest.raises(InputError) as error:

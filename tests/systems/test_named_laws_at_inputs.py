@@ -152,6 +152,7 @@ def test_radiation_of_a_hidden_lump_is_named(tmp_path: Path) -> None:
         ("speed", "m/s", 0.002, "dry_friction"),
         ("position", "mm", 0.5, "quadratic_drag"),
     ],
+    ids=["friction", "drag"],
 )
 def test_drag_and_friction_of_a_hidden_carriage_are_named(
     tmp_path: Path, shown: str, unit: str, noise: float, effect: str

@@ -1,10 +1,10 @@
-"""Leak in proportion to the level."""
+"""Leak in proportion to the level or pressure."""
 
 from diagnosis.laws.law import Law, Number, Role
 
 LAW = Law(
     identifier="leak",
-    name="leak in proportion to the level",
+    name="leak in proportion to the level or pressure",
     role=Role.LEVEL,
     formula="-leak * h",
     numbers=(Number("leak", "rate/h", "rate of fall per level", (0.05, 0.5)),),
