@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.faults.law import AS_A_LAW, is_one_of
+from diagnosis.faults.law import AS_A_LAW, INPUT, OF_INPUTS, is_one_of
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import Finding, Member, Standing, class_places
 from diagnosis.judge.doubts import MEASURED, accuses, is_physics
@@ -18,6 +18,7 @@ from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.reservations import (
     BESIDE,
+    ONE_COURSE,
     cancelled,
     dragged,
     elsewhere,
@@ -76,7 +77,32 @@ def findings(
             found = [
                 _widened(model, outcome, accepted, t, f, list(zip(ordered, found))) for t, f in zip(ordered, found)
             ]
+            found = [one_course(f, found) for f in found]
     return tuple(found)
+
+
+def one_course(finding: Finding, every: Sequence[Finding]) -> Finding:
+    """The finding of an input that was another, where a second one is of the same input at the same time.
+
+    Together they describe a course that it had, whatever that was: neither that it stayed nor that it was another by a
+    share of what was stated is known of it.
+    """
+    if not is_one_of(finding.effect, OF_INPUTS):
+        return finding
+
+    def is_of_it(other: Finding) -> bool:
+        return (
+            other is not finding
+            and is_one_of(other.effect, OF_INPUTS)
+            and (other.place.split(",")[0], other.recording) == (finding.place.split(",")[0], finding.recording)
+            and any(a < d and c < b for a, b in finding.intervals for c, d in other.intervals)
+        )
+
+    if not any(map(is_of_it, every)):
+        return finding
+    name = next(law.name for law in OF_INPUTS if law.identifier == finding.effect)
+    told = finding.statement.replace(name, INPUT.name, 1)
+    return replace(finding, statement=told, doubts=(*finding.doubts, ONE_COURSE))
 
 
 def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:

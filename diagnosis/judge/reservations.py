@@ -16,6 +16,12 @@ from diagnosis.search.shares import titled
 #: Why a law has no name beside one that has none.
 BESIDE = "a law without a name acts at the same place: both may be parts of one law that is in no library"
 
+#: What is not known of an input of which two faults at the same time are found.
+ONE_COURSE = (
+    "another finding is of the same input at the same time: both together describe a course of its own that it had, "
+    "and their begins, ends and sizes are those of this description"
+)
+
 
 def elsewhere(accepted: Accepted) -> str:
     """Why a fault whose course a law may have has no name while readings that judge the whole model reject it.
