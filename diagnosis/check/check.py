@@ -17,7 +17,7 @@ from diagnosis.check.edges import edge_doubts
 from diagnosis.check.gain_of_one import gain_of_one
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.odd_one_out import odd_ones
-from diagnosis.check.other_course import other_course
+from diagnosis.check.other_course import late_input, other_course
 from diagnosis.check.other_number import other_number
 from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts
@@ -67,12 +67,17 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     found: list[Doubt] = list(still_doubts(every))
     by_unit = [*units_of_one(every), *units_of_all(every)]
     exchanged, clocks = swapped_in_one(every), clocks_of_one(every)
+    odd = odd_ones(every)
+    standing_out = {d.recording for d in odd}
+    late = [d for one in every if one.recording.title in standing_out and (d := late_input(one)) is not None]
     for one in every:
         found += outage_doubts(one.recording)
         inputs = input_doubts(one)
         # an input that the readings do not follow explains whatever else they do not follow
         known = any(d.is_serious for d in inputs)
         relation = [] if known else _relation(one, [o for o in every if o is not one])
+        if not any(d.is_serious for d in relation):  # what explains every channel goes before what is open
+            relation = [d for d in late if d.recording == one.recording.title] or relation
         relation = relation or [d for d in (*exchanged, *clocks) if d.recording == one.recording.title]
         units = unit_doubts(one) or size_doubts(one) or [d for d in by_unit if d.recording == one.recording.title]
         found += [*inputs, *relation, *units, *reading_doubts(one, not relation and not known)]
@@ -82,7 +87,7 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += start_doubts(one)
     found = with_odd_starts(found, every)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
-    found += [_odd(d, every, d.recording in told) for d in odd_ones(every)]
+    found += [_odd(d, every, d.recording in told) for d in odd]
     if not told:  # else why it is not followed is known
         found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))

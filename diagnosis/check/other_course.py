@@ -7,7 +7,8 @@ stated course over most of the recording, the stated course is not the one that 
 
 One channel proves nothing, since some input gives it nearly any course; and a law of the rig that acts for a while,
 as a force does, leaves a course that is the stated one for the rest of the time. So does an input that is not applied
-for a while, or does not move (`diagnosis.check.pause`): that is said, and the search finds its begin and end.
+for a while, or does not move (`diagnosis.check.pause`): that is said, and the search finds its begin and end. An input
+that is late or early as a whole, while others are not, has a clock of its own (`diagnosis.check.late_input`).
 
 Source: estimation of an unknown input by constrained least squares, Maciejowski, Predictive Control with Constraints,
 Pearson 2002, chapter 2; Gauss-Newton steps for models that are not linear.
@@ -15,7 +16,7 @@ Pearson 2002, chapter 2; Gauss-Newton steps for models that are not linear.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -29,6 +30,7 @@ from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.late_input import Late, late
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
 from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
@@ -54,7 +56,7 @@ BEYOND = 0.1
 #: Correlation with the stated course below which an estimate is unlike it: courses of ten levels that have nothing to
 #: do with each other stay below it in 98 of 100 draws. Share of the range by which one differs at least.
 UNLIKE, APART = 0.7, 0.2
-#: How many times more the stated course leaves of a channel, scaled and shifted too, than one that pauses.
+#: How many times more the stated course leaves of a channel, scaled and shifted too, than one that pauses or is late.
 PAUSED = 10.0
 #: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
 MOST = 40_000
@@ -79,7 +81,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
     found = []
-    courses = [c for c in one.courses if not c.name.endswith("]")]  # only an output of one element can be a column
+    courses = _of_one_element(one)
     for course in courses:
         alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
         low, high = (float(f([f(c.values) for c in alike])) for f in (np.min, np.max))
@@ -96,6 +98,43 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if pauses:
         return _of_pause(one, channels, min(pauses, key=lambda p: p.left))
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
+
+
+def late_input(one: Compared) -> Doubt | None:
+    """A serious doubt about the input that is late or early as a whole; None where no single one is.
+
+    What explains one channel alone is of its sensor as well, and what moves all inputs as far is the clock of the
+    readings.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+    """
+    channels = comparable(one)
+    if one.base is None or not is_quick(one.scenario):
+        return None
+    lefts = [scaled_left(b, b.simulated_there) for b in channels.values()]
+    moving = [c for c in _of_one_element(one) if np.ptp(c.values) > 0.0]
+    if sum(share > 1.0 - MET for share in lefts) < CHANNELS or len(moving) < 2:
+        return None
+    least = min(1.0 - MET, max(lefts) / PAUSED)
+    step = nanoseconds(one.scenario.time.macro_step) * 1e-9
+    tried = [late(c, (one.begin, one.end), step, _missed(one, channels, c)) for c in moving]
+    found = min((f for f in tried if f is not None), key=lambda f: f.left, default=None)
+    if found is None or found.left >= least:
+        return None
+    others = tuple(_given(c, np.asarray(c.times) + found.shift, c.values) for c in moving)
+    try:
+        together = _parts(channels, _with_inputs(one, channels, others))
+    except RunStopped:
+        together = []
+    if together and max(scaled_left(b, part) for b, part in zip(channels.values(), together)) < least:
+        return None
+    return _of_late(one, channels, found)
+
+
+def _of_one_element(one: Compared) -> list[Course]:
+    """Courses of inputs that can be a column: of one element."""
+    return [c for c in one.courses if not c.name.endswith("]")]
 
 
 def is_quick(scenario: Scenario) -> bool:
@@ -149,8 +188,8 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
-def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[Pause]:
-    """Intervals without which the stated course explains most: it was not applied then, or did not move."""
+def _missed(one: Compared, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
+    """What times [s] and values in place of a course leave of the channel that they explain least."""
 
     def missed(times: Array, values: Array) -> float:
         try:
@@ -159,6 +198,12 @@ def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[
             return 1.0
         return max(scaled_left(b, part) for b, part in zip(channels.values(), parts))
 
+    return missed
+
+
+def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[Pause]:
+    """Intervals without which the stated course explains most: it was not applied then, or did not move."""
+    missed = _missed(one, channels, course)
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
     is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
     kinds = [] if is_temperature or not np.any(course.values) else [NOTHING]
@@ -184,10 +229,19 @@ def _means(course: Course, knots: Array) -> Array:
 
 def _simulated(one: Compared, channels: dict[str, Beside], course: Course, times: Array, values: Array) -> Array:
     """Simulated readings of all channels one after another, with a course in place of the stated one."""
-    assert one.base is not None
+    return _with_inputs(one, channels, (_given(course, times, values),))
+
+
+def _given(course: Course, times: Array, values: Array) -> Input:
     component, _, output = course.name.partition(".")
-    given = Input(component, output, course.unit, times, values)
-    inputs = (*(i for i in one.recording.inputs if (i.component, i.output) != (component, output)), given)
+    return Input(component, output, course.unit, times, values)
+
+
+def _with_inputs(one: Compared, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
+    """The same with some inputs in place of the stated ones."""
+    assert one.base is not None
+    names = {(i.component, i.output) for i in given}
+    inputs = (*(i for i in one.recording.inputs if (i.component, i.output) not in names), *given)
     results = run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
     return np.concatenate([readings_of(results, b, one) for b in channels.values()])
 
@@ -222,6 +276,22 @@ def _of_pause(one: Compared, channels: dict[str, Beside], pause: Pause) -> Doubt
     remedy = f"what acted at `{pause.course.name}` then? State it under `overrides`, or give its column"
     z = float(np.sqrt(max(lefts.values()) / max(pause.left, 1e-6)))
     return Doubt(one.recording.title, pause.course.name, ODD, text, remedy, False, pause.begin, pause.end, z)
+
+
+def _of_late(one: Compared, channels: dict[str, Beside], found: Late) -> Doubt:
+    lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
+    origin = "column" if found.course.is_recorded else "programme"
+    side = "later" if found.shift > 0.0 else "earlier"
+    text = (
+        f"{_as_stated(found.course, lefts)}; as if it acted {abs(found.shift):.2g} s {side} than its {origin} says, at "
+        f"least {percent(1.0 - found.left)} of each channel's, scaled and shifted as suits best; the other "
+        "recordings are met with their courses"
+    )
+    remedy = (
+        f"compare the clock of `{found.course.name}` with that of the readings, and correct the times of its {origin}"
+    )
+    z = float(np.sqrt(max(lefts.values()) / max(found.left, 1e-6)))
+    return Doubt(one.recording.title, found.course.name, "clock", text, remedy, True, one.begin, one.end, z)
 
 
 def _as_stated(course: Course, lefts: dict[str, float]) -> str:
