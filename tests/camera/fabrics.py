@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from chainmail.camera.opencv import opencv
 from chainmail.camera.render import Motion
 
 LEAN = np.radians(43.0)
@@ -23,3 +24,17 @@ def swaying(begin=0.0, end=1.5, low=1.0, high=7.0):
     times = np.linspace(begin, end, 121)
     part = np.sin(np.pi * (times - begin) / (end - begin)) ** 2
     return Motion(times, np.array([markers(high + (low - high) * p, 0.0335 - 0.0035 * p) for p in part]))
+
+
+def pictures_of(folder):
+    """Pictures of a folder, in the order of their names."""
+    return [opencv().imread(str(f)) for f in sorted(folder.iterdir())]
+
+
+def saved(folder, pictures, names=None):
+    """A new folder with these pictures."""
+    folder.mkdir()
+    for number, picture in enumerate(pictures):
+        name = names[number] if names else f"{number:06d}.png"
+        opencv().imwrite(str(folder / name), picture)
+    return folder

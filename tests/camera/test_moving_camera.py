@@ -17,7 +17,7 @@ from chainmail.camera.steady import motion_of, similarity
 from chainmail.camera.summary import summary
 from chainmail.camera.tracks import GAP, SEEN, Tracks
 from cosim.unit.errors import InputError
-from tests.camera.fabrics import swaying
+from tests.camera.fabrics import pictures_of, saved, swaying
 from tests.camera.test_track import SMALL
 
 FRAMES = 36
@@ -38,14 +38,7 @@ def truth(film):
 
 @pytest.fixture(scope="module")
 def pictures(film):
-    return [opencv().imread(str(f)) for f in sorted((film / "frames").iterdir())]
-
-
-def saved(folder, pictures):
-    folder.mkdir()
-    for number, picture in enumerate(pictures):
-        opencv().imwrite(str(folder / f"{number:06d}.png"), picture)
-    return folder
+    return pictures_of(film / "frames")
 
 
 def rig_of(film, tmp_path, change=lambda rig: None):

@@ -16,7 +16,7 @@ from chainmail.camera.rendered import motion_of_table, write_video
 from chainmail.camera.rig import load_rig
 from chainmail.camera.tracks import GAP, PART, SEEN, Tracks
 from cosim.unit.errors import InputError
-from tests.camera.fabrics import markers, swaying
+from tests.camera.fabrics import markers, pictures_of, saved, swaying
 from tests.camera.test_track import SMALL
 
 FRAMES = 36
@@ -38,16 +38,7 @@ def truth(film):
 
 @pytest.fixture(scope="module")
 def pictures(film):
-    cv2 = opencv()
-    return [cv2.imread(str(f)) for f in sorted((film / "frames").iterdir())]
-
-
-def saved(folder, pictures, names=None):
-    folder.mkdir()
-    for number, picture in enumerate(pictures):
-        name = names[number] if names else f"{number:06d}.png"
-        opencv().imwrite(str(folder / name), picture)
-    return folder
+    return pictures_of(film / "frames")
 
 
 def tracked(video, film, **markers):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -46,16 +46,11 @@ def surroundings(
     steps = np.zeros(points.shape[1])
     for i in warm:
         steps[i] = MOVED / conversion(fmu.units[names[i]], "K")[0]
-    for parameter, value in scalar_parameters(fmu, system, own.component):
-        unit = fmu.unit.table.all[parameter].variable.unit
-        if parse_unit(unit).dimensionality != parse_unit("K").dimensionality:
-            continue
-        factor, offset = conversion(unit, "K")
-        changes = Changes({own.component: {parameter: PhysicalValue(value + MOVED / factor, unit)}})
+    for kelvin, changes in _moved(system, fmu, own):
         if system.simulate(changes) is None:
             continue
         if not _are_alike(system.rates_at(own.component, points)[:, warm], plain):
-            acting.append(factor * value + offset)
+            acting.append(kelvin)
             if _are_alike(system.rates_at(own.component, points + steps)[:, warm], plain):
                 carried.append(acting[-1])
     system.simulate()
@@ -81,22 +76,27 @@ def hidden_surroundings(system: FastSystem, fmu: FastFmu, own: Places) -> float 
     plain = _temperatures(system, fmu, own, warm, Changes())
     acting: list[float] = []
     carrying: list[float] = []
-    for parameter, value in scalar_parameters(fmu, system, own.component):
-        unit = fmu.unit.table.all[parameter].variable.unit
-        if parse_unit(unit).dimensionality != parse_unit("K").dimensionality:
-            continue
-        factor, offset = conversion(unit, "K")
-        changes = Changes({own.component: {parameter: PhysicalValue(value + MOVED / factor, unit)}})
+    for kelvin, changes in _moved(system, fmu, own):
         there = _temperatures(system, fmu, own, warm, changes)
         if plain is None or there is None or _are_alike(there, plain):
             continue
         if _are_alike(there[0], plain[0]):
-            acting.append(factor * value + offset)
+            acting.append(kelvin)
         elif np.allclose(there - plain, MOVED, rtol=CARRIED):
-            carrying.append(factor * value + offset)
+            carrying.append(kelvin)
     system.simulate()
     found = acting or carrying
     return found[0] if len(found) == 1 else None
+
+
+def _moved(system: FastSystem, fmu: FastFmu, own: Places) -> Iterator[tuple[float, Changes]]:
+    """Parameters that are temperatures: each as it is [K], and the change by which it is `MOVED` higher."""
+    for parameter, value in scalar_parameters(fmu, system, own.component):
+        unit = fmu.unit.table.all[parameter].variable.unit
+        if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
+            factor, offset = conversion(unit, "K")
+            higher = PhysicalValue(value + MOVED / factor, unit)
+            yield factor * value + offset, Changes({own.component: {parameter: higher}})
 
 
 def _temperatures(
