@@ -59,8 +59,7 @@ def follow_points(
     away = np.linalg.norm(found.places - points, axis=2)
     farthest = np.nanmax(np.where(np.isfinite(away), away, 0.0), axis=0)
     last = int(np.argmax(farthest))
-    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    if not farthest[last] > _NEAR_END * reach or not np.any(np.sum(apart <= 2.0 * reach, axis=1) > 1):
+    if not farthest[last] > _NEAR_END * reach or not np.any(_overlapping(points, reach)):
         return found, ()
     careful = follow(times, pictures, len(points), point_assigner(points, reach, is_reach_sure=False))
     return careful, (
@@ -79,8 +78,7 @@ def point_assigner(points: Array, reach: float, is_reach_sure: bool = False) -> 
         is_reach_sure: Whether none goes farther, so that all together tell which is which.
     """
 
-    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    is_near = np.sum(apart <= 2.0 * reach, axis=1) > 1
+    is_near = _overlapping(points, reach)
 
     def assign(spots: Places, expected: Expected | None) -> Chain | None:
         if not len(spots):
@@ -106,6 +104,12 @@ def point_assigner(points: Array, reach: float, is_reach_sure: bool = False) -> 
         return Chain(chosen, 2.0 * CLEAR if (chosen >= 0).any() else 0.0)
 
     return assign
+
+
+def _overlapping(points: Array, reach: float) -> AnyArray:
+    """Markers whose reach overlaps that of another one, shape (markers,)."""
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    return np.asarray(np.sum(apart <= 2.0 * reach, axis=1) > 1)
 
 
 def _next_best(cost: Array, marker: int, spot: int) -> float:

@@ -148,7 +148,8 @@ def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video:
     """
     count = len(stamps)
     if clock.rate is not None:
-        times, said = np.arange(count) / clock.rate.to("Hz"), f"{clock.rate} of the rig file{_other_rate(clock, rate)}"
+        own = clock.rate.to("Hz")
+        times, said = np.arange(count) / own, f"{clock.rate} of the rig file{_other_rate(own, rate)}"
     elif clock.stamps is not None:
         times, said = _stamps(clock, rig, count), f"time stamps of {clock.stamps}"
     elif count > 1 and np.all(np.diff(stamps) > 0.0):
@@ -171,9 +172,9 @@ def frame_times(clock: ClockEntry, stamps: Array, rate: float, rig: Path, video:
     return times + (to_middle + clock.offset.to("s")), said
 
 
-def _other_rate(clock: ClockEntry, rate: float) -> str:
+def _other_rate(own: float, rate: float) -> str:
     """What the video file says of its rate where the rig file says something else."""
-    if clock.rate is None or not rate > 0.0 or abs(rate / clock.rate.to("Hz") - 1.0) < _OTHER_RATE:
+    if not rate > 0.0 or abs(rate / own - 1.0) < _OTHER_RATE:
         return ""
     return (
         f", though the video says {rate:.6g} frames per second: right where it is played faster or slower than it was "

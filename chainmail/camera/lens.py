@@ -74,6 +74,11 @@ class Lens:
         )
 
 
+def undistorted(pixels: Array, lens: Lens | None) -> Array:
+    """Pixels (points, 2) without the distortion of a lens; as they are where there is none to undo."""
+    return pixels if lens is None else lens.undistort(pixels)
+
+
 @dataclass(frozen=True)
 class Calibration:
     """A lens from pictures of a chessboard.

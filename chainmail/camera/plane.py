@@ -30,11 +30,11 @@ class Plane:
 
     def places(self, pixels: Array) -> Array:
         """(y, z) [m] of pixels (points, 2)."""
-        return _mapped(self.matrix, pixels)
+        return mapped(self.matrix, pixels)
 
     def pixels(self, places: Array) -> Array:
         """Undistorted pixels of places (points, 2) [m]."""
-        return _mapped(np.asarray(np.linalg.inv(self.matrix)), places)
+        return mapped(np.asarray(np.linalg.inv(self.matrix)), places)
 
     def scale(self, pixels: Array) -> Array:
         """Length of a pixel [m] at each pixel, shape (points,): root of the area that one pixel covers."""
@@ -68,8 +68,8 @@ def plane_of_points(pixels: Array, places: Array) -> Plane:
         if not sizes[1] > _FLAT * sizes[0]:
             raise ValueError("the points lie on one line")
     a, b = _normaliser(pixels), _normaliser(places)
-    u, v = _mapped(a, pixels).T
-    y, z = _mapped(b, places).T
+    u, v = mapped(a, pixels).T
+    y, z = mapped(b, places).T
     one, none = np.ones_like(u), np.zeros_like(u)
     rows = np.concatenate(
         [
@@ -93,7 +93,8 @@ def plane_of_points(pixels: Array, places: Array) -> Plane:
     return Plane(found.matrix, np.sqrt(2.0) * one, one * float(np.sqrt(4.0 / len(pixels))))
 
 
-def _mapped(matrix: Array, points: Array) -> Array:
+def mapped(matrix: Array, points: Array) -> Array:
+    """Points (points, 2) by a homography (3, 3), of which a similarity is one."""
     lifted = points @ matrix[:, :2].T + matrix[:, 2]
     return np.asarray(lifted[:, :2] / lifted[:, 2:])
 

@@ -11,15 +11,15 @@ import numpy as np
 
 from chainmail.camera.detect import Detector
 from chainmail.camera.frames import Frame
-from chainmail.camera.lens import Lens, calibrate, pictures_in
-from chainmail.camera.plane import Plane, plane_of_points, plane_of_scale
+from chainmail.camera.lens import Lens, calibrate, pictures_in, undistorted
+from chainmail.camera.plane import Plane, mapped, plane_of_points, plane_of_scale
 from chainmail.camera.rig import LensEntry, PlaneEntry, Rig
-from chainmail.camera.steady import Followed, Motion, similarity
+from chainmail.camera.steady import Followed, Motion, nearest, similarity
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 
-#: Pictures from which coloured fiducials are read, and how far from the stated pixel they may be, in diameters.
-_FIRST, _NEAR = 10, 1.5
+#: Pictures from which coloured fiducials are read.
+_FIRST = 10
 #: Fiducials farther from their places than this share of the largest distance between them are wrong.
 _WRONG = 0.01
 
@@ -48,7 +48,7 @@ class Sight:
         """(y, z) [m] of pixels in the picture, shape (points, 2)."""
         if not len(pixels):
             return np.zeros((0, 2))
-        return self.plane.places(pixels if self.lens is None else self.lens.undistort(pixels))
+        return self.plane.places(undistorted(pixels, self.lens))
 
     def pixels(self, places: Array) -> Array:
         """Pixels in the picture of places (points, 2) [m]."""
@@ -149,7 +149,7 @@ def _plane(
 ) -> tuple[Plane, tuple[str, ...], Followed | None]:
     if entry.scale is not None and entry.origin is not None:
         origin = np.array([entry.origin], dtype=np.float64)
-        ((u, v),) = origin if lens is None else lens.undistort(origin)
+        ((u, v),) = undistorted(origin, lens)
         return plane_of_scale(entry.scale.to("m"), (float(u), float(v)), entry.y, entry.z), (), None
     points = entry.fiducials or []
     pixels = np.array([p.pixel for p in points], dtype=np.float64)
@@ -158,7 +158,7 @@ def _plane(
     if entry.colour is not None and entry.diameter is not None:
         followed = _refined(entry.colour, entry.diameter.to("m"), pixels, places, file, frames)
         pixels = followed.reference
-    straight = pixels if lens is None else lens.undistort(pixels)
+    straight = undistorted(pixels, lens)
     if not np.isfinite(straight).all():
         number = int(np.argmin(np.isfinite(straight).all(axis=1)))
         raise InputError(
@@ -196,9 +196,9 @@ def _refined(
         spots = detector.spots(frame.picture)
         own, area = np.full_like(pixels, np.nan), np.full(len(pixels), np.nan)
         for number, pixel in enumerate(pixels):
-            away = np.linalg.norm(spots.pixels - pixel, axis=1)
-            if len(away) and away.min() < _NEAR * wide:
-                own[number], area[number] = spots.pixels[int(np.argmin(away))], spots.area[int(np.argmin(away))]
+            best = nearest(spots, pixel, wide)
+            if best is not None:
+                own[number], area[number] = spots.pixels[best], spots.area[best]
         centres.append(own)
         areas.append(area)
     found = np.array(centres)
@@ -220,6 +220,5 @@ def _aligned(found: Array, seen: AnyArray) -> Array:
     for number in range(len(found)):
         both = seen[number] & seen[base]
         if number != base and both.sum() > 1:
-            matrix = similarity(found[number, both], found[base, both])
-            found[number] = found[number] @ matrix[:2, :2].T + matrix[:2, 2]
+            found[number] = mapped(similarity(found[number, both], found[base, both]), found[number])
     return np.asarray(np.nanmedian(found, axis=0))

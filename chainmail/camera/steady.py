@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.ndimage import median_filter
 
-from chainmail.camera.detect import Detector
-from chainmail.camera.lens import Lens
-from chainmail.camera.plane import Plane
+from chainmail.camera.detect import Detector, Spots
+from chainmail.camera.lens import Lens, undistorted
+from chainmail.camera.plane import Plane, mapped
 from cosim.unit.protocol import AnyArray, Array
 
 #: A fiducial is sought so far around its last pixel, and may have moved so far since, in its diameters.
-_AROUND, _NEAR = 3.0, 1.5
+_AROUND, NEAR = 3.0, 1.5
 #: Its area may differ so much from that of the first pictures: what covers a part of it moves its centre.
 _OTHER_AREA = 0.15
 #: Fewest fiducials of a picture that tell how the camera moved; three show an error too.
@@ -65,13 +65,17 @@ class Followed:
         if min(cut.shape[:2]) < self._wide:
             return None
         spots = self._detector.spots(np.ascontiguousarray(cut))
-        if not len(spots.area):
+        corner = np.array([left, top])
+        best = nearest(spots, np.array([u, v]) - corner, self._wide)
+        if best is None or not abs(spots.area[best] / area - 1.0) < _OTHER_AREA:
             return None
-        pixels = spots.pixels + np.array([left, top])
-        away = np.linalg.norm(pixels - np.array([u, v]), axis=1)
-        best = int(np.argmin(away))
-        is_it = away[best] < _NEAR * self._wide and abs(spots.area[best] / area - 1.0) < _OTHER_AREA
-        return np.asarray(pixels[best]) if is_it else None
+        return np.asarray(spots.pixels[best] + corner)
+
+
+def nearest(spots: Spots, pixel: Array, wide: float) -> int | None:
+    """Number of the spot nearest to a pixel; None where none is as near as a fiducial of this diameter [px] may be."""
+    away = np.linalg.norm(spots.pixels - pixel, axis=1)
+    return int(np.argmin(away)) if len(away) and away.min() < NEAR * wide else None
 
 
 @dataclass(frozen=True)
@@ -104,16 +108,16 @@ class Motion:
         return replace(plane, matrix=plane.matrix @ self.matrices[picture]) if self.is_moving else plane
 
 
-def motion_of(pixels: Array, reference: Array, lens: Lens | None) -> Motion:
-    """The motion of a camera from its fiducials.
+def motion_of(pixels: Array, reference: Array, lens: Lens | None) -> Motion | None:
+    """The motion of a camera from its fiducials; None where too few pictures show them.
 
     Args:
         pixels: Shape (pictures, fiducials, 2); not a number where one is hidden.
         reference: The same in the first pictures, shape (fiducials, 2).
         lens: None where there is no distortion to undo.
     """
-    straight = _undistorted(pixels.reshape(-1, 2), lens).reshape(pixels.shape)
-    first = _undistorted(reference, lens)
+    straight = undistorted(pixels.reshape(-1, 2), lens).reshape(pixels.shape)
+    first = undistorted(reference, lens)
     count = len(pixels)
     shifts, matrices = np.full((count, 2), np.nan), np.tile(np.eye(3), (count, 1, 1))
     squares, freedom = 0.0, 0
@@ -121,33 +125,22 @@ def motion_of(pixels: Array, reference: Array, lens: Lens | None) -> Motion:
     for number in np.flatnonzero(seen.sum(axis=1) >= _FEWEST):
         own = seen[number]
         matrix = similarity(straight[number, own], first[own])
-        back = straight[number, own] @ matrix[:2, :2].T + matrix[:2, 2]
-        squares += float(np.sum((back - first[own]) ** 2))
+        squares += float(np.sum((mapped(matrix, straight[number, own]) - first[own]) ** 2))
         freedom += max(2 * int(own.sum()) - 4, 0)
         matrices[number] = matrix
         middle = first.mean(axis=0)
         shifts[number] = np.linalg.solve(matrix[:2, :2], middle - matrix[:2, 2]) - middle
     left = float(np.sqrt(squares / freedom)) if freedom else float("nan")
-    error = np.where(seen.any(axis=1), np.nan_to_num(left, nan=_SHIFT) / np.sqrt(np.maximum(seen.sum(axis=1), 1)), 0.0)
     known = np.isfinite(shifts).all(axis=1)
     if known.sum() < _LASTING:
-        return Motion(shifts, matrices, np.zeros(count), left, False)
+        return None
     lasting = median_filter(shifts[known], size=(_LASTING, 1), mode="nearest")
     scatter = float(np.median(np.abs(shifts[known] - lasting))) / 0.6745
     is_moving = bool(np.max(np.abs(lasting)) > max(_SHIFT, _BEYOND * scatter / np.sqrt(_LASTING)))
     if not is_moving:
         return Motion(shifts, np.tile(np.eye(3), (count, 1, 1)), np.zeros(count), left, False)
+    error = np.where(seen.any(axis=1), np.nan_to_num(left, nan=_SHIFT) / np.sqrt(np.maximum(seen.sum(axis=1), 1)), 0.0)
     return Motion(shifts, matrices, error, left, True)
-
-
-def _undistorted(pixels: Array, lens: Lens | None) -> Array:
-    if lens is None:
-        return pixels
-    found = np.full_like(pixels, np.nan)
-    known = np.isfinite(pixels).all(axis=1)
-    if known.any():
-        found[known] = lens.undistort(pixels[known])
-    return found
 
 
 def similarity(points: Array, goals: Array) -> Array:

@@ -172,7 +172,7 @@ class PhysicalValue:
             ValueError: The units measure different things, or a dimensional value was written without a unit.
         """
         if not self.unit and parse_unit(unit).dimensionality != parse_unit("1").dimensionality:
-            raise ValueError(f"{self.number:g} has no unit; write for example `{self.number:g} {unit}`")
+            raise _without_unit(self.number, unit)
         given, asked = parse_unit(self.unit), parse_unit(unit)
         if given == asked:
             return self.number
@@ -199,6 +199,10 @@ def _serialise(value: object) -> str:
     return str(value)
 
 
+def _without_unit(number: float, unit: str) -> ValueError:
+    return ValueError(f"{number:g} has no unit; write for example `{number:g} {unit}`")
+
+
 @dataclass(frozen=True)
 class In:
     """Pydantic annotation: a `PhysicalValue` that converts to `unit`, within bounds.
@@ -218,7 +222,7 @@ class In:
     def _validate(self, value: object) -> PhysicalValue:
         parsed = PhysicalValue.parse(value)
         if self.usual and parsed.unit in ("", "1"):
-            raise ValueError(f"{parsed.number:g} has no unit; write for example `{parsed.number:g} {self.usual}`")
+            raise _without_unit(parsed.number, self.usual)
         if self.unit is not None:
             number = parsed.to(self.unit)
             if self.minimum is not None and (number < self.minimum or (self.is_exclusive and number == self.minimum)):

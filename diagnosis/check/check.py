@@ -16,8 +16,9 @@ from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.gain_of_one import gain_of_one
 from diagnosis.check.input_doubts import input_doubts
+from diagnosis.check.late_input import late_input
 from diagnosis.check.odd_one_out import odd_ones
-from diagnosis.check.other_course import late_input, other_course
+from diagnosis.check.other_course import other_course
 from diagnosis.check.other_number import other_number
 from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts

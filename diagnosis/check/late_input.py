@@ -11,8 +11,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.components import nanoseconds
+from cosim.run import RunStopped
 from cosim.unit.protocol import Array
-from diagnosis.check.beside import Course
+from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.odd_one_out import comparable, left, scaled_left
+from diagnosis.check.other_course import (
+    CHANNELS,
+    MET,
+    PAUSED,
+    given_as,
+    is_quick,
+    missed_with,
+    of_one_element,
+    parts_of,
+    stated_share,
+    with_inputs,
+)
+from diagnosis.check.timing import percent
+from diagnosis.judge.diagnosis import Doubt
 
 #: Share of the recording by which an input may be late, and most shifts that are tried before the best is refined.
 LONGEST, MOST_SHIFTS = 0.1, 60
@@ -30,19 +47,49 @@ class Late:
         course: Of the input, as stated.
         shift: What its times have to be moved by [s]: it acted later where that is positive.
         left: Share of the variance that it then leaves of the channel that it explains least.
-        resolution: Last step of the search [s].
     """
 
     course: Course
     shift: float
     left: float
-    resolution: float
 
 
-def late(
+def late_input(one: Compared) -> Doubt | None:
+    """A serious doubt about the input that is late or early as a whole; None where no single one is.
+
+    What explains one channel alone is of its sensor as well, and what moves all inputs as far is the clock of the
+    readings.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+    """
+    channels = comparable(one)
+    if one.base is None or not is_quick(one.scenario):
+        return None
+    lefts = [scaled_left(b, b.simulated_there) for b in channels.values()]
+    moving = [c for c in of_one_element(one) if np.ptp(c.values) > 0.0]
+    if sum(share > 1.0 - MET for share in lefts) < CHANNELS or len(moving) < 2:
+        return None
+    least = min(1.0 - MET, max(lefts) / PAUSED)
+    step = nanoseconds(one.scenario.time.macro_step) * 1e-9
+    tried = [_late(c, (one.begin, one.end), step, missed_with(one, channels, c)) for c in moving]
+    found = min((f for f in tried if f is not None), key=lambda f: f.left, default=None)
+    if found is None or found.left >= least:
+        return None
+    others = tuple(given_as(c, np.asarray(c.times) + found.shift, c.values) for c in moving)
+    try:
+        together = parts_of(channels, with_inputs(one, channels, others))
+    except RunStopped:
+        together = []
+    if together and max(scaled_left(b, part) for b, part in zip(channels.values(), together)) < least:
+        return None
+    return _of_late(one, channels, found)
+
+
+def _late(
     course: Course, span: tuple[float, float], step: float, missed: Callable[[Array, Array], float]
 ) -> Late | None:
-    """The shift with which the least is missed; None where the input hardly moves, or too fast for so many shifts.
+    """The shift with which the least is missed; None where it is none, or the input moves too fast for so many shifts.
 
     Args:
         course: Of the input, as stated.
@@ -52,7 +99,7 @@ def late(
     """
     longest = LONGEST * (span[1] - span[0])
     width = max(_memory(course, span), step)
-    if not np.ptp(course.values) > 0.0 or 2.0 * longest / width > MOST_SHIFTS:
+    if 2.0 * longest / width > MOST_SHIFTS:
         return None
     times, values = np.asarray(course.times), np.asarray(course.values)
 
@@ -66,7 +113,7 @@ def late(
         width *= 0.5
         found |= {s: of(s) for s in (best - width, best + width)}
         best = min(found, key=lambda s: found[s])
-    return Late(course, best, found[best], width) if abs(best) > 2.0 * step else None
+    return Late(course, best, found[best]) if abs(best) > 2.0 * step else None
 
 
 def _memory(course: Course, span: tuple[float, float]) -> float:
@@ -81,3 +128,19 @@ def _memory(course: Course, span: tuple[float, float]) -> float:
         if float(values[lag:] @ values[:-lag]) < ALIKE * size:
             return float(grid[lag] - grid[0])
     return float(grid[len(grid) // 4] - grid[0])
+
+
+def _of_late(one: Compared, channels: dict[str, Beside], found: Late) -> Doubt:
+    lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
+    origin = "column" if found.course.is_recorded else "programme"
+    how = f"{abs(found.shift):.2g} s {'later' if found.shift > 0.0 else 'earlier'}"
+    text = (
+        f"{stated_share(found.course, lefts)}; as if it acted {how} than its {origin} says, at "
+        f"least {percent(1.0 - found.left)} of each channel's, scaled and shifted as suits best; the other "
+        "recordings are met with their courses"
+    )
+    remedy = (
+        f"compare the clock of `{found.course.name}` with that of the readings, and correct the times of its {origin}"
+    )
+    z = float(np.sqrt(max(lefts.values()) / max(found.left, 1e-6)))
+    return Doubt(one.recording.title, found.course.name, "clock", text, remedy, True, one.begin, one.end, z)

@@ -30,7 +30,6 @@ from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
-from diagnosis.check.late_input import Late, late
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
 from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
@@ -81,7 +80,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
     found = []
-    courses = _of_one_element(one)
+    courses = of_one_element(one)
     for course in courses:
         alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
         low, high = (float(f([f(c.values) for c in alike])) for f in (np.min, np.max))
@@ -100,39 +99,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
 
 
-def late_input(one: Compared) -> Doubt | None:
-    """A serious doubt about the input that is late or early as a whole; None where no single one is.
-
-    What explains one channel alone is of its sensor as well, and what moves all inputs as far is the clock of the
-    readings.
-
-    Args:
-        one: A recording that stands out (`diagnosis.check.odd_one_out`).
-    """
-    channels = comparable(one)
-    if one.base is None or not is_quick(one.scenario):
-        return None
-    lefts = [scaled_left(b, b.simulated_there) for b in channels.values()]
-    moving = [c for c in _of_one_element(one) if np.ptp(c.values) > 0.0]
-    if sum(share > 1.0 - MET for share in lefts) < CHANNELS or len(moving) < 2:
-        return None
-    least = min(1.0 - MET, max(lefts) / PAUSED)
-    step = nanoseconds(one.scenario.time.macro_step) * 1e-9
-    tried = [late(c, (one.begin, one.end), step, _missed(one, channels, c)) for c in moving]
-    found = min((f for f in tried if f is not None), key=lambda f: f.left, default=None)
-    if found is None or found.left >= least:
-        return None
-    others = tuple(_given(c, np.asarray(c.times) + found.shift, c.values) for c in moving)
-    try:
-        together = _parts(channels, _with_inputs(one, channels, others))
-    except RunStopped:
-        together = []
-    if together and max(scaled_left(b, part) for b, part in zip(channels.values(), together)) < least:
-        return None
-    return _of_late(one, channels, found)
-
-
-def _of_one_element(one: Compared) -> list[Course]:
+def of_one_element(one: Compared) -> list[Course]:
     """Courses of inputs that can be a column: of one element."""
     return [c for c in one.courses if not c.name.endswith("]")]
 
@@ -175,12 +142,12 @@ def _estimated(
                 other[k] += step if values[k] + step <= bounds[1] else -step
                 rows.append((_simulated(one, channels, course, held, other) - here) / (other[k] - values[k]))
             slopes = np.array(rows).T
-            risen = _parts(channels, slopes.sum(axis=1) * step)
+            risen = parts_of(channels, slopes.sum(axis=1) * step)
             if sum(_answers(b, part) for b, part in zip(channels.values(), risen)) < CHANNELS:
                 return None
             goal = measured - here + slopes @ values
             values = np.asarray(lsq_linear(slopes * weights[:, None], goal * weights, bounds).x)
-        after = _parts(channels, _simulated(one, channels, course, held, values))
+        after = parts_of(channels, _simulated(one, channels, course, held, values))
     except RunStopped:
         return None
     explained = 1.0 - max(scaled_left(b, part) for b, part in zip(channels.values(), after))
@@ -188,12 +155,12 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
-def _missed(one: Compared, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
+def missed_with(one: Compared, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
     """What times [s] and values in place of a course leave of the channel that they explain least."""
 
     def missed(times: Array, values: Array) -> float:
         try:
-            parts = _parts(channels, _simulated(one, channels, course, times, values))
+            parts = parts_of(channels, _simulated(one, channels, course, times, values))
         except RunStopped:
             return 1.0
         return max(scaled_left(b, part) for b, part in zip(channels.values(), parts))
@@ -203,7 +170,7 @@ def _missed(one: Compared, channels: dict[str, Beside], course: Course) -> Calla
 
 def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[Pause]:
     """Intervals without which the stated course explains most: it was not applied then, or did not move."""
-    missed = _missed(one, channels, course)
+    missed = missed_with(one, channels, course)
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
     is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
     kinds = [] if is_temperature or not np.any(course.values) else [NOTHING]
@@ -229,15 +196,15 @@ def _means(course: Course, knots: Array) -> Array:
 
 def _simulated(one: Compared, channels: dict[str, Beside], course: Course, times: Array, values: Array) -> Array:
     """Simulated readings of all channels one after another, with a course in place of the stated one."""
-    return _with_inputs(one, channels, (_given(course, times, values),))
+    return with_inputs(one, channels, (given_as(course, times, values),))
 
 
-def _given(course: Course, times: Array, values: Array) -> Input:
+def given_as(course: Course, times: Array, values: Array) -> Input:
     component, _, output = course.name.partition(".")
     return Input(component, output, course.unit, times, values)
 
 
-def _with_inputs(one: Compared, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
+def with_inputs(one: Compared, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
     """The same with some inputs in place of the stated ones."""
     assert one.base is not None
     names = {(i.component, i.output) for i in given}
@@ -251,7 +218,7 @@ def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
     return np.asarray(sample(series, beside.times))
 
 
-def _parts(channels: dict[str, Beside], every: Array) -> list[Array]:
+def parts_of(channels: dict[str, Beside], every: Array) -> list[Array]:
     """Rows of each channel."""
     ends = np.cumsum([len(b.times) for b in channels.values()])
     return np.split(every, ends[:-1])
@@ -269,7 +236,7 @@ def _size(beside: Beside) -> float:
 def _of_pause(one: Compared, channels: dict[str, Beside], pause: Pause) -> Doubt:
     lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
     text = (
-        f"{_as_stated(pause.course, lefts)}; as if {pause.kind} from about {pause.begin:.6g} to {pause.end:.6g} s, "
+        f"{stated_share(pause.course, lefts)}; as if {pause.kind} from about {pause.begin:.6g} to {pause.end:.6g} s, "
         f"at least {percent(1.0 - pause.left)} of each channel's, scaled and shifted as suits best; the other "
         "recordings are met with their courses"
     )
@@ -278,23 +245,7 @@ def _of_pause(one: Compared, channels: dict[str, Beside], pause: Pause) -> Doubt
     return Doubt(one.recording.title, pause.course.name, ODD, text, remedy, False, pause.begin, pause.end, z)
 
 
-def _of_late(one: Compared, channels: dict[str, Beside], found: Late) -> Doubt:
-    lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
-    origin = "column" if found.course.is_recorded else "programme"
-    side = "later" if found.shift > 0.0 else "earlier"
-    text = (
-        f"{_as_stated(found.course, lefts)}; as if it acted {abs(found.shift):.2g} s {side} than its {origin} says, at "
-        f"least {percent(1.0 - found.left)} of each channel's, scaled and shifted as suits best; the other "
-        "recordings are met with their courses"
-    )
-    remedy = (
-        f"compare the clock of `{found.course.name}` with that of the readings, and correct the times of its {origin}"
-    )
-    z = float(np.sqrt(max(lefts.values()) / max(found.left, 1e-6)))
-    return Doubt(one.recording.title, found.course.name, "clock", text, remedy, True, one.begin, one.end, z)
-
-
-def _as_stated(course: Course, lefts: dict[str, float]) -> str:
+def stated_share(course: Course, lefts: dict[str, float]) -> str:
     worst = max(lefts, key=lambda n: lefts[n])
     origin = "recorded" if course.is_recorded else "stated"
     mine = percent(max(1.0 - lefts[worst], 0.0))
@@ -304,7 +255,7 @@ def _as_stated(course: Course, lefts: dict[str, float]) -> str:
 def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained: float, likeness: float) -> Doubt:
     lefts = {n: left(b, b.simulated_there) for n, b in channels.items()}
     text = (
-        f"{_as_stated(course, lefts)}; with another one within the range of all recordings, which is unlike it "
+        f"{stated_share(course, lefts)}; with another one within the range of all recordings, which is unlike it "
         f"(correlation {likeness:.2f}), at least {percent(explained)} of each channel's, scaled and shifted as suits "
         f"best; the other recordings are met with theirs"
     )

@@ -167,6 +167,18 @@ def test_shift_turn_and_size_are_those_that_a_person_gives():
     assert still.left == pytest.approx(0.0, abs=1e-9)
 
 
+def test_fiducials_that_hardly_any_picture_shows_tell_nothing(film, pictures, tmp_path):
+    hidden = list(pictures)
+    for n in range(3, FRAMES):
+        blue, green, _ = np.moveaxis(hidden[n].astype(int), 2, 0)
+        hidden[n] = np.where((blue > green + 3)[..., None], 90, hidden[n]).astype(np.uint8)
+    rig = rig_of(film, tmp_path)
+    measured = measure(saved(tmp_path / "hidden", hidden), load_rig(rig), rig)
+    assert measured.motion is None
+    assert any(s.startswith("camera: taken to stand still") for s in summary(measured))
+    assert (measured.tracks.state == SEEN).mean() > 0.9
+
+
 def test_a_rate_beside_that_of_the_file_is_said(film, pictures, tmp_path):
     file = tmp_path / "film.avi"
     writer = opencv().VideoWriter(str(file), opencv().VideoWriter_fourcc(*"MJPG"), 24.0, (480, 360))

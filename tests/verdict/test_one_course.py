@@ -1,4 +1,4 @@
-"""Two faults of one input at the same time are one course that it had, and neither is told as what happened."""
+"""Two faults of one input at the same time are one course that it had, and neither is reported as what happened."""
 
 from dataclasses import replace
 

@@ -338,8 +338,8 @@ def _fit(
     what += "" if changed is None else "".join(f", or {parameter(n)} alike" for n in changed.alike)
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
     beside = _beside(own, law, symbols, needed)
-    over = symbols[OVER[law.role][0]].name if law.role in OVER else symbols["o"].name if "o" in symbols else ""
-    others = [n for n in dict.fromkeys((beside, over)) if n]
+    over = OVER.get(law.role, ("o",))[0]
+    others = [n for n in dict.fromkeys((beside, symbols[over].name if over in symbols else "")) if n]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)

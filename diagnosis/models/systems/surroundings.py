@@ -74,11 +74,13 @@ def hidden_surroundings(system: FastSystem, fmu: FastFmu, own: Places) -> float 
     if not warm or driven or not any(is_of(q, "W") for q in own.inputs.values()):
         return None
     plain = _temperatures(system, fmu, own, warm, Changes())
+    if plain is None:
+        return None
     acting: list[float] = []
     carrying: list[float] = []
     for kelvin, changes in _moved(system, fmu, own):
         there = _temperatures(system, fmu, own, warm, changes)
-        if plain is None or there is None or _are_alike(there, plain):
+        if there is None or _are_alike(there, plain):
             continue
         if _are_alike(there[0], plain[0]):
             acting.append(kelvin)
