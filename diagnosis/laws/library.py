@@ -59,7 +59,7 @@ def _generic() -> list[Law]:
     )
     sign = {"rounding": ("o", 0.01)}
     found.append(_law("port_of_sign", "law of the sign of an output", Role.PORT, "a * tanh(o / rounding)", "u", sign))
-    return [*found, *_scaled(), _changing(), *_read(), _beside_a_state(), *_with_memory(), *_corrections()]
+    return [*found, *_scaled(), _changing(), _worn(), *_read(), _beside_a_state(), *_with_memory(), *_corrections()]
 
 
 def _read() -> list[Law]:
@@ -106,6 +106,24 @@ def _changing() -> Law:
         is_named=False,
         is_share=True,
         series_of=series,
+    )
+
+
+def _worn() -> Law:
+    """A parameter that changes by what has passed since the begin: a sorbent is used up, a filter clogs.
+
+    What is used up does not come to less than nothing, so the share ends short of -1.
+    """
+    return Law(
+        "parameter_worn",
+        "parameter that changes with what has passed since the begin",
+        Role.PARAMETER,
+        "max(a * passed, -0.95)",
+        (Number("a", "1/(o_peak*reading)", "change for each unit that has passed", (-1e-3, 1e-3), 1.0, None),),
+        "J. F. Archard, J. Applied Physics 24 (1953) 981-988 (wear in proportion to the way)",
+        states=(OwnState("passed", "abs(o)", "0 * o * time", "o*reading"),),
+        is_named=False,
+        is_share=True,
     )
 
 

@@ -279,7 +279,7 @@ def _fit(
     numbers |= {d.name for d in law.delays}
     formulas = (law.formula, *(s.rate for s in law.states), *((law.reaction,) if law.reaction else ()))
     products = (*(n.of for n in law.numbers), *(of for of, _ in law.constants.values()), *(s.of for s in law.states))
-    needed = {n for f in formulas for n in names_in(f)} - numbers
+    needed = {n for f in formulas for n in names_in(f)} - numbers - {"time"}
     needed |= {n for of in products for n in names_in(of)} - _SCALES
     if law.is_share and own.derivatives_read.get(target.name):
         return None  # an output that reads the derivative would have to read the share of it too
