@@ -6,8 +6,8 @@ own for one input, as of the wind, moves that input alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,11 +25,13 @@ from diagnosis.check.other_course import (
     missed_with,
     of_one_element,
     parts_of,
+    results_with,
     stated_share,
     with_inputs,
 )
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.series import series_of
 
 #: Share of the recording by which an input may be late, and most shifts that are tried before the best is refined.
 LONGEST, MOST_SHIFTS = 0.1, 60
@@ -37,6 +39,8 @@ LONGEST, MOST_SHIFTS = 0.1, 60
 ALIKE = 0.7
 #: How often the step is halved from the best shift.
 HALVINGS = 8
+#: Times each way by which an input is moved where a clock seems to run wrong, and how often the best is refined.
+SIZES, FINER = 7, 3
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,42 @@ def late_input(one: Compared) -> Doubt | None:
     if together and max(scaled_left(b, part) for b, part in zip(channels.values(), together)) < least:
         return None
     return _of_late(one, channels, found)
+
+
+def gain_of_late_input(one: Compared, asked: Sequence[Beside], misfit: Callable[[Beside], float]) -> float:
+    """What a time by which one input is late or early gains over none, the best of all inputs that move.
+
+    A dead time of one input among several is neither a lag nor a shift of all readings. -inf where nothing moves, or a
+    simulation takes longer than compiled code does.
+
+    Args:
+        one: Any recording.
+        asked: Channels that are asked.
+        misfit: -2 log likelihood of a channel, as a number that falls where its simulated course explains it better.
+    """
+    if one.base is None or not is_quick(one.scenario):
+        return -np.inf
+    source = one.recording.path / "recording.yaml"
+
+    def missed(course: Course, shift: float) -> float:
+        try:
+            results = results_with(one, [given_as(course, np.asarray(course.times) + shift, course.values)])
+        except RunStopped:
+            return np.inf
+        return sum(misfit(replace(b, simulated=series_of(results, b.channel.target, source))) for b in asked)
+
+    sizes = np.geomspace(nanoseconds(one.scenario.time.macro_step) * 1e-9, LONGEST * (one.end - one.begin), SIZES)
+    gains = [-np.inf]
+    without = sum(misfit(b) for b in asked)
+    for course in (c for c in of_one_element(one) if np.ptp(c.values) > 0.0):
+        found = {float(s): missed(course, float(s)) for s in (*-sizes, *sizes)}
+        best, ratio = min(found, key=lambda s: found[s]), float(sizes[1] / sizes[0])
+        for _ in range(FINER):
+            ratio = float(np.sqrt(ratio))
+            found |= {s: missed(course, s) for s in (best / ratio, best * ratio)}
+            best = min(found, key=lambda s: found[s])
+        gains.append(without - found[best])
+    return max(gains)
 
 
 def _late(

@@ -206,11 +206,16 @@ def given_as(course: Course, times: Array, values: Array) -> Input:
 
 def with_inputs(one: Compared, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
     """The same with some inputs in place of the stated ones."""
+    results = results_with(one, given)
+    return np.concatenate([readings_of(results, b, one) for b in channels.values()])
+
+
+def results_with(one: Compared, given: Sequence[Input]) -> xr.Dataset:
+    """A run with some inputs in place of the stated ones; raises `RunStopped` where it runs away."""
     assert one.base is not None
     names = {(i.component, i.output) for i in given}
     inputs = (*(i for i in one.recording.inputs if (i.component, i.output) not in names), *given)
-    results = run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
-    return np.concatenate([readings_of(results, b, one) for b in channels.values()])
+    return run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
 
 
 def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:

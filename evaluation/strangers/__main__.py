@@ -38,6 +38,7 @@ from evaluation.strangers import (
     third_set,
     thirteenth_set,
     twelfth_set,
+    twentieth_set,
 )
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -62,6 +63,7 @@ SETS = {
     "seventeenth": seventeenth_set.CASES,
     "eighteenth": eighteenth_set.CASES,
     "nineteenth": nineteenth_set.CASES,
+    "twentieth": twentieth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
