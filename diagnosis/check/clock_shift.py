@@ -42,7 +42,7 @@ _ELSE = (
     "the rig responds by another size from some instant on",
     "the readings answer an input at once, before the body does",
     "the response to the same input changes in the course of the recording",
-    "one input acts later or earlier than it is said to, and the others do not",
+    "one input acts later or earlier than it is said to",
 )
 _FASTER = "the rig responds faster than the model says"
 #: Share of variance from which a response draws nearly all of the readings: what the model does not draw moves a
@@ -130,7 +130,7 @@ def shift_doubts(compared: Compared) -> list[Doubt]:
         is_late = found.size > 0.0 and not found.is_rate
         # what answers at once comes early
         at_once = 0.0 if is_late else direct_gain(compared)
-        rivals = (event_gain(compared), at_once, growth_gain(compared, is_late), input_gain(compared))
+        rivals = (event_gain(compared), at_once, growth_gain(compared, is_late), input_gain(compared, found))
         if max(rivals) > found.gained + limit:
             return []
         for rival, what in zip(rivals, _ELSE):
@@ -408,12 +408,13 @@ def growth_gain(compared: Compared, is_late: bool = False) -> float:
     return by_body if is_late else max(by_body, _gain_of(compared, of_the_inputs))
 
 
-def input_gain(compared: Compared) -> float:
-    """What one input gains that is late or early by itself, beside others: a dead time, or a clock of its logger.
+def input_gain(compared: Compared, found: Shift) -> float:
+    """What one input gains that is late or early by itself: a dead time, or a clock of its logger.
 
-    The only input that moves is no rival: it moves all readings as a clock that is off does.
+    The only input that moves is no rival of a clock that is off, which moves all readings as it does; it is one of a
+    clock that runs wrong.
     """
-    if sum(np.ptp(c.values) > 0.0 for c in compared.courses) < 2:
+    if not found.is_rate and sum(np.ptp(c.values) > 0.0 for c in compared.courses) < 2:
         return -np.inf
     leads = asked(compared)
     least = min(float(np.median(np.diff(b.channel.times))) for b in leads)

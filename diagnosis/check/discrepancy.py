@@ -9,6 +9,7 @@ Biometrika 58 (1971) 545-554).
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,18 +59,19 @@ class Whitener:
     """Takes the correlation of a discrepancy and noise off: whitened readings are independent, of one variance.
 
     Args:
-        at: Readings.
+        centres: Mean time of each block of readings [s], shape (blocks,).
+        counts: Readings of each block, shape (blocks,).
         ratio: Standard deviation of the discrepancy at the end of the recording, in noises of a reading.
         order: 2: slopes wander (temperatures); 1: values do (currents, which step).
     """
 
-    def __init__(self, at: Thinned, ratio: float, order: int) -> None:
-        begin = float(at.centres[0])
-        span = max(float(at.centres[-1]) - begin, 1e-300)
-        x = (at.centres - begin) / span
+    def __init__(self, centres: Array, counts: Array, ratio: float, order: int) -> None:
+        begin = float(centres[0])
+        span = max(float(centres[-1]) - begin, 1e-300)
+        x = (centres - begin) / span
         low, high = np.minimum(x[:, None], x[None, :]), np.maximum(x[:, None], x[None, :])
         kernel = 3.0 * low**2 * (high / 2.0 - low / 6.0) if order == 2 else low
-        self._triangle = np.linalg.cholesky(np.diag(1.0 / at.counts) + ratio**2 * kernel)
+        self._triangle = np.linalg.cholesky(np.diag(1.0 / counts) + ratio**2 * kernel)
         self.log_determinant = 2.0 * float(np.sum(np.log(np.diag(self._triangle))))
         trend = np.stack([np.ones_like(x), x][:order])
         white = self._solved(trend)
@@ -84,6 +86,16 @@ class Whitener:
         """Whitened rows, without what the level (and slope) at the begin explain; shape (any, blocks)."""
         white = self._solved(np.atleast_2d(rows))
         return np.asarray(white - (white @ self._basis) @ self._basis.T)
+
+
+def whitener(at: Thinned, ratio: float, order: int) -> Whitener:
+    """Of a channel's readings; what is asked again of the same readings is not factorised again."""
+    return _whitener(at.centres.tobytes(), at.counts.tobytes(), ratio, order)
+
+
+@functools.lru_cache(maxsize=4 * len(RATIOS))
+def _whitener(centres: bytes, counts: bytes, ratio: float, order: int) -> Whitener:
+    return Whitener(np.frombuffer(centres), np.frombuffer(counts), ratio, order)
 
 
 @dataclass(frozen=True)
@@ -130,14 +142,14 @@ def likelihoods(at: Thinned, columns: Array, order: int, noise: float) -> Likeli
     degrees = rows.shape[-1] - order
     every, variances, kept = [], [], []
     for ratio in RATIOS:
-        whitener = Whitener(at, float(ratio), order)
+        taken_off = whitener(at, float(ratio), order)
         with np.errstate(over="ignore", invalid="ignore"):  # a simulation that runs away explains nothing
-            white = whitener(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape)
-            left = _left(whitener(at.values[None])[0], white)
+            white = taken_off(rows.reshape(-1, rows.shape[-1])).reshape(rows.shape)
+            left = _left(taken_off(at.values[None])[0], white)
             squares = np.sum(left**2, axis=-1)
         squares = np.where(np.isfinite(squares), squares, np.inf)
         variance = np.maximum(np.where(squares < np.inf, squares, 0.0) / degrees, 0.25 * noise**2)
-        constant = whitener.log_determinant + whitener.log_trend
+        constant = taken_off.log_determinant + taken_off.log_trend
         every.append(degrees * np.log(variance) + squares / variance + constant)
         variances.append(variance)
         kept.append(left)

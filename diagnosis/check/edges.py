@@ -16,7 +16,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.clock_shift import asked, order, thinned
-from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener
+from diagnosis.check.discrepancy import RATIOS, Thinned, Whitener, whitener
 from diagnosis.check.explain import explained, explains
 from diagnosis.check.quantiles import poisson_log
 from diagnosis.check.timing import critical, driver, listed, percent, resolution
@@ -204,10 +204,10 @@ def channel_edges(beside: Beside) -> _Found:
     atoms = [at.means(_atoms(at, order(beside), share * span)) for share in LAGS]
     best: tuple[float, list[int], Array, Array] | None = None
     for ratio in RATIOS:
-        whitener = Whitener(at, float(ratio), order(beside))
-        white = whitener(at.values[None])[0]
+        taken_off = whitener(at, float(ratio), order(beside))
+        white = taken_off(at.values[None])[0]
         for rows in atoms:
-            deviance, chosen, sizes, seen = _pursued(whitener, white, whitener(rows), beside, price)
+            deviance, chosen, sizes, seen = _pursued(taken_off, white, taken_off(rows), beside, price)
             if best is None or deviance < best[0]:
                 best = deviance, chosen, sizes, seen
     assert best is not None
@@ -226,12 +226,12 @@ def _atoms(at: Thinned, degree: int, lag: float) -> Array:
 
 
 def _pursued(
-    whitener: Whitener, white: Array, atoms: Array, beside: Beside, price: float
+    taken_off: Whitener, white: Array, atoms: Array, beside: Beside, price: float
 ) -> tuple[float, list[int], Array, Array]:
     """Orthogonal matching pursuit: smallest priced deviance, places, sizes, and the smallest size that is seen."""
     degree = order(beside)
     degrees = len(white) - degree
-    constant = whitener.log_determinant + whitener.log_trend
+    constant = taken_off.log_determinant + taken_off.log_trend
     least = 0.25 * beside.channel.deviation**2
     free, left = atoms.copy(), white
     chosen: list[int] = []
