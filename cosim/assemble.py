@@ -260,7 +260,7 @@ def _connection(given: str | ScaledConnection, index: int, units: Mapping[str, U
             factor, offset = conversion(found[0].unit, found[1].unit) if found[1].type.is_float else (1.0, 0.0)
         except ValueError as error:
             raise InputError(
-                source, f"connections[{index}]", f"{scaled.connect}: {error}", _unit_remedy(scaled, found)
+                source, f"connections[{index + 1}]", f"{scaled.connect}: {error}", _unit_remedy(scaled, found)
             ) from error
     factor, offset = scaled.factor * factor, scaled.factor * offset + scaled.offset
     return Connection(ends[0], ends[1], factor, offset, elements[0], elements[1])

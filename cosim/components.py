@@ -279,7 +279,7 @@ class FabricComponent(Strict):
     engine: Literal["bullet", "mujoco"] = Field(
         default="bullet", description="bullet reproduces the paper; mujoco is faster (docs/engines.md)."
     )
-    rows: Annotated[StrictInt, Field(ge=2)]
+    rows: Annotated[StrictInt, Field(ge=3)]
     columns: Count
     tether: Tether
     solver: Solver = Field(default=Solver(), description="micro_step: 0.5 ms by default, 0.25 ms with mujoco.")

@@ -11,7 +11,7 @@ from cosim.nearest import did_you_mean
 from cosim.parameters import Resolved
 from cosim.unit.errors import InputError
 from cosim.unit.quantity import PhysicalValue
-from mechanics.added import AddedEffects, LinkEffects, tilted
+from mechanics.added import AddedEffects, LinkEffects, OutOfRange, tilted
 from mechanics.fabric import FabricDesign
 from mechanics.mujoco_world import MujocoMissing
 from mechanics.pendulum import PendulumDesign, PendulumUnit
@@ -79,6 +79,10 @@ PENDULUM_UNITS = {
 }
 
 
+#: Keys of a fabric's component beside its parameters, by the name of the number.
+_KEYS = {"rows": "rows", "columns": "columns", "tether_rows": "tether.rows"}
+
+
 def build_fabric(name: str, component: FabricComponent, parameters: Resolved) -> FabricUnit:
     """A fabric; raises ValueError for a parameter that does not fit, InputError where its engine is not installed."""
     numbers: dict[str, Any] = {}
@@ -86,6 +90,10 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
     for key, value in parameters.values.items():
         if of_link := _OF_A_LINK.fullmatch(key):
             own, number = of_link[1], int(of_link[2])
+            links = component.rows * (2 * component.columns - 1)
+            if not 1 <= number <= links:
+                where = f"{name}.parameters.{key}"
+                raise InputError("scenario", where, f"the fabric has links 1 to {links}", "name one of them")
             if own not in LINK_UNITS:
                 hint = did_you_mean(own, list(LINK_UNITS))
                 known = ", ".join(f"{n}[{number}]" for n in LINK_UNITS)
@@ -99,22 +107,23 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
             raise ValueError(f"{key} must be one number with a unit")
         else:
             numbers[key] = _in_unit(key, value, FABRIC_UNITS[key])
-    links = tuple((number, LinkEffects(**own)) for number, own in sorted(of_links.items()))
-    added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
-    has_friction = added.slide_friction or any(own.slide_friction for _, own in links)
-    if has_friction and component.solver.springs == "motor":
-        raise ValueError("slide_friction needs solver.springs `force`: springs as motors use up the joint's motor")
+    added = _added(name, component, numbers, of_links)
     leaning = numbers.pop("tilt", 0.0), numbers.pop("roll", 0.0)
     numbers["gravity"] = tilted(numbers.get("gravity", FabricDesign.gravity), *leaning)
     numbers["start_number"] = round(numbers.get("start_number", 0))
-    design = FabricDesign(
-        rows=component.rows,
-        columns=component.columns,
-        tether_rows=component.tether.rows,
-        tether_kind=component.tether.kind,
-        added=added,
-        **numbers,
-    )
+    try:
+        design = FabricDesign(
+            rows=component.rows,
+            columns=component.columns,
+            tether_rows=component.tether.rows,
+            tether_kind=component.tether.kind,
+            added=added,
+            **numbers,
+        )
+    except OutOfRange as error:
+        key = _KEYS.get(error.name, f"parameters.{error.name}")
+        unit = FABRIC_UNITS.get(error.name, "1").removeprefix("1")
+        raise InputError("scenario", f"{name}.{key}", f"it is {error.value:g} {unit}".rstrip(), error.remedy) from error
     solver = SolverSettings(
         micro_step=component.solver.micro_step.to("s"),
         iterations=component.solver.iterations,
@@ -153,6 +162,26 @@ def _no_parameter(kind: str, key: str, known: list[str]) -> str:
     return f"a {kind} has no parameter `{key}`{f'{hint} It has' if hint else '; it has'}: {', '.join(known)}"
 
 
+def _added(
+    name: str, component: FabricComponent, numbers: dict[str, Any], of_links: dict[int, dict[str, float]]
+) -> AddedEffects:
+    """Effects that are added, which are taken out of the numbers."""
+    links = tuple((number, _effects_of_a_link(name, number, own)) for number, own in sorted(of_links.items()))
+    added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
+    has_friction = added.slide_friction or any(own.slide_friction for _, own in links)
+    if has_friction and component.solver.springs == "motor":
+        raise ValueError("slide_friction needs solver.springs `force`: springs as motors use up the joint's motor")
+    return added
+
+
+def _effects_of_a_link(name: str, number: int, own: dict[str, float]) -> LinkEffects:
+    try:
+        return LinkEffects(**own)
+    except OutOfRange as error:
+        key = f"{name}.parameters.{error.name}[{number + 1}]"
+        raise InputError("scenario", key, f"it is {error.value:g}", error.remedy) from error
+
+
 def _in_unit(key: str, value: PhysicalValue, unit: str) -> float:
     try:
         return value.to(unit)
@@ -163,7 +192,10 @@ def _in_unit(key: str, value: PhysicalValue, unit: str) -> float:
 def _gravity(value: ParameterValue) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3:
         raise ValueError("gravity is a list of three accelerations, for example [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
-    x, y, z = (_quantity(element).to("m/s^2") for element in value)
+    try:
+        x, y, z = (_quantity(element).to("m/s^2") for element in value)
+    except ValueError as error:
+        raise ValueError(f"gravity: {error}") from error
     return x, y, z
 
 

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 import yaml
-from pydantic import Field, StrictBool, StrictFloat, StrictInt, field_validator, model_validator
+from pydantic import Field, StrictBool, StrictFloat, field_validator, model_validator
 
 from cosim.components import (
     Component,
@@ -157,12 +157,16 @@ class StepDoubling(Strict):
 Algorithm = Annotated[GaussSeidel | Jacobi | Iterated | StepDoubling, Field(discriminator="kind")]
 
 
+#: A number that is finite, whole or not.
+_Scale = Annotated[StrictFloat, Field(allow_inf_nan=False)]
+
+
 class ScaledConnection(Strict):
     """A connection whose value is scaled: target = factor * source + offset, after conversion of units."""
 
     connect: Annotated[str, Field(pattern=CONNECTION)]
-    factor: StrictFloat | StrictInt = 1.0
-    offset: StrictFloat | StrictInt = 0.0
+    factor: _Scale = 1.0
+    offset: _Scale = 0.0
     convert_units: StrictBool = Field(default=True, description="Whether the variables' units are converted first.")
 
 
@@ -210,6 +214,11 @@ class Scenario(Strict):
                 )
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():
+                    if given.points and nanoseconds(given.points[0][0]) > start:
+                        raise ValueError(
+                            f"components.{name}.outputs.{output}: its first point is at {given.points[0][0]}, after "
+                            f"the start ({self.time.start}): say what it is from the start on"
+                        )
                     late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]
                     if late:
                         raise ValueError(

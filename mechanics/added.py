@@ -11,6 +11,20 @@ import numpy as np
 from cosim.unit.protocol import Array
 
 
+class OutOfRange(ValueError):
+    """A number of a design that cannot be.
+
+    Args:
+        name: Of the number.
+        value: What it is, in SI.
+        remedy: What to give.
+    """
+
+    def __init__(self, name: str, value: float, remedy: str) -> None:
+        self.name, self.value, self.remedy = name, value, remedy
+        super().__init__(f"{name} is {value}: {remedy}")
+
+
 @dataclass(frozen=True)
 class LinkEffects:
     """What one link has besides, or lacks.
@@ -22,7 +36,7 @@ class LinkEffects:
         slide_friction: Dry friction in its slide beyond that of every slide [N]: a link that jams has much.
 
     Raises:
-        ValueError: A share outside 0 to 1, or a friction below 0 or not finite.
+        OutOfRange: A share outside 0 to 1, or a friction below 0 or not finite.
     """
 
     steel_loss: float = 0.0
@@ -34,9 +48,9 @@ class LinkEffects:
         for name in ("steel_loss", "coil_loss", "heat_loss"):
             value = getattr(self, name)
             if not 0.0 <= value <= 1.0:
-                raise ValueError(f"{name} of a link is {value}: give a share from 0 to 1")
+                raise OutOfRange(name, value, "give a share from 0 to 1")
         if not (math.isfinite(self.slide_friction) and self.slide_friction >= 0):
-            raise ValueError(f"slide_friction of a link is {self.slide_friction}: give zero or a positive number")
+            raise OutOfRange("slide_friction", self.slide_friction, "give zero or a positive number")
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cosim.unit.protocol import Array
-from mechanics.added import NO_EFFECTS, AddedEffects
+from mechanics.added import NO_EFFECTS, AddedEffects, OutOfRange
 from mechanics.lattice import Weave, jammed_weave, taut_weave
 
 #: Clearance of every hook in the woven start [m]: well above rounding, small against the tolerance.
@@ -99,13 +99,13 @@ class FabricDesign:
         for name, least in (("rows", 3), ("columns", 1), ("tether_rows", 0)):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or value < least:
-                raise ValueError(f"{name} is {value!r}: give a whole number, at least {least}")
+                raise OutOfRange(name, value, f"give a whole number, at least {least}")
         if self.tether_rows >= self.rows:
-            raise ValueError(f"tether_rows is {self.tether_rows} of {self.rows} rows: leave at least one row free")
+            raise OutOfRange("tether_rows", self.tether_rows, f"leave at least one of the {self.rows} rows free")
         if self.tether_kind not in ("cantilever", "hanging"):
             raise ValueError(f"tether_kind is {self.tether_kind!r}: give 'cantilever' or 'hanging'")
         if self.columns == 1:
-            raise ValueError("columns is 1: links of one column hook into nothing; give at least 2")
+            raise OutOfRange("columns", 1, "links of one column hook into nothing; give at least 2")
 
     def _check_weave(self) -> None:
         if self.length_hot >= self.length_cold:
@@ -182,7 +182,7 @@ class FabricDesign:
 
 def _require(name: str, value: float, holds: bool, remedy: str) -> None:
     if not (math.isfinite(value) and holds):
-        raise ValueError(f"{name} is {value}: {remedy}")
+        raise OutOfRange(name, value, remedy)
 
 
 @dataclass(frozen=True)

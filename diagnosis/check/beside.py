@@ -43,6 +43,8 @@ LAGS = 5
 #: and 12 of
 #: other laboratories the largest was 0.06. Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464.
 DISCREPANCY = 0.1
+#: Share of a value that a table's decimals and a solver's rounding come to, of a sensor without noise.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -122,6 +124,7 @@ class Beside:
         own = float(np.sqrt(self.channel.deviation**2 + self.channel.quantum**2 / 12.0 + self.scatter**2))
         if self.simulated is None or len(self.simulated.values) < 3:
             return own
+        own = float(np.hypot(own, ROUNDING * np.max(np.abs(self.simulated.values))))
         # the error of a straight line between outputs is an eighth of the second difference
         bend = np.diff(self.simulated.values, 2) / 8.0
         return float(np.sqrt(own**2 + np.mean(bend**2)))

@@ -11,7 +11,7 @@ from typing import cast
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.beside import ROUNDING, Beside, Compared
 from diagnosis.check.ends import range_doubts
 from diagnosis.check.explain import LEVEL, explained
 from diagnosis.check.feedthrough import QUIETER, quieter
@@ -73,7 +73,8 @@ def measured_noise(beside: Beside) -> float:
         channel, own = beside.channel, beside.simulated
         plain = estimate_noise(channel.times, channel.values, channel.quantum)
         noise = plain if own is None else quieter(channel, own)
-        beside.memo["noise"] = noise if noise < QUIETER * plain else plain
+        least = ROUNDING * float(np.max(np.abs(channel.values), initial=0.0))
+        beside.memo["noise"] = max(noise if noise < QUIETER * plain else plain, least)
     return cast(float, beside.memo["noise"])
 
 

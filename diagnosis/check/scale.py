@@ -75,7 +75,13 @@ def _simulated(compared: Compared) -> list[Beside]:
     """Channels whose simulation changes."""
     every = [b for b in compared.channels.values() if b.is_comparable]
     # what a fabric does within the scatter of its contacts says nothing of a size
-    return [b for b in every if np.ptp(b.simulated_there) > 0.0 and (b.moves or not b.scatter)]
+    return [b for b in every if _range(b.simulated_there) > 0.0 and (b.moves or not b.scatter)]
+
+
+def _range(values: Array) -> float:
+    """Between the percentiles 1 and 99: what moves for a moment alone has none."""
+    low, high = np.quantile(values, (0.01, 0.99))
+    return float(high - low)
 
 
 def units_stated(compared: Compared) -> dict[str, str]:
@@ -101,12 +107,9 @@ def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
     """Range and first level of the readings after a conversion."""
     simulated = beside.simulated_there
     measured = factor * beside.measured + offset
-    low, high = np.quantile(measured, (0.01, 0.99))
-    own = np.quantile(simulated, (0.01, 0.99))
     values, _ = first(beside)
-    return _Size(
-        float(high - low) / float(own[1] - own[0]), (factor * float(np.median(values)) + offset, float(simulated[0]))
-    )
+    levels = factor * float(np.median(values)) + offset, float(simulated[0])
+    return _Size(_range(measured) / _range(simulated), levels)
 
 
 def _score(size: _Size, unit: str, is_place: bool = False) -> float:

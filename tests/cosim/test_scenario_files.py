@@ -68,7 +68,7 @@ WRONG = [
     (("time", "macro_step"), "0.3 ns", "time", "whole number of nanoseconds"),
     (("time", "stop"), ".nan s", "time.stop", "not a number with a unit"),
     (("time", "stop"), None, "time.stop", "this key is missing"),
-    ((*FABRIC, "rows"), 1, "components.fabric", "`1` must be at least 2"),
+    ((*FABRIC, "rows"), 1, "components.fabric", "`1` must be at least 3"),
     ((*FABRIC, "tether", "kind"), "nailed", "components.fabric", "it is one of: cantilever, hanging"),
     (
         (*FABRIC, "kind"),
@@ -137,14 +137,14 @@ def test_an_unknown_name_lists_the_shipped_scenarios():
 
 
 ASSEMBLED = [
-    ((*FABRIC, "parameters"), {"link_mass": "-7 g"}, "link_mass is -0.007"),
+    ((*FABRIC, "parameters"), {"link_mass": "-7 g"}, "parameters.link_mass: it is -0.007 kg"),
     ((*FABRIC, "parameters"), {"width": "30 mm"}, "cannot be woven"),
     ((*FABRIC, "parameters"), {"bar_diameter": "12 mm"}, "cannot be woven"),
     ((*FABRIC, "parameters"), {"colour": 1}, "a fabric has no parameter `colour`"),
     ((*FABRIC, "parameters"), {"link_mass": "7 V"}, "is no quantity in kg"),
     ((*FABRIC, "parameters"), {"gravity": "9.81 m/s^2"}, "three accelerations"),
     ((*FABRIC, "parameter_set"), "no_such_links", "there is no parameter set `no_such_links`"),
-    ((*FABRIC, "tether", "rows"), 8, "leave at least one row free"),
+    ((*FABRIC, "tether", "rows"), 8, "leave at least one of the 8 rows free"),
     (("connections", 0), "coil.stiffness -> cloth.stiffness", "there is no component cloth"),
     (("connections", 0), "coil.colour -> fabric.stiffness", "coil has no output colour"),
     (("connections", 0), "coil.rest_length -> fabric.stiffness", "m cannot be converted to N/m"),

@@ -136,10 +136,10 @@ WRONG = [
     (on("circuit", open_coils=[7]), "components.circuit", "open_coils.*coil 7.* 1 to 6"),
     (on("circuit", start={"current": quantity("1 A")}), "components.circuit.start.current", "no such input"),
     (on("circuit", start={"resistance": quantity("1 V")}), "components.circuit.start.resistance", "no quantity in ohm"),
-    (on_fabric(link_mass="-7.3 g"), "components.fabric", "link_mass is -0.0073"),
+    (on_fabric(link_mass="-7.3 g"), "components.fabric.parameters.link_mass", "it is -0.0073 kg"),
     (on_fabric(width="33 mm"), "components.fabric", "cannot be woven"),
-    (on_fabric(tolerance="-1 mm"), "components.fabric", "tolerance"),
-    (on_fabric(friction="-0.1"), "components.fabric", "friction"),
+    (on_fabric(tolerance="-1 mm"), "components.fabric.parameters.tolerance", "it is -0.001 m"),
+    (on_fabric(friction="-0.1"), "components.fabric.parameters.friction", "it is -0.1"),
 ]
 
 

@@ -80,7 +80,7 @@ WRONG = [
     ({"rows": 2}, "rows is 2"),
     ({"rows": 6.0}, "rows is 6.0"),
     ({"columns": 1}, "columns is 1"),
-    ({"tether_rows": 6}, "leave at least one row free"),
+    ({"tether_rows": 6}, "leave at least one of the 6 rows free"),
     ({"tether_kind": "nailed"}, "tether_kind"),
     ({"gravity": (0.0, 0.0, math.inf)}, "gravity"),
     ({"steel_stiffness": -1.0}, "steel_stiffness"),
