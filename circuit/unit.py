@@ -307,7 +307,7 @@ def _variables(network: Network) -> list[Variable]:
             "Voltage at the terminals of a source, behind its series resistance",
         ),
         Variable("supply_current", out, (), "A", (), "Current out of all sources together"),
-        Variable("supply_power", out, (), "W", (), "Power out of all sources together"),
+        Variable("supply_power", out, (), "W", (), "Power of all sources, with the loss in their series resistance"),
     ]
 
 

@@ -49,7 +49,7 @@ class ProgrammeOutput(Strict):
     dim: str | None = Field(default=None, description="Dimension of a list of values, for example string.")
     constant: AnyQuantity | list[AnyQuantity] | None = None
     points: list[tuple[Time, AnyQuantity | list[AnyQuantity]]] | None = Field(
-        default=None, description="[time, value] pairs."
+        default=None, description="[time, value] pairs; before the first its value holds, after the last its own."
     )
     interpolation: Literal["hold", "linear"] = "hold"
 

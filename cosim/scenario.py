@@ -214,11 +214,6 @@ class Scenario(Strict):
                 )
             if isinstance(component, ProgrammeComponent):
                 for output, given in component.outputs.items():
-                    if given.points and nanoseconds(given.points[0][0]) > start:
-                        raise ValueError(
-                            f"components.{name}.outputs.{output}: its first point is at {given.points[0][0]}, after "
-                            f"the start ({self.time.start}): say what it is from the start on"
-                        )
                     late = [t for t, _ in given.points or [] if (nanoseconds(t) - start) % macro]
                     if late:
                         raise ValueError(

@@ -106,12 +106,15 @@ def coil_series(run: xr.Dataset, name: str, layout: Layout) -> xr.DataArray | No
 
 
 def _levels(values: xr.DataArray | None, layout: Layout) -> tuple[float, float, float]:
-    """Mean before the drive, at its end, and at the end of the run (NaN where the drive lasts to the end)."""
+    """Mean before the drive, at its end, and at the end of the run.
+
+    NaN before it where the run begins under power, and after it where the drive lasts to the end.
+    """
     if values is None:
         return NAN, NAN, NAN
     begin, end = float(values["time"][0]), float(values["time"][-1])
     on, off = (begin if layout.on is None else layout.on), (end if layout.off is None else layout.off)
-    cold = plateau(values, on - min(BEFORE, SHARE * (on - begin)), on)
+    cold = plateau(values, on - min(BEFORE, SHARE * (on - begin)), on) if layout.on is None or on > begin else NAN
     driven = plateau(values, off - min(BEFORE, SHARE * (off - on)), off)
     return cold, driven, NAN if layout.off is None else plateau(values, end - min(LAST, SHARE * (end - off)), end)
 

@@ -40,7 +40,7 @@ def fabric_of(results: xr.Dataset, source: object, frames: int = FRAMES) -> Fabr
     Args:
         results: As `cosim.run.run` returns and results.nc holds; of an ensemble one start is shown, with a note.
         source: Named in errors.
-        frames: At most this many (and one) frames are kept, evenly spaced; the last output is always among them.
+        frames: At most this many frames are kept, evenly spaced; the last output is always among them.
 
     Raises:
         InputError: There is no fabric, no frame, or a pose is not finite.
@@ -96,7 +96,7 @@ def _fabrics(results: xr.Dataset) -> list[str]:
 
 def _kept(count: int, frames: int) -> Integers:
     """Numbers of the outputs that become frames: every n-th, as uneven steps would shake, and the last."""
-    kept = np.arange(0, count, math.ceil(count / frames))
+    kept = np.arange(0, count, max(math.ceil((count - 1) / max(frames - 1, 1)), 1))
     return kept if kept[-1] == count - 1 else np.append(kept, count - 1)
 
 

@@ -141,11 +141,11 @@ def _left(one: Compared) -> list[_Left]:
 
 
 def comparable(one: Compared) -> dict[str, Beside]:
-    """Channels that change by far more than their noise: of others the noise is the variance."""
+    """Channels whose noise is less of their variance than what a recording that is met may leave."""
     return {
         name: b
         for name, b in one.channels.items()
-        if b.is_comparable and float(np.var(b.measured)) > (TIMES * b.floor) ** 2
+        if b.is_comparable and b.floor**2 < (1.0 - MET) * float(np.var(b.measured))
     }
 
 

@@ -75,6 +75,14 @@ def test_delays_and_levels_are_those_of_a_known_curve():
     assert math.isnan(found["peak_current_A"])
 
 
+def test_what_is_under_power_from_the_begin_has_no_cold_state():
+    time = np.round(np.arange(0.0, 4.001, 0.01), 9)
+    dataset = xr.Dataset({"actuator.stiffness": series(time, 350.0 + 0.0 * time, "N/m")})
+    found = values(measures(dataset, Layout("actuator", None, None, 0.0, 3.0)))
+    assert math.isnan(found["cold_stiffness_N_per_m"])
+    assert math.isnan(found["delay_on_stiffness_s"])
+
+
 def test_energy_counts_the_power_at_the_end_of_each_step_to_the_last():
     time = np.array([0.0, 1.0, 2.0, 4.0])
     dataset = xr.Dataset({"circuit.power": series(time, [0.0, 0.0, 2.0, 3.0], "W")})

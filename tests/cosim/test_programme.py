@@ -6,7 +6,6 @@ import pytest
 from cosim.assemble import assemble
 from cosim.programme import Course, ProgrammeUnit
 from cosim.scenario import load_scenario, parse_scenario
-from cosim.unit.errors import InputError
 
 from .short_runs import shortened
 
@@ -18,9 +17,9 @@ components:
   given:
     kind: programme
     outputs:
-      ramp: {unit: V, interpolation: linear, points: [[-1 s, 0 V], [0 s, 0 V], [1 s, 2 V], [3 s, 1000 mV]]}
-      steps: {unit: K, points: [[-1 s, 20 degC], [1.5 s, 30 degC]]}
-      pair: {unit: V, dim: string, interpolation: linear, points: [[-1 s, [0 V, 4 V]], [0 s, [0 V, 4 V]], [2 s, [2 V, 0 V]]]}
+      ramp: {unit: V, interpolation: linear, points: [[0 s, 0 V], [1 s, 2 V], [3 s, 1000 mV]]}
+      steps: {unit: K, points: [[0 s, 20 degC], [1.5 s, 30 degC]]}
+      pair: {unit: V, dim: string, interpolation: linear, points: [[0 s, [0 V, 4 V]], [2 s, [2 V, 0 V]]]}
       fixed: {unit: mm, constant: 1 cm}
 connections: []
 """
@@ -44,20 +43,7 @@ def over(unit, name, begin, end, size):
     return values
 
 
-def test_what_a_programme_is_before_its_first_point_has_to_be_said(tmp_path):
-    late = TEXT.replace("points: [[-1 s, 20 degC]", "points: [[-0.5 s, 20 degC]")
-    with pytest.raises(InputError, match="given.outputs.steps: its first point is at -0.5 s, after the start") as found:
-        parse_scenario(late, tmp_path / "late.yaml")
-    assert "say what it is from the start on" in str(found.value)
-
-
-def test_a_course_holds_its_first_value_before_it_begins():
-    course = Course((0, SECOND), np.array([2.0, 4.0]), "V", None, True)
-    assert course.at(-SECOND) == 2.0
-    assert course.at(2 * SECOND) == 4.0
-
-
-def test_after_the_last_point_its_value_holds(given):
+def test_before_the_first_point_its_value_holds_and_after_the_last_one_too(given):
     assert float(given.get("ramp")) == 0.0
     assert float(given.get("steps")) == 293.15
     assert over(given, "ramp", -SECOND, 0, SECOND // 2) == [0.0, 0.0]

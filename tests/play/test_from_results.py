@@ -57,6 +57,13 @@ def test_frames_are_evenly_spaced_and_the_last_is_kept(results):
     assert "8 of 21 output times are shown" in found.notes
 
 
+@pytest.mark.parametrize("frames", [2, 3, 4, 5, 7, 10, 20, 21, 100])
+def test_no_more_frames_are_shown_than_were_asked_for(results, frames):
+    times = fabric_of(results, "run", frames=frames).times
+    assert min(frames, 21) / 2.0 < len(times) <= frames
+    assert times[-1] == pytest.approx(0.2)
+
+
 def test_results_without_a_fabric_say_what_is_missing():
     plain = xr.Dataset({"coil.temperature": ("time", [300.0])}, {"time": [0.0]})
     with pytest.raises(InputError, match=r"hold no fabric(.|\n)*remedy: play the run of a scenario"):
