@@ -37,6 +37,40 @@ _MORE: dict[str, tuple[str, ...]] = {
 }
 #: Units in which a table may be written, by the SI unit of its quantity.
 UNITS = {base: (*scale.UNITS.get(base, ()), *more) for base, more in _MORE.items()}
+#: Units that are asked beside these of one recording among others, whose factor stands out by itself: of all recordings
+#: together a factor is a number of the rig as well, and more units would be met by chance.
+OF_ONE: dict[str, tuple[str, ...]] = {
+    "A": ("kA", "nA"),
+    "V": ("kV", "uV"),
+    "W": ("MW", "uW", "kcal/h"),
+    "J": ("mJ", "kcal"),
+    "kg": ("mg", "oz"),
+    "kg/s": ("g/s", "g/min", "mg/s", "mg/min"),
+    "m": ("nm", "km", "yard"),
+    "m/s": ("cm/s", "um/s", "m/min", "mm/min"),
+    "m/s^2": ("m/s^2", "mm/s^2", "g_0"),
+    "m^2": ("m^2", "cm^2", "mm^2"),
+    "m^3": ("cm^3", "mm^3", "ul"),
+    "m^3/s": ("ml/s", "ml/min", "ul/min", "ul/s", "l/h"),
+    "rad": ("mrad", "arcmin"),
+    "rad/s": ("mrad/s", "turn/s", "deg/min"),
+    "N": ("uN", "gf"),
+    "N*m": ("mN*m", "uN*m"),
+    "Pa": ("hPa", "mPa", "cmH2O"),
+    "ohm": ("Mohm",),
+    "1/m": ("1/inch",),
+    "s": ("s", "ms", "us", "min", "h"),
+    "1/s": ("1/s", "1/min", "1/h"),
+    "Hz": ("Hz", "kHz", "1/min"),
+    "F": ("F", "mF", "uF", "nF", "pF"),
+    "H": ("H", "mH", "uH"),
+    "C": ("C", "mC", "uC", "nC"),
+    "T": ("T", "mT"),
+    "mol/m^3": ("mol/m^3", "mol/l", "umol/l"),
+    "kg/m^3": ("kg/m^3", "g/cm^3", "mg/l"),
+    "W/m^2": ("W/m^2", "kW/m^2", "mW/cm^2"),
+    "1": ("1", "percent", "ppm"),
+}
 #: Share of a channel's variance that a straight line in its simulation explains, in every recording that is compared.
 FOLLOWED = 0.95
 #: How far apart the others may be, relative to their median, and how far a factor may be from one of units: where a
@@ -58,7 +92,8 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         if ratio is None:
             continue
         stated = stated_unit(one, name)
-        near = units_near(ratio, stated, one.channels[name].channel.unit)
+        base = one.channels[name].channel.unit
+        near = units_near(ratio, stated, base, more=OF_ONE.get(base, ()))
         if not near:
             continue
         text = (
@@ -86,7 +121,7 @@ def stated_unit(one: Compared, name: str) -> str:
     return scale.units_stated(one).get(name, one.channels[name].channel.unit)
 
 
-def units_near(ratio: float, stated: str, base: str, near: float = NEAR) -> list[str]:
+def units_near(ratio: float, stated: str, base: str, near: float = NEAR, more: Sequence[str] = ()) -> list[str]:
     """Units of a quantity in which numbers are about so many times those in the stated one.
 
     Args:
@@ -94,9 +129,10 @@ def units_near(ratio: float, stated: str, base: str, near: float = NEAR) -> list
         stated: Unit that a recording states.
         base: SI unit of the quantity.
         near: How far the logarithms may be apart.
+        more: Units beside those of `UNITS`.
     """
     own = conversion(stated, base)[0]
-    factors = {u: own / conversion(u, base)[0] for u in UNITS.get(base, ()) if u != stated}
+    factors = {u: own / conversion(u, base)[0] for u in (*UNITS.get(base, ()), *more) if u != stated}
     return [u for u, f in factors.items() if abs(np.log(f)) > LEAST and abs(np.log(ratio / f)) < near]
 
 
