@@ -19,6 +19,7 @@ from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.reservations import (
     BESIDE,
     ONE_COURSE,
+    PARTS,
     cancelled,
     dragged,
     elsewhere,
@@ -78,6 +79,7 @@ def findings(
                 _widened(model, outcome, accepted, t, f, list(zip(ordered, found))) for t, f in zip(ordered, found)
             ]
             found = [one_course(f, found) for f in found]
+            found = [in_parts(f, found) for f in found]
     return tuple(found)
 
 
@@ -103,6 +105,23 @@ def one_course(finding: Finding, every: Sequence[Finding]) -> Finding:
     name = next(law.name for law in OF_INPUTS if law.identifier == finding.effect)
     told = finding.statement.replace(name, INPUT.name, 1)
     return replace(finding, statement=told, doubts=(*finding.doubts, ONE_COURSE))
+
+
+def in_parts(finding: Finding, every: Sequence[Finding]) -> Finding:
+    """The finding of a law without a name, where others are in the same FMU at other places.
+
+    The readings confirm the sum of such laws. Of an FMU that hides its states laws are tried where it can be reached,
+    and one inside may take several of them.
+    """
+
+    def is_part(one: Finding) -> bool:
+        is_in_an_fmu = "." in one.place and one.unit not in MEASURED
+        return is_in_an_fmu and one.standing is Standing.UNNAMED and not is_one_of(one.effect, OF_INPUTS)
+
+    others = {f.place for f in every if is_part(f) and f.place.split(".")[0] == finding.place.split(".")[0]}
+    if not is_part(finding) or others <= {finding.place}:
+        return finding
+    return replace(finding, doubts=(*finding.doubts, PARTS))
 
 
 def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:
