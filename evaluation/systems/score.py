@@ -91,6 +91,16 @@ def _rows(scores: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, list[bool
         ("within the class", "95 %", [s["class"][0] for s in visible]),
         ("both of two within their classes", "70 %", [all(s["class"]) for s in both]),
         ("false alarms on nulls", "at most 5 %", [s["physics"] for s in done if s["kind"] == "null"]),
+        (
+            "nulls that are recognised",
+            "no aim",
+            [s["verdict"] in ("recalibrated", "consistent") for s in done if s["kind"] == "null"],
+        ),
+        (
+            "a fault where there is none",
+            "at most 2 %",
+            [s["verdict"] in FAULTY for s in done if s["kind"] != "fault"],
+        ),
         ("a fault of a sensor or an input is identified", "no aim", [_is_identified(s) for s in faulty]),
         ("physics named where there was a fault alone", "at most 2 %", [bool(s["named"]) for s in faulty]),
         ("wrong name on laws outside the library", "at most 5 %", [s["misnamed"] for s in outside]),
@@ -128,6 +138,8 @@ def _short(s: Mapping[str, Any]) -> str:
         wrong.append("false alarm")
     if s["misnamed"]:
         wrong.append("wrong name")
+    if kind != "fault" and s["verdict"] in FAULTY:
+        wrong.append("a fault where there is none")
     if kind == "single" and visible and not s["name"][0]:
         wrong.append("within the class" if s["class"][0] else "not within the class")
     if kind == "two" and not all(s["class"]):
