@@ -25,7 +25,7 @@ from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
 from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
-from diagnosis.judge.adequacy import adequacy, moved_day, with_day
+from diagnosis.judge.adequacy import adequacy, moved_day, with_day, with_solving
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
 from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts, without_times_that_fit
 from diagnosis.judge.findings import findings
@@ -212,6 +212,7 @@ def diagnose(
         tried = replace(tried, untried=(*tried.untried, _TIME_IS_OVER))
     day = () if judge is None else moved_day(accepted.after, judge.parameters, [r.title for r in held_out])
     right = with_day(adequacy(accepted, readings, day, bool(model.parameters), model.has_scatter), fits)
+    right = with_solving(right, lambda: model.solving_error(accepted.explanation.fit.point))
     estimated = with_instants(model.parameters, titles)
     estimated |= with_instants(() if judge is None else judge.parameters, [r.title for r in held_out])
     right = with_input_rows(right, scenario, both, estimated)

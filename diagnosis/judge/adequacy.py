@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
+from cosim.unit.protocol import Array
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.agreement import Agreement
 from diagnosis.judge.diagnosis import Adequacy, ChannelFit, Left, Met, Moved
@@ -16,6 +19,8 @@ from diagnosis.search.shares import titled
 
 #: Prior deviations from which a number of the day is reported.
 TOLD = 0.5
+#: Deviations of a reading's noise from which an error of the macro-step is spoken of, and its share of what is left.
+SEEN, HALF = 1.0, 0.5
 
 
 def adequacy(
@@ -107,6 +112,25 @@ def with_day(found: Adequacy, fits: Sequence[ChannelFit]) -> Adequacy:
     written = {s: sum(f.samples * f.chi_square[s] for f in rows) / count for s in ("before", "after")}
     fall = {stage: value - found.chi_square[stage] for stage, value in written.items()}
     return replace(found, by_day=max(fall["before"] - fall["after"], 0.0))
+
+
+def with_solving(found: Adequacy, solving_error: Callable[[], Array | None]) -> Adequacy:
+    """The same with what an error of the macro-step may do, where it may be half of what is left or more.
+
+    Recalibrated numbers take a part of that error, so that it is not subtracted.
+
+    Args:
+        found: How right the accepted model is.
+        solving_error: Tells about how far residuals are from those with infinitely short macro-steps; None where it is
+            not known. It is asked where readings reject the model.
+    """
+    error = solving_error() if found.is_open else None
+    if error is None or not len(error):
+        return found
+    farthest, left = float(np.max(np.abs(error))), max(found.chi_square["after"] - 1.0, 0.0)
+    if farthest < SEEN or float(np.mean(error**2)) < HALF * left:
+        return found
+    return replace(found, by_solving=farthest)
 
 
 def met(predicted: Predicted, readings: Readings) -> tuple[Met, ...]:

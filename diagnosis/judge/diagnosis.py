@@ -449,6 +449,8 @@ class Adequacy:
             stated noise says: behind a filter noise does so, and a missing effect smaller than that noise too.
         louder: Channel to how many times its stated noise it scatters from reading to reading, where the readings
             reject the model by that noise and do not by the scatter.
+        by_solving: How far an error of the macro-step may move a training reading at most, in deviations of its noise,
+            where readings reject the model and that error may be half of what is left; else 0.
     """
 
     basis: str
@@ -474,6 +476,7 @@ class Adequacy:
     by_day: float = 0.0
     alike: dict[str, float] = field(default_factory=dict)
     louder: dict[str, float] = field(default_factory=dict)
+    by_solving: float = 0.0
 
     @property
     def is_open(self) -> bool:

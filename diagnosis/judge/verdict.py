@@ -195,6 +195,11 @@ def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:
             f"the {which} reject the model by {noise_of(adequacy)}, but what is left scatters from one reading to the "
             "next, as a larger noise or single wild readings do"
         ]
+    if adequacy.by_solving:
+        unexplained = (
+            f"{unexplained}; but `time.macro_step` is so long that an error of solving may move a reading by "
+            f"{adequacy.by_solving:.2g} times its noise, which may be what is left: shorten it first"
+        )
     return [f"the {which} reject the model{unexplained}"]
 
 
