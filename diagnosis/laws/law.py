@@ -11,7 +11,8 @@ class Role(Enum):
     """Quantity that a law is added to, with the symbols that its formula may use.
 
     `rate` stands for the unit and the size of what the law is added to, `reading` for the time between two readings: no
-    state of a law needs to follow faster, `o_peak` for how far another quantity o goes from its typical value.
+    state of a law needs to follow faster, `duration` for the length of the longest recording, `o_peak` for how far
+    another quantity o goes from its typical value.
     """
 
     #: Derivative of a velocity v that is the derivative of a position x.

@@ -119,11 +119,12 @@ def _worn() -> Law:
         "parameter that changes with what has passed since the begin",
         Role.PARAMETER,
         "max(a * passed, -0.95)",
-        (Number("a", "1/(o_peak*reading)", "change for each unit that has passed", (-1e-3, 1e-3), 1.0, None),),
+        (Number("a", "1/(o_peak*duration)", "change for each unit that has passed", (-0.1, 0.1), 100.0, None),),
         "J. F. Archard, J. Applied Physics 24 (1953) 981-988 (wear in proportion to the way)",
-        states=(OwnState("passed", "abs(o)", "0 * o * time", "o*reading"),),
+        states=(OwnState("passed", "abs(o)", "0 * o * time", "o*duration"),),
         is_named=False,
         is_share=True,
+        series_of=("o",),
     )
 
 

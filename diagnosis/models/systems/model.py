@@ -430,7 +430,8 @@ def laws_at(
         law for law in sensor_laws_of(reach_of(recordings), step, macro) if law.place.term.identifier not in without
     ]
     untried = tuple(text for own in places for text in own.untried)
-    return SystemLaws(tuple(fits(places, laws, step, macro)), tuple(sensors), tuple(usual), untried)
+    longest = max((float(np.ptp(c.times)) for r in recordings for c in r.channels.values()), default=0.0)
+    return SystemLaws(tuple(fits(places, laws, step, macro, longest)), tuple(sensors), tuple(usual), untried)
 
 
 def sample_step(recordings: Sequence[Recording]) -> float:

@@ -7,7 +7,7 @@ import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -246,7 +246,23 @@ def _are_equal(rates: Array, values: Array, parts: Array) -> bool:
 # fitting laws
 
 
-def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macro_step: float = 0.0) -> Iterator[Fit]:
+class Times(NamedTuple):
+    """Times that sizes of numbers are made of [s].
+
+    Args:
+        reading: Between two readings, typically.
+        macro_step: Of the co-simulation.
+        duration: Of the longest recording.
+    """
+
+    reading: float
+    macro_step: float
+    duration: float
+
+
+def fits(
+    places: Sequence[Places], laws: Sequence[Law], sample_step: float, macro_step: float = 0.0, duration: float = 0.0
+) -> Iterator[Fit]:
     """Every law at every place where its quantities fit.
 
     Args:
@@ -255,8 +271,9 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
         sample_step: Typical time between readings [s].
         macro_step: Of the co-simulation [s]: values that pass between FMUs are early or late by up to so much, and a
             lag that is no longer is none of the rig.
+        duration: Of the longest recording [s]; by default a thousand readings.
     """
-    steps = sample_step, macro_step
+    steps = Times(sample_step, macro_step, duration or 1000.0 * sample_step)
     seen: dict[tuple[str, str, str], Fit] = {}
     for own in places:
         for law in laws:
@@ -272,9 +289,7 @@ def fits(places: Sequence[Places], laws: Sequence[Law], sample_step: float, macr
                     yield other
 
 
-def _fit(
-    own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: tuple[float, float]
-) -> Fit | None:
+def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str, Quantity], steps: Times) -> Fit | None:
     numbers = {n.name for n in law.numbers} | set(law.constants) | {s.name for s in law.states}
     numbers |= {d.name for d in law.delays}
     formulas = (law.formula, *(s.rate for s in law.states), *((law.reaction,) if law.reaction else ()))
@@ -327,7 +342,7 @@ def _fit(
     changed = own.parameters.get(target.name) if law.role is Role.PARAMETER else None
     domain = domain_of(target.unit if changed is None else own.states[changed.moves[0]].unit, own)
     is_held = law.role in HELD and bool(law.states) and not own.states
-    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps[1], is_held) for n in law.numbers)
+    parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps.macro_step, is_held) for n in law.numbers)
     label = f"{own.component}.{target.name}"
     what = f"{to} {'*= 1 +' if law.is_share else '+='} {placed.formula}" + "".join(
         f", der({s.name}) = {s.rate}" for s in placed.states
@@ -376,12 +391,13 @@ def _references(
 
     The square of an absolute temperature that moves by a hundredth of itself is a large constant and a slope, which
     nothing in the model takes back: a simulation with it runs away before its curvature is seen. An exchange that
-    changes with a state is what the model has of it where the state begins, unless that is near 0. So is a parameter.
+    changes with a state is what the model has of it where the state begins, unless that is near 0. So is a parameter,
+    but for one that changes with what has passed: a flow counts from 0, and an absolute temperature from a typical one.
     """
     found = {}
     for symbol in law.series_of:
         q, name = symbols[symbol], f"{symbol}_0"
-        begins = law.role is Role.PARAMETER or (law.role in MODULATED and q.name in states)
+        begins = (law.role is Role.PARAMETER and not law.states) or (law.role in MODULATED and q.name in states)
         far = BEGUN if begins else FAR
         if abs(q.middle) > far * q.size and name not in taken:
             found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
@@ -412,21 +428,20 @@ def _used(placed: Placed) -> tuple[tuple[str, str], ...]:
 
 
 #: Symbols of products that every place has.
-_SCALES = {"rate", "reading", "T_abs", "o_peak"}
+_SCALES = {"rate", "reading", "duration", "T_abs", "o_peak"}
 
 
 class _Scale:
     """Units and characteristic sizes of products of symbols."""
 
-    def __init__(
-        self, symbols: Mapping[str, Quantity], target: Quantity, is_rate: bool, steps: tuple[float, float]
-    ) -> None:
+    def __init__(self, symbols: Mapping[str, Quantity], target: Quantity, is_rate: bool, steps: Times) -> None:
         seconds = registry().Quantity(1.0, "s")
         units = {s: registry().Quantity(1.0, parse_unit(q.unit)) for s, q in symbols.items()}
         sizes = {s: q.size for s, q in symbols.items()}
         units["rate"] = registry().Quantity(1.0, parse_unit(target.unit)) / seconds
-        sizes["rate"] = target.rate if is_rate else target.size / steps[0]
-        units["reading"], sizes["reading"] = seconds, max(steps)
+        sizes["rate"] = target.rate if is_rate else target.size / steps.reading
+        units["reading"], sizes["reading"] = seconds, max(steps.reading, steps.macro_step)
+        units["duration"], sizes["duration"] = seconds, steps.duration
         if "T" in symbols:
             units["T_abs"], sizes["T_abs"] = registry().Quantity(1.0, "K"), 300.0
         if "o" in symbols:
