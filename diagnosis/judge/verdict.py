@@ -121,10 +121,7 @@ def why_open(
         )
     if suggested := [f for f in found if not f.is_accepted]:
         reasons.append(_COARSE if all(f.is_coarse for f in suggested) else _UNCONFIRMED)
-    unexplained = ", and no law that was tried explains what is left"
-    if not searched.has_physics or any(not f.is_accepted for f in found):  # a suggested law may explain it
-        unexplained = ""
-    reasons += _rejections(adequacy, unexplained)
+    reasons += _rejections(adequacy, _unexplained(outcome, found, searched))
     is_open, left = adequacy.is_open, outcome.base_structure
     noise = math.sqrt(times_white(adequacy.alike, (left.channels,))) * times_louder(adequacy.louder, (left.channels,))
     if not is_open and abs(left.z) / noise > EVIDENT * left.limit:
@@ -183,6 +180,15 @@ def _open_ones(found: Sequence[Finding]) -> list[str]:
     if any(f.is_of_either for f in accepted):
         reasons.append("what improves the prediction may be of the rig as well as of a sensor or an input")
     return reasons
+
+
+def _unexplained(outcome: Outcome, found: Sequence[Finding], searched: Searched) -> str:
+    """What is known of the laws that were tried where readings reject the model; empty where one is suggested."""
+    if not searched.has_physics or any(not f.is_accepted for f in found):
+        return ""
+    if outcome.first is not None and outcome.first.best.terms:  # found by the noise of the sensors alone
+        return ", and once its own error is counted no law that was tried explains more of what is left than chance may"
+    return ", and no law that was tried explains what is left"
 
 
 def _rejections(adequacy: Adequacy, unexplained: str) -> list[str]:

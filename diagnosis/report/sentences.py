@@ -148,7 +148,7 @@ def sureness(diagnosis: Diagnosis) -> str:
         return "Nothing was fitted and nothing was searched."
     margin = f"In training an effect had to lower -2 log posterior by more than {number(diagnosis.margin)}"
     if not diagnosis.findings:
-        return f"{margin}, which chance may give; no effect did that and stayed needed beside the others."
+        return f"{margin}, which chance may give; no effect that did is accepted or suggested."
     gains = listed([number(f.gain) for f in diagnosis.findings], 4)
     basis = diagnosis.adequacy.basis if diagnosis.adequacy else "readings that it was not fitted to"
     by: dict[str, list[str]] = {}  # readings that judge to gains on them

@@ -44,6 +44,7 @@ START = Doubt(
 QUIET: Any = SimpleNamespace(
     base=SimpleNamespace(point=SimpleNamespace(base=np.zeros(1)), widths=np.ones(1)),
     base_structure=SimpleNamespace(z=0.0, limit=4.0, channels=""),
+    first=None,
 )
 SEARCHED: Any = SimpleNamespace(has_physics=True, untried=())
 
@@ -164,6 +165,7 @@ def test_a_recording_that_stands_out_comes_first_where_something_is_open_and_ope
     searched: Any = SimpleNamespace(has_physics=True, untried=())
     outcome: Any = SimpleNamespace(
         base_structure=SimpleNamespace(z=0.0, limit=4.0, channels=""),
+        first=None,
         base=SimpleNamespace(point=Point(np.zeros(0)), widths=np.ones(0)),
     )
     told = "explains 99 % of the others' and 0 % of this one's"

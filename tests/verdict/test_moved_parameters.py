@@ -28,7 +28,7 @@ QUIET_RIGHT = replace(ADEQUACY, is_rejected=False, is_nominal_rejected=False, da
 
 def outcome(*z: float) -> Any:
     base = SimpleNamespace(point=Point(np.array(z)), widths=np.ones(len(z)))
-    return SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base)
+    return SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base, first=None)
 
 
 def test_parameters_that_are_counted_are_named_beside_the_count() -> None:

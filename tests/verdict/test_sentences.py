@@ -186,10 +186,13 @@ def test_laws_that_no_channel_can_show_were_not_tried_and_faults_were(tmp_path: 
 def test_a_law_that_is_suggested_may_explain_what_is_left() -> None:
     """The readings reject the model without it; whether a law that was tried explains them is then open."""
     base = SimpleNamespace(point=Point(np.zeros(1)), widths=np.ones(1))
-    outcome = SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base)
+    outcome = SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base, first=None)
     tried, rejected = Searched((Domain("thermal", 30, 12, 37),)), replace(ADEQUACY, is_recalibration_worse=False)
     without = why_open(outcome, (), rejected, tried)  # type: ignore[arg-type]
     assert "the readings reject the model, and no law that was tried explains what is left" in without
+    outcome.first = SimpleNamespace(best=SimpleNamespace(terms=(CONTACT,)))
+    found_before = why_open(outcome, (), rejected, tried)  # type: ignore[arg-type]
+    assert "no law that was tried explains more of what is left than chance may" in found_before[0]
     beside = why_open(outcome, (replace(CONTACT, is_accepted=False),), rejected, tried)  # type: ignore[arg-type]
     assert "the readings reject the model" in beside
 
