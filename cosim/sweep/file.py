@@ -207,5 +207,5 @@ def base_scenario(sweep: SweepFile, path: Path) -> tuple[Any, Path]:
     try:
         found = beside if os.path.isfile(beside) else find_scenario(sweep.scenario)
     except InputError as error:
-        raise InputError(path, "scenario", error.problem, error.remedy) from error
+        raise InputError(path, "scenario", f"`{sweep.scenario}`: {error.problem}", error.remedy) from error
     return parse_yaml(read_text(found), found), found

@@ -241,7 +241,7 @@ WRONG = {
     "a window that ends before it begins": ("over: max,", "over: max, from: 2 s, to: 1 s, ", "is later than"),
     "a time after the end": ("over: max,", "over: at, at: 1 h, ", "lies outside the run"),
     "wrong unit": ("0.8 V, 1.0 V", "0.8 m, 1.0 V", "with voltage = 0.8 m, volume = 7 mm.3 the scenario is wrong"),
-    "no scenario": ("coil.yaml", "cable.yaml", "there is no such scenario"),
+    "no scenario": ("coil.yaml", "cable.yaml", "`cable.yaml`: there is no such scenario"),
     "at without time": ("over: max,", "over: at,", "`at` gives the time"),
     "a name for two things": ("  hottest:", "  voltage:", "stands for two things"),
     "taken name": ("  hottest:", "  failure:", "is taken"),
