@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from typing import Any
 
@@ -111,7 +113,7 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
     leaning = numbers.pop("tilt", 0.0), numbers.pop("roll", 0.0)
     numbers["gravity"] = tilted(numbers.get("gravity", FabricDesign.gravity), *leaning)
     numbers["start_number"] = round(numbers.get("start_number", 0))
-    try:
+    with _refused_by_key(name):
         design = FabricDesign(
             rows=component.rows,
             columns=component.columns,
@@ -120,10 +122,6 @@ def build_fabric(name: str, component: FabricComponent, parameters: Resolved) ->
             added=added,
             **numbers,
         )
-    except OutOfRange as error:
-        key = _KEYS.get(error.name, f"parameters.{error.name}")
-        unit = FABRIC_UNITS.get(error.name, "1").removeprefix("1")
-        raise InputError("scenario", f"{name}.{key}", f"it is {error.value:g} {unit}".rstrip(), error.remedy) from error
     solver = SolverSettings(
         micro_step=component.solver.micro_step.to("s"),
         iterations=component.solver.iterations,
@@ -167,7 +165,8 @@ def _added(
 ) -> AddedEffects:
     """Effects that are added, which are taken out of the numbers."""
     links = tuple((number, _effects_of_a_link(name, number, own)) for number, own in sorted(of_links.items()))
-    added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
+    with _refused_by_key(name):
+        added = AddedEffects(links=links, **{key: numbers.pop(key) for key in sorted(_ADDED & set(numbers))})
     has_friction = added.slide_friction or any(own.slide_friction for _, own in links)
     if has_friction and component.solver.springs == "motor":
         raise ValueError("slide_friction needs solver.springs `force`: springs as motors use up the joint's motor")
@@ -175,11 +174,24 @@ def _added(
 
 
 def _effects_of_a_link(name: str, number: int, own: dict[str, float]) -> LinkEffects:
-    try:
+    with _refused_by_key(name, f"[{number + 1}]"):
         return LinkEffects(**own)
+
+
+@contextmanager
+def _refused_by_key(name: str, index: str = "") -> Iterator[None]:
+    """Say of a number that cannot be which key of the component it stands under, with its unit.
+
+    Args:
+        name: Of the component.
+        index: What follows the name of the number in its key.
+    """
+    try:
+        yield
     except OutOfRange as error:
-        key = f"{name}.parameters.{error.name}[{number + 1}]"
-        raise InputError("scenario", key, f"it is {error.value:g}", error.remedy) from error
+        key = _KEYS.get(error.name, f"parameters.{error.name}{index}")
+        unit = (LINK_UNITS | FABRIC_UNITS).get(error.name, "1").removeprefix("1")
+        raise InputError("scenario", f"{name}.{key}", f"it is {error.value:g} {unit}".rstrip(), error.remedy) from error
 
 
 def _in_unit(key: str, value: PhysicalValue, unit: str) -> float:

@@ -97,7 +97,7 @@ class AddedEffects:
                 continue
             value = getattr(self, field.name)
             if not (math.isfinite(value) and value >= 0):
-                raise ValueError(f"{field.name} is {value}: give zero or a positive number")
+                raise OutOfRange(field.name, value, "give zero or a positive number")
 
     def steel_kept(self, links: int) -> Array:
         """Share of the stiffness of the steel springs that every link has, shape (link,).

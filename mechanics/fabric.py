@@ -92,7 +92,7 @@ class FabricDesign:
             _require(name, getattr(self, name), getattr(self, name) >= 0, "give zero or a positive number")
         _require("restitution", self.restitution, 0 <= self.restitution <= 1, "give a number from 0 to 1")
         is_possible = self.pair_friction > 0 or self.added.hinge_friction == 0
-        _require("added.hinge_friction", self.added.hinge_friction, is_possible, "it needs a friction above 0")
+        _require("hinge_friction", self.added.hinge_friction, is_possible, "it needs a friction above 0")
         _require("length_offset", self.length_offset, self.length_hot + self.length_offset > 0, "make it larger")
         if len(self.gravity) != 3 or not all(map(math.isfinite, self.gravity)):
             raise ValueError(f"gravity is {self.gravity}: give three finite accelerations (x, y, z) in m/s^2")

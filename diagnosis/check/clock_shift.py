@@ -300,7 +300,7 @@ def clock_shift(compared: Compared) -> Shift | None:
     if not leads or not len(compared.switches()):
         return None
     span = compared.end - compared.begin
-    least = min(float(np.median(np.diff(b.channel.times))) for b in leads)
+    least = _reading_step(leads)
     longest = LONGEST * span
     if not longest > 4.0 * least:
         return None
@@ -311,6 +311,11 @@ def clock_shift(compared: Compared) -> Shift | None:
     found = [_along(compared, leads, shifts, lags, unit) for unit in scale]
     known = [f for f in found if f is not None]
     return max(known, key=lambda f: f.gained) if known else None
+
+
+def _reading_step(leads: list[Beside]) -> float:
+    """Time between two readings of the channel that is read most often [s]."""
+    return min(float(np.median(np.diff(b.channel.times))) for b in leads)
 
 
 def lag_grid(least: float, longest: float) -> Array:
@@ -417,8 +422,7 @@ def input_gain(compared: Compared, found: Shift) -> float:
     if not found.is_rate and sum(np.ptp(c.values) > 0.0 for c in compared.courses) < 2:
         return -np.inf
     leads = asked(compared)
-    least = min(float(np.median(np.diff(b.channel.times))) for b in leads)
-    lags = lag_grid(least, LONGEST * (compared.end - compared.begin))
+    lags = lag_grid(_reading_step(leads), LONGEST * (compared.end - compared.begin))
     stays = np.zeros((1, 2))
     return gain_of_late_input(compared, leads, lambda b: float(timed_channel(b, stays, lags).deviance.min()))
 

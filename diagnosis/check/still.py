@@ -35,6 +35,5 @@ def _is_still(beside: Beside, tests: int) -> bool:
     noise = max(beside.channel.deviation, measured_noise(beside), beside.channel.quantum / np.sqrt(12.0))
     if not noise > 0.0 or len(values) < 3:
         return False
-    with np.errstate(over="ignore"):  # a perfect sensor's noise is rounding, of no size beside what it measures
-        squares = float(np.sum(((values - values.mean()) / noise) ** 2))
+    squares = float(np.sum(((values - values.mean()) / noise) ** 2))
     return bool(squares < chi_square_beyond(LEVEL / tests, len(values) - 1))

@@ -140,6 +140,8 @@ WRONG = [
     (on_fabric(width="33 mm"), "components.fabric", "cannot be woven"),
     (on_fabric(tolerance="-1 mm"), "components.fabric.parameters.tolerance", "it is -0.001 m"),
     (on_fabric(friction="-0.1"), "components.fabric.parameters.friction", "it is -0.1"),
+    (on_fabric(payload="-4 g"), "components.fabric.parameters.payload", "it is -0.004 kg"),
+    (on_fabric(friction="0", hinge_friction="1 mm"), "components.fabric.parameters.hinge_friction", "it is 0.001 m"),
 ]
 
 
