@@ -15,13 +15,13 @@ import numpy as np
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.other_course import is_quick, readings_of
+from diagnosis.check.input_runs import is_quick, readings_of
 from diagnosis.check.unit_of_one import ALIKE, LEAST, ratio_to, slope, stated_unit
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fmu_layout import NotFast
-from diagnosis.models.systems.run import OtherNumbers
+from diagnosis.models.systems.run import SystemRuns
 
 #: Powers of the factor by which a number is multiplied.
 POWERS = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
@@ -78,10 +78,10 @@ def _numbers_that_do(one: Compared, name: str, ratio: float) -> list[str] | None
         return None
     found = []
     try:
-        with closing(OtherNumbers(one.scenario)) as system:
+        with closing(SystemRuns(one.scenario)) as system:
             for component, number, _, value in system.numbers():
                 for power in POWERS:
-                    results = system.results(component, number, value * ratio**power)
+                    results = system.with_number(component, number, value * ratio**power)
                     if results is not None and _does(
                         {n: (b, readings_of(results, b, one)) for n, b in one.channels.items()}, name, ratio
                     ):

@@ -7,6 +7,7 @@ own for one input, as of the wind, moves that input alone.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,20 +16,9 @@ from cosim.components import nanoseconds
 from cosim.run import RunStopped
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
-from diagnosis.check.other_course import (
-    CHANNELS,
-    MET,
-    PAUSED,
-    given_as,
-    is_quick,
-    missed_with,
-    of_one_element,
-    parts_of,
-    results_with,
-    stated_share,
-    with_inputs,
-)
+from diagnosis.check.other_course import CHANNELS, MET, PAUSED, stated_share
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import series_of
@@ -76,15 +66,16 @@ def late_input(one: Compared) -> Doubt | None:
         return None
     least = min(1.0 - MET, max(lefts) / PAUSED)
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
-    tried = [_late(c, (one.begin, one.end), step, missed_with(one, channels, c)) for c in moving]
-    found = min((f for f in tried if f is not None), key=lambda f: f.left, default=None)
-    if found is None or found.left >= least:
-        return None
-    others = tuple(given_as(c, np.asarray(c.times) + found.shift, c.values) for c in moving)
-    try:
-        together = parts_of(channels, with_inputs(one, channels, others))
-    except RunStopped:
-        together = []
+    with closing(InputRuns(one)) as runs:
+        tried = [_late(c, (one.begin, one.end), step, runs.missed_with(channels, c)) for c in moving]
+        found = min((f for f in tried if f is not None), key=lambda f: f.left, default=None)
+        if found is None or found.left >= least:
+            return None
+        others = tuple(given_as(c, np.asarray(c.times) + found.shift, c.values) for c in moving)
+        try:
+            together = parts_of(channels, runs.readings(channels, others))
+        except RunStopped:
+            together = []
     if together and max(scaled_left(b, part) for b, part in zip(channels.values(), together)) < least:
         return None
     return _of_late(one, channels, found)
@@ -103,11 +94,17 @@ def gain_of_late_input(one: Compared, asked: Sequence[Beside], misfit: Callable[
     """
     if one.base is None or not is_quick(one.scenario):
         return -np.inf
+    with closing(InputRuns(one)) as runs:
+        return _gain(runs, asked, misfit)
+
+
+def _gain(runs: InputRuns, asked: Sequence[Beside], misfit: Callable[[Beside], float]) -> float:
+    one = runs.one
     source = one.recording.path / "recording.yaml"
 
     def missed(course: Course, shift: float) -> float:
         try:
-            results = results_with(one, [given_as(course, np.asarray(course.times) + shift, course.values)])
+            results = runs.results([given_as(course, np.asarray(course.times) + shift, course.values)])
         except RunStopped:
             return np.inf
         return sum(misfit(replace(b, simulated=series_of(results, b.channel.target, source))) for b in asked)

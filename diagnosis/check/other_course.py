@@ -16,29 +16,24 @@ Pearson 2002, chapter 2; Gauss-Newton steps for models that are not linear.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from contextlib import closing
 from itertools import pairwise
 
 import numpy as np
-import xarray as xr
 from scipy.optimize import lsq_linear
 
 from cosim.components import nanoseconds
 from cosim.run import RunStopped
-from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of, steps_of
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
 from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
-from diagnosis.models.systems.run import is_system, run_quickly
-from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.recording import Input
-from diagnosis.recording.series import sample, series_of
 
 #: Steps of the estimated course.
 STEPS = 24
@@ -57,9 +52,7 @@ BEYOND = 0.1
 UNLIKE, APART = 0.7, 0.2
 #: How many times more the stated course leaves of a channel, scaled and shifted too, than one that pauses or is late.
 PAUSED = 10.0
-#: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
-MOST = 40_000
-#: ... and beyond which intervals are not sought in inputs of which no other course explains the readings.
+#: Macro-steps beyond which intervals are not sought in inputs of which no other course explains the readings.
 MOST_PAUSES = 10_000
 #: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
@@ -79,7 +72,12 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         return None
     if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
         return None
-    found = []
+    with closing(InputRuns(one)) as runs:
+        return _asked(runs, others, channels)
+
+
+def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Beside]) -> Doubt | None:
+    found, one = [], runs.one
     courses = of_one_element(one)
     for course in courses:
         alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
@@ -87,11 +85,11 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         if high <= low:
             continue  # a constant everywhere has no range
         margin = BEYOND * (high - low)
-        told = _estimated(one, channels, course, (low - margin, high + margin))
+        told = _estimated(runs, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    asked = [course for course, *_ in found] or (courses if _steps(one.scenario) <= MOST_PAUSES else [])
-    pauses = [pause for course in asked for pause in _pauses(one, channels, course)]
+    asked = [course for course, *_ in found] or (courses if steps_of(one.scenario) <= MOST_PAUSES else [])
+    pauses = [pause for course in asked for pause in _pauses(runs, channels, course)]
     as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
     pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]
     if pauses:
@@ -99,32 +97,18 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return _doubt(one, channels, *found[0]) if len(found) == 1 else None
 
 
-def of_one_element(one: Compared) -> list[Course]:
-    """Courses of inputs that can be a column: of one element."""
-    return [c for c in one.courses if not c.name.endswith("]")]
-
-
-def is_quick(scenario: Scenario) -> bool:
-    """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
-    return is_system(scenario) and _steps(scenario) <= MOST
-
-
-def _steps(scenario: Scenario) -> int:
-    time = scenario.time
-    return (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
-
-
 def _estimated(
-    one: Compared, channels: dict[str, Beside], course: Course, bounds: tuple[float, float]
+    runs: InputRuns, channels: dict[str, Beside], course: Course, bounds: tuple[float, float]
 ) -> tuple[float, float] | None:
     """Least share explained of a channel, and correlation with the stated course; None if that course may have acted.
 
     Args:
-        one: The recording.
+        runs: Of the recording.
         channels: Its channels that are compared, by name.
         course: Of the input, as stated.
         bounds: Of its values.
     """
+    one = runs.one
     knots = np.linspace(one.begin, one.end, STEPS + 1)
     knots[0] = min(knots[0], one.scenario.time.start.to("s"))
     held = knots if course.is_linear else knots[:-1]
@@ -135,19 +119,19 @@ def _estimated(
     step = 0.5 * (bounds[1] - bounds[0])
     try:
         for _ in range(ROUNDS):
-            here = _simulated(one, channels, course, held, values)
+            here = runs.readings(channels, (given_as(course, held, values),))
             rows = []
             for k in range(len(held)):
                 other = values.copy()
                 other[k] += step if values[k] + step <= bounds[1] else -step
-                rows.append((_simulated(one, channels, course, held, other) - here) / (other[k] - values[k]))
+                rows.append((runs.readings(channels, (given_as(course, held, other),)) - here) / (other[k] - values[k]))
             slopes = np.array(rows).T
             risen = parts_of(channels, slopes.sum(axis=1) * step)
             if sum(_answers(b, part) for b, part in zip(channels.values(), risen)) < CHANNELS:
                 return None
             goal = measured - here + slopes @ values
             values = np.asarray(lsq_linear(slopes * weights[:, None], goal * weights, bounds).x)
-        after = parts_of(channels, _simulated(one, channels, course, held, values))
+        after = parts_of(channels, runs.readings(channels, (given_as(course, held, values),)))
     except RunStopped:
         return None
     explained = 1.0 - max(scaled_left(b, part) for b, part in zip(channels.values(), after))
@@ -155,22 +139,9 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
-def missed_with(one: Compared, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
-    """What times [s] and values in place of a course leave of the channel that they explain least."""
-
-    def missed(times: Array, values: Array) -> float:
-        try:
-            parts = parts_of(channels, _simulated(one, channels, course, times, values))
-        except RunStopped:
-            return 1.0
-        return max(scaled_left(b, part) for b, part in zip(channels.values(), parts))
-
-    return missed
-
-
-def _pauses(one: Compared, channels: dict[str, Beside], course: Course) -> list[Pause]:
+def _pauses(runs: InputRuns, channels: dict[str, Beside], course: Course) -> list[Pause]:
     """Intervals without which the stated course explains most: it was not applied then, or did not move."""
-    missed = missed_with(one, channels, course)
+    one, missed = runs.one, runs.missed_with(channels, course)
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
     is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
     kinds = [] if is_temperature or not np.any(course.values) else [NOTHING]
@@ -192,41 +163,6 @@ def _means(course: Course, knots: Array) -> Array:
     """Means of a course between knots."""
     fine = np.linspace(0.0, 1.0, 50, endpoint=False)
     return np.array([float(np.mean(course.at(a + fine * (b - a)))) for a, b in pairwise(knots.tolist())])
-
-
-def _simulated(one: Compared, channels: dict[str, Beside], course: Course, times: Array, values: Array) -> Array:
-    """Simulated readings of all channels one after another, with a course in place of the stated one."""
-    return with_inputs(one, channels, (given_as(course, times, values),))
-
-
-def given_as(course: Course, times: Array, values: Array) -> Input:
-    component, _, output = course.name.partition(".")
-    return Input(component, output, course.unit, times, values)
-
-
-def with_inputs(one: Compared, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
-    """The same with some inputs in place of the stated ones."""
-    results = results_with(one, given)
-    return np.concatenate([readings_of(results, b, one) for b in channels.values()])
-
-
-def results_with(one: Compared, given: Sequence[Input]) -> xr.Dataset:
-    """A run with some inputs in place of the stated ones; raises `RunStopped` where it runs away."""
-    assert one.base is not None
-    names = {(i.component, i.output) for i in given}
-    inputs = (*(i for i in one.recording.inputs if (i.component, i.output) not in names), *given)
-    return run_quickly(scenario_of(one.base, replace(one.recording, inputs=inputs)))
-
-
-def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
-    series = series_of(results, beside.channel.target, one.recording.path / "recording.yaml")
-    return np.asarray(sample(series, beside.times))
-
-
-def parts_of(channels: dict[str, Beside], every: Array) -> list[Array]:
-    """Rows of each channel."""
-    ends = np.cumsum([len(b.times) for b in channels.values()])
-    return np.split(every, ends[:-1])
 
 
 def _answers(beside: Beside, part: Array) -> bool:

@@ -19,13 +19,13 @@ from scipy.optimize import minimize_scalar
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.input_runs import is_quick, readings_of
 from diagnosis.check.odd_one_out import comparable, is_within, scaled_left
-from diagnosis.check.other_course import is_quick, readings_of
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fmu_layout import NotFast
-from diagnosis.models.systems.run import OtherNumbers
+from diagnosis.models.systems.run import SystemRuns
 
 #: Channels that have to be explained.
 CHANNELS = 2
@@ -71,7 +71,7 @@ def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if before <= enough:
         return None
     try:
-        with closing(OtherNumbers(one.scenario)) as system:
+        with closing(SystemRuns(one.scenario)) as system:
             found = [f for f in _each(system, one, channels) if f.left <= enough]
     except (InputError, NotFast, CompilerError):
         return None
@@ -80,13 +80,13 @@ def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return replace(_doubt(one, found, before, theirs), is_serious=is_within(one, others))
 
 
-def _each(system: OtherNumbers, one: Compared, channels: dict[str, Beside]) -> list[_Explained]:
+def _each(system: SystemRuns, one: Compared, channels: dict[str, Beside]) -> list[_Explained]:
     """Every number with the value that explains the recording best."""
     found = []
     for component, name, unit, stated in system.numbers():
 
         def cost(logarithm: float, of: tuple[str, str] = (component, name), at: float = stated) -> float:
-            return _left(system.results(*of, at * math.exp(logarithm)), one, channels)
+            return _left(system.with_number(*of, at * math.exp(logarithm)), one, channels)
 
         logarithm, left = _best(cost)
         found.append(_Explained(f"{component}.{name}", unit, stated, stated * math.exp(logarithm), left))

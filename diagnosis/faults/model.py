@@ -68,6 +68,8 @@ class FaultyModel(WrappedModel):
     def __init__(self, inner: DiagnosisModel) -> None:
         super().__init__(inner)
         self.readings = readings_of(inner)
+        #: What inputs that stayed change, see `diagnosis.faults.scan.held_scores`.
+        self._held: dict[Term, Array] = {}
         #: Faults of sensors with the channel of each.
         self.sensor_terms: dict[Term, Readings] = {}
         for readings in self.readings:
@@ -206,7 +208,7 @@ class FaultyModel(WrappedModel):
         held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
         others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
         found = input_scores(projection, scaled, others, slopes, pieces)
-        return found.joined(held_scores(base, projection, scaled, held, moved)) if held else found
+        return found.joined(held_scores(base, projection, scaled, held, moved, self._held)) if held else found
 
     def _residuals_of(self, recording: int | None) -> slice:
         every = [r.own for r in self.readings if r.recording == recording]

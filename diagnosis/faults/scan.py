@@ -23,6 +23,9 @@ PIECES = 24
 STUCK_PIECES = 64
 #: Begins and ends of an input that stays: what it stays at changes with the begin.
 HELD_BEGINS, HELD_ENDS = 24, 12
+#: Of intervals that were simulated at another fit, the best of which are simulated again: what an input does changes
+#: little from one fit to the next, and what the fit leaves is known without a simulation.
+HELD_AGAIN = 12
 #: Share of what a lag of some size does with which it may fit: others are nearer there.
 NEARLY = (0.6, 1.6)
 #: Begins and ends that are tried at once near the best; the number of intervals grows with the square of it.
@@ -204,6 +207,7 @@ def held_scores(
     scaled: Scaled,
     terms: Sequence[tuple[Term, slice]],
     moved: Callable[[Term, Array], Array],
+    known: dict[Term, Array],
 ) -> Scoring:
     """Scores of inputs that stayed from some instant on, each of many intervals simulated; there are no nulls of it.
 
@@ -215,21 +219,38 @@ def held_scores(
         scaled: What wrapping models make of changes of residuals.
         terms: Faults with the residuals of their recordings.
         moved: Changes of all residuals by a term in intervals, shape (intervals, 2) to (intervals, residuals).
+        known: Changes of its recording's residuals by a term in every interval, at an earlier fit; filled where it is
+            without them.
     """
     found = _Collected(projection.draws)
     for term, own in terms:
-        _, begin, _ = term.parameters
-        begins = np.linspace(begin.lower, begin.upper, HELD_BEGINS + 1)
-        ends = begins[:: HELD_BEGINS // HELD_ENDS]
-        intervals = np.array([(a, b) for a in begins for b in ends if a < b])
-        rows = np.repeat(base.residuals[None], len(intervals), axis=0)
-        rows[:, own] += scaled(moved(term, intervals)[:, own], own)
-        gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(intervals)))
-        best = int(np.argmax(np.where(np.isfinite(gains), gains, -np.inf)))
+        intervals = _held_intervals(term)
+
+        def gains_of(changes: Array, own: slice = own) -> Array:
+            rows = np.repeat(base.residuals[None], len(changes), axis=0)
+            rows[:, own] += scaled(changes, own)
+            gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(changes)))
+            return np.where(np.isfinite(gains), gains, -np.inf)
+
+        tried = np.arange(len(intervals))
+        if term in known:
+            tried = np.argsort(-gains_of(known[term].astype(np.float64)), kind="stable")[:HELD_AGAIN]
+        changes = moved(term, intervals[tried])[:, own]
+        known.setdefault(term, changes.astype(np.float32))
+        gains = gains_of(changes)
+        best = int(np.argmax(gains))
         found.tried += len(intervals)
         if np.isfinite(gains[best]):
-            found.score(term, float(gains[best]), (1.0, *map(float, intervals[best])))
+            found.score(term, float(gains[best]), (1.0, *map(float, intervals[tried[best]])))
     return found.scoring()
+
+
+def _held_intervals(term: Term) -> Array:
+    """Begins and ends [s] that are tried of an input that stays, shape (intervals, 2)."""
+    _, begin, _ = term.parameters
+    begins = np.linspace(begin.lower, begin.upper, HELD_BEGINS + 1)
+    ends = begins[:: HELD_BEGINS // HELD_ENDS]
+    return np.array([(a, b) for a in begins for b in ends if a < b])
 
 
 def input_scores(

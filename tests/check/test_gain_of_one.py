@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cosim.scenario import load_scenario
-from diagnosis.check import other_course
+from diagnosis.check import input_runs
 from diagnosis.check.check import check_recordings
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
@@ -73,7 +73,7 @@ def test_a_number_that_does_the_same_is_named_and_nothing_is_decided(tmp_path: P
 
 
 def test_where_numbers_are_not_tried_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(other_course, "MOST", COUNT // 2)
+    monkeypatch.setattr(input_runs, "MOST", COUNT // 2)
     (doubt,) = _doubts(tmp_path, COUPLED)
     assert (doubt.subject, doubt.is_serious) == ("rig.second", False)
     assert "was not tried" in doubt.statement

@@ -12,7 +12,7 @@ import yaml
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
-from diagnosis.check import other_course
+from diagnosis.check import input_runs
 from diagnosis.check.check import check_recordings
 from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
@@ -117,7 +117,7 @@ def test_a_programme_that_was_not_played_is_told_of_the_recording_that_states_it
 def test_where_it_would_take_minutes_the_recording_stands_out_and_no_input_is_accused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(other_course, "MOST", COUNT // 2)
+    monkeypatch.setattr(input_runs, "MOST", COUNT // 2)
     doubts = _doubts(tmp_path, _recordings(tmp_path, (1, 12, 3)))
     assert _of_power(doubts) == []
     assert [d.recording for d in doubts if d.kind == "odd one out"] == ["run_2"]

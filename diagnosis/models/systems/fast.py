@@ -306,6 +306,24 @@ class FastSystem:
         assert isinstance(unit, ProgrammeUnit)
         return samples(unit.courses[key[1]], self.start, self.size, self.steps)
 
+    def give(self, courses: Mapping[tuple[str, str], Course]) -> dict[tuple[str, str], Course]:
+        """Let outputs of programmes have other courses in all simulations from now on.
+
+        Args:
+            courses: Component and output to what it gives, in its own unit.
+
+        Returns:
+            What they gave before; giving it again undoes this.
+        """
+        before = {}
+        for (component, output), course in courses.items():
+            unit = self.assembly.system.units[component]
+            assert isinstance(unit, ProgrammeUnit)
+            before[component, output] = unit.courses[output]
+            unit.courses[output] = course
+            self._columns[component, output] = self._column((component, output))
+        return before
+
     def set_substeps(self, count: int) -> None:
         """Steps of the integration in each macro-step."""
         for fmu in self.fmus.values():

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
+from cosim.programme import Course
 from cosim.run import run
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array, Causality
@@ -50,8 +51,8 @@ def _run(scenario: Scenario) -> xr.Dataset | None:
         return None if values is None else _dataset(system, values)
 
 
-class OtherNumbers:
-    """Runs of a system of FMUs in which one number of an FMU is another, in compiled code.
+class SystemRuns:
+    """Runs of a system of FMUs in compiled code, with another number of an FMU or other courses of programmes.
 
     Args:
         scenario: The system.
@@ -82,11 +83,24 @@ class OtherNumbers:
                 if value != 0.0:
                     yield component, name, fmu.unit.table.all[name].variable.unit, value
 
-    def results(self, component: str, name: str, value: float) -> xr.Dataset | None:
+    def with_number(self, component: str, name: str, value: float) -> xr.Dataset | None:
         """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
         unit = self._system.fmus[component].unit.table.all[name].variable.unit
         rows = self._system.simulate(Changes({component: {name: PhysicalValue(value, unit)}}))
         return None if rows is None else _dataset(self._system, rows.values)
+
+    def with_courses(self, courses: Mapping[tuple[str, str], Course]) -> xr.Dataset | None:
+        """Results with other courses of outputs of programmes, in their own units; None as in `with_number`.
+
+        Args:
+            courses: Component and output to what it gives.
+        """
+        stated = self._system.give(courses)
+        try:
+            rows = self._system.simulate()
+            return None if rows is None else _dataset(self._system, rows.values)
+        finally:
+            self._system.give(stated)
 
 
 def _check_outputs(system: FastSystem) -> None:

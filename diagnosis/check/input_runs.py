@@ -1,0 +1,130 @@
+"""Runs of a recording's scenario in which some of its inputs have other courses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from cosim.components import nanoseconds
+from cosim.programme import Course as Programme
+from cosim.run import RunStopped
+from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.odd_one_out import scaled_left
+from diagnosis.models.coil_network.kernel.compiler import CompilerError
+from diagnosis.models.systems.fmu_layout import NotFast
+from diagnosis.models.systems.run import SystemRuns, is_system, run_quickly
+from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.recording import Input
+from diagnosis.recording.series import sample, series_of
+
+#: Macro-steps beyond which nothing is estimated: a simulation of so many takes a tenth of a second or more.
+MOST = 40_000
+
+
+def of_one_element(one: Compared) -> list[Course]:
+    """Courses of inputs that can be a column: of one element."""
+    return [c for c in one.courses if not c.name.endswith("]")]
+
+
+def is_quick(scenario: Scenario) -> bool:
+    """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
+    return is_system(scenario) and steps_of(scenario) <= MOST
+
+
+def steps_of(scenario: Scenario) -> int:
+    """Macro-steps of a run."""
+    time = scenario.time
+    return (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
+
+
+def given_as(course: Course, times: Array, values: Array) -> Input:
+    """An input with other times [s] and values than its course."""
+    component, _, output = course.name.partition(".")
+    return Input(component, output, course.unit, times, values)
+
+
+def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
+    """Simulated readings of a channel, at its samples."""
+    series = series_of(results, beside.channel.target, one.recording.path / "recording.yaml")
+    return np.asarray(sample(series, beside.times))
+
+
+def parts_of(channels: dict[str, Beside], every: Array) -> list[Array]:
+    """Rows of each channel."""
+    ends = np.cumsum([len(b.times) for b in channels.values()])
+    return np.split(every, ends[:-1])
+
+
+class InputRuns:
+    """Runs of the scenario of one recording; FMUs are loaded once, at the first of them, and stay until `close`.
+
+    Args:
+        one: A recording whose scenario is a system of FMUs.
+    """
+
+    def __init__(self, one: Compared) -> None:
+        assert one.base is not None
+        self.one = one
+        self._base = one.base
+        self._linear = {c.name: c.is_linear for c in one.courses}
+        self._system: SystemRuns | None = None
+        self._is_asked = False
+
+    def close(self) -> None:
+        """Free the FMUs; safe to call twice."""
+        if self._system is not None:
+            self._system.close()
+        self._system = None
+
+    def results(self, given: Sequence[Input]) -> xr.Dataset:
+        """A run with some inputs in place of those that are stated; raises `RunStopped` where it runs away."""
+        system = self._of_fmus()
+        if system is not None:
+            found = system.with_courses({(i.component, i.output): self._programme(i) for i in given})
+            if found is not None:
+                return found
+        names = {(i.component, i.output) for i in given}
+        inputs = (*(i for i in self.one.recording.inputs if (i.component, i.output) not in names), *given)
+        return run_quickly(scenario_of(self._base, replace(self.one.recording, inputs=inputs)))
+
+    def readings(self, channels: dict[str, Beside], given: Sequence[Input]) -> Array:
+        """Simulated readings of all channels one after another; raises `RunStopped` where it runs away."""
+        results = self.results(given)
+        return np.concatenate([readings_of(results, b, self.one) for b in channels.values()])
+
+    def missed_with(self, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
+        """What times [s] and values in place of a course leave of the channel that they explain least."""
+
+        def missed(times: Array, values: Array) -> float:
+            try:
+                parts = parts_of(channels, self.readings(channels, (given_as(course, times, values),)))
+            except RunStopped:
+                return 1.0
+            return max(scaled_left(b, part) for b, part in zip(channels.values(), parts))
+
+        return missed
+
+    def _of_fmus(self) -> SystemRuns | None:
+        """The system, loaded; None where only the co-simulation can run it."""
+        if not self._is_asked:
+            self._is_asked = True
+            try:
+                self._system = SystemRuns(self.one.scenario)
+            except (InputError, NotFast, CompilerError):
+                self._system = None
+        return self._system
+
+    def _programme(self, given: Input) -> Programme:
+        """What a programme gives: its points lie on the grid of macro-steps, as `scenario_of` puts them."""
+        macro = nanoseconds(self.one.scenario.time.macro_step)
+        steps = np.round(given.times / (macro * 1e-9)).astype(np.int64)
+        last = np.append(steps[1:] != steps[:-1], True)  # of several values in one macro-step the latest one holds
+        times = tuple((steps[last] * macro).tolist())
+        is_linear = self._linear[f"{given.component}.{given.output}"]
+        return Programme(times, np.asarray(given.values, dtype=np.float64)[last], given.unit, None, is_linear)
