@@ -87,11 +87,11 @@ class ModelExchangeUnit(FmuUnit):
     def _instances(self) -> list[ModelExchangeUnit]:
         return [i for moved in self.added.moved.values() for i in moved.instances]
 
-    def begin_again(self) -> None:
+    def begin_again(self, parameters: Mapping[str, Any] | None = None) -> None:
         """See `FmuUnit`."""
-        super().begin_again()
         for instance in self._instances:
             instance.begin_again()
+        super().begin_again(parameters)
 
     def set_parameters(self, parameters: Mapping[str, Any]) -> None:
         """See `FmuUnit`."""

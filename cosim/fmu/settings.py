@@ -200,7 +200,7 @@ class Table:
             except UnitError:
                 continue
             kept = known.values
-            if np.array_equal(kept, array):
+            if kept.item() == array.item() if kept.size == 1 else np.array_equal(kept, array):
                 continue
             rounding = _ROUNDING if array.dtype.kind == "f" else 0.0
             wrong = np.flatnonzero(~np.isclose(kept, array, rtol=rounding, atol=0.0, equal_nan=True))

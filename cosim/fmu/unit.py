@@ -140,18 +140,25 @@ class FmuUnit(Unit):
             initial = self.initial_feedthrough.get(name, frozenset()) | inputs
             self.initial_feedthrough = {**self.initial_feedthrough, name: initial}
 
-    def begin_again(self) -> None:
+    def begin_again(self, parameters: Mapping[str, Any] | None = None) -> None:
         """Back to before the initialisation, with the parameters and start values that were given.
+
+        Args:
+            parameters: Those that have other values from now on, see `set_parameters`.
 
         Raises:
             UnitError: The FMU refuses to be reset.
+            InputError: No such parameter, or a value that does not fit.
         """
+        parameters = parameters or {}
         self.binding.call(self.binding.fmu.reset)
         self.binding.messages.clear()
         self._mode, self._is_stale = Mode.INSTANTIATED, False
         self.table.configure(self.binding)
-        for access in self.binding.given.values():
-            access()
+        for name, access in self.binding.given.items():
+            if name not in parameters:
+                access()
+        self.set_parameters(parameters)
 
     def set_parameters(self, parameters: Mapping[str, Any]) -> None:
         """Set parameters before initialisation; a scalar fills an array.

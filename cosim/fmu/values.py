@@ -31,6 +31,8 @@ def array_of(variable: FmuVariable, value: Any, units: UnitNames) -> AnyArray:
         ValueError: It does not fit type, unit, range or shape; the text says how.
     """
     v = variable.variable
+    if not v.shape and v.type.is_float and isinstance(value, PhysicalValue | float):  # most parameters of most FMUs
+        return np.array(_number(variable, value, units), dtype=v.type.dtype)
     given = value.tolist() if isinstance(value, np.ndarray) else value
     flat, shape = _flatten(given)
     if shape not in ((), (1,), v.shape):

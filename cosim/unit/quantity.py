@@ -171,6 +171,8 @@ class PhysicalValue:
         Raises:
             ValueError: The units measure different things, or a dimensional value was written without a unit.
         """
+        if self.unit and self.unit == unit:
+            return self.number
         if not self.unit and parse_unit(unit).dimensionality != parse_unit("1").dimensionality:
             raise _without_unit(self.number, unit)
         given, asked = parse_unit(self.unit), parse_unit(unit)

@@ -39,6 +39,7 @@ from evaluation.strangers import (
     thirteenth_set,
     twelfth_set,
     twentieth_set,
+    twenty_first_set,
 )
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -64,6 +65,7 @@ SETS = {
     "eighteenth": eighteenth_set.CASES,
     "nineteenth": nineteenth_set.CASES,
     "twentieth": twentieth_set.CASES,
+    "twenty_first": twenty_first_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")

@@ -393,12 +393,11 @@ class FastSystem:
         system = self.assembly.system
         moved: dict[str, dict[str, Any]] = {}
         for name, fmu in self.fmus.items():
-            fmu.unit.begin_again()
             own: dict[str, Any] = {**changes.parameters.get(name, {}), **changes.lists.get(name, {})}
             back = {n: self.parameter(name, n) for n in fmu.moved if n not in own}
             fmu.moved = frozenset(own)
             moved[name] = {**back, **own}
-            fmu.unit.set_parameters(moved[name])
+            fmu.unit.begin_again(moved[name])
         system.initialise(self.start, self.assembly.start)
         changing = [self.laws[n].component for n in laws if self.laws[n].parameter]
         for name in set(changing):
